@@ -1,0 +1,86 @@
+"""ROS 2 messages without ROS: definitions, and decoding of received bytes.
+
+`decode` takes the type as text and the bytes as they came from DDS or a bag. The message it
+returns has the field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays
+are read-only numpy arrays, mostly views of the bytes. `webviz.messages.types` has the classes of
+the messages that displays read most and says which sequences are arrays.
+"""
+
+from webviz.messages.classes import message_class
+from webviz.messages.decode import decode, peek_header, register
+from webviz.messages.errors import DecodeError, DefinitionError, MessageError, UnknownTypeError
+from webviz.messages.text import to_text
+from webviz.messages.types import (
+    Clock,
+    Duration,
+    FrameTransform,
+    Header,
+    JointState,
+    LaserScan,
+    MapMetaData,
+    OccupancyGrid,
+    OccupancyGridUpdate,
+    Odometry,
+    Path,
+    Point,
+    PointCloud2,
+    PointField,
+    Pose,
+    PoseArray,
+    PoseSequence,
+    PoseStamped,
+    PoseStampedSequence,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    String,
+    TFMessage,
+    Time,
+    Twist,
+    TwistWithCovariance,
+    Vector3,
+)
+from webviz.messages.typestore import definition, type_exists, type_hash
+
+__all__ = [
+    "Clock",
+    "DecodeError",
+    "DefinitionError",
+    "Duration",
+    "FrameTransform",
+    "Header",
+    "JointState",
+    "LaserScan",
+    "MapMetaData",
+    "MessageError",
+    "OccupancyGrid",
+    "OccupancyGridUpdate",
+    "Odometry",
+    "Path",
+    "Point",
+    "PointCloud2",
+    "PointField",
+    "Pose",
+    "PoseArray",
+    "PoseSequence",
+    "PoseStamped",
+    "PoseStampedSequence",
+    "PoseWithCovariance",
+    "PoseWithCovarianceStamped",
+    "Quaternion",
+    "String",
+    "TFMessage",
+    "Time",
+    "Twist",
+    "TwistWithCovariance",
+    "UnknownTypeError",
+    "Vector3",
+    "decode",
+    "definition",
+    "message_class",
+    "peek_header",
+    "register",
+    "to_text",
+    "type_exists",
+    "type_hash",
+]
