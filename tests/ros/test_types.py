@@ -1,0 +1,278 @@
+import json
+import os
+import subprocess
+import sys
+import time
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
+
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+
+from webviz.ros import types
+from webviz.ros.types import MessageTypeError, message_class, type_hash
+
+# rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
+NESTED_TF = ["builtin_interfaces/msg/Time", "geometry_msgs/msg/Quaternion"]
+ROOT = Path(__file__).parents[2]
+
+# A bag's schema: the main type, then what it contains.
+CUSTOM = f"""Part[2] parts
+string<=7 label
+float32[<=3] few
+uint8[] many
+{"=" * 80}
+MSG: webviz_test_msgs/Part
+bool on
+geometry_msgs/Point at
+"""
+
+PEER = """
+import sys, time
+import rclpy
+from rclpy.signals import SignalHandlerOptions
+from webviz.ros.types import message_class
+role, type_name, topic = sys.argv[1:4]
+definition = sys.argv[4] if len(sys.argv) > 4 else None
+rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+node = rclpy.create_node("peer_" + role)
+cls = message_class(type_name, definition)
+if role == "talker":
+    publisher = node.create_publisher(cls, topic, 10)
+    while True:
+        publisher.publish(sys.stdin.buffer.peek()[:8])
+        rclpy.spin_once(node, timeout_sec=0.05)
+else:
+    node.create_subscription(cls, topic, lambda raw: print(raw.hex(), flush=True), 10, raw=True)
+    while True:
+        rclpy.spin_once(node, timeout_sec=0.05)
+"""
+
+
+@pytest.fixture
+def ros():
+    """A context and node of this process, in a domain of its own."""
+    import rclpy
+
+    context = Context()
+    context.init(domain_id=_domain())
+    node = rclpy.create_node("types_test", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    yield node, executor
+    executor.shutdown()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+@pytest.fixture(autouse=True)
+def localhost(monkeypatch):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+
+
+@pytest.fixture
+def peer():
+    """Starts the other process; it is fed one message on stdin and prints what it receives."""
+    started = []
+
+    def start(role, *args):
+        env = os.environ | {
+            "ROS_DOMAIN_ID": str(_domain()),
+            "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path[1:]]),
+        }
+        process = subprocess.Popen(
+            [sys.executable, "-c", PEER, role, *args],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=env,
+        )
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        process.terminate()
+        process.communicate()
+
+
+def _domain() -> int:
+    return 33 + os.getpid() % 60
+
+
+def spin_until(executor, condition, seconds=15.0):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        executor.spin_once(timeout_sec=0.05)
+    assert condition()
+
+
+def test_an_installed_type_is_the_real_class():
+    from sensor_msgs.msg import LaserScan
+
+    assert message_class("sensor_msgs/msg/LaserScan") is LaserScan
+
+
+def test_the_same_call_returns_the_same_class():
+    name = "map_msgs/msg/OccupancyGridUpdate"
+    assert message_class(name) is message_class(name)
+
+
+@pytest.mark.parametrize("name", ["", "LaserScan", "sensor_msgs/LaserScan", "a/srv/B", "a/msg/b/c"])
+def test_a_malformed_name_is_refused_in_one_sentence(name):
+    with pytest.raises(MessageTypeError, match=r"is not the name of a message type; write .*\.$"):
+        message_class(name)
+
+
+def test_an_unknown_type_says_what_to_install():
+    with pytest.raises(MessageTypeError, match=r"no_msgs/msg/No is not known: install its package"):
+        message_class("no_msgs/msg/No")
+
+
+def test_an_unknown_nested_type_is_named():
+    with pytest.raises(MessageTypeError, match="other_msgs/msg/Missing"):
+        message_class("webviz_test_msgs/msg/Outer", "other_msgs/Missing inner\n")
+
+
+def test_a_definition_that_does_not_parse_is_refused_in_one_line():
+    with pytest.raises(MessageTypeError, match=r"^The definition of .* is of no use: [^\n]*\.$"):
+        message_class("webviz_test_msgs/msg/Bad", "float32[ ranges")
+
+
+def test_a_definition_that_contradicts_a_known_one_is_refused():
+    with pytest.raises(MessageTypeError, match="already present with different definition"):
+        message_class("tf2_msgs/msg/TF2Error", "int8 error\n")
+
+
+def test_a_missing_package_under_another_rmw_says_how_to_install_it():
+    script = (
+        "import webviz.ros.types as t\n"
+        "t.get_rmw_implementation_identifier = lambda: 'rmw_cyclonedds_cpp'\n"
+        "try: t.message_class('map_msgs/msg/OccupancyGridUpdate')\n"
+        "except t.MessageTypeError as error: print(error)\n"
+    )
+    if find_spec("map_msgs"):
+        pytest.skip("map_msgs is installed here")
+    env = os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path[1:]])}
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=env)
+    assert "needs its package with rmw_cyclonedds_cpp: install ros-jazzy-map-msgs" in run.stdout
+
+
+def test_the_hash_of_tf_message_is_the_published_one():
+    assert type_hash("tf2_msgs/msg/TFMessage") == TF_HASH
+
+
+def test_hashes_equal_those_of_every_installed_message():
+    share = Path(sys.prefix) / "share"
+    paths = sorted(share.glob("*/msg/*.json"))
+    if not paths:
+        pytest.skip("no message descriptions are installed under this Python's prefix")
+    checked = 0
+    for path in paths:
+        described = json.loads(path.read_text())
+        name = described["type_description_msg"]["type_description"]["type_name"]
+        if name in types._typestore().fielddefs:
+            hashes = {h["type_name"]: h["hash_string"] for h in described["type_hashes"]}
+            assert type_hash(name) == hashes[name], name
+            checked += 1
+    assert checked > 100
+
+
+def test_a_composed_class_has_no_instances():
+    if find_spec("map_msgs"):
+        pytest.skip("map_msgs is installed here")
+    with pytest.raises(TypeError, match="use serialised bytes"):
+        message_class("map_msgs/msg/OccupancyGridUpdate")()
+
+
+MESSAGES = [
+    ("tf2_msgs/msg/TFMessage", None, bytes([0, 1, 0, 0, 0, 0, 0, 0])),
+    ("webviz_test_msgs/msg/Custom", CUSTOM, bytes([0, 1, 0, 0, 1, 2, 3, 4])),
+]
+
+
+@pytest.mark.parametrize(("name", "definition", "payload"), MESSAGES)
+def test_a_subscription_gets_the_bytes_that_another_process_published(
+    ros, peer, name, definition, payload
+):
+    node, executor = ros
+    received = []
+    cls = message_class(name, definition)
+    subscription = node.create_subscription(cls, "/forged", received.append, 10, raw=True)
+    talker = peer("talker", name, "/forged", *filter(None, [definition]))
+    talker.stdin.write(payload)
+    talker.stdin.flush()
+    spin_until(executor, lambda: len(received) >= 3)
+    assert set(received) == {payload}
+    info = node.get_publishers_info_by_topic("/forged")[0]
+    assert info.topic_type == name
+    assert str(info.topic_type_hash) == type_hash(name)
+    node.destroy_subscription(subscription)
+
+
+@pytest.mark.parametrize(("name", "definition", "payload"), MESSAGES)
+def test_another_process_gets_the_bytes_published_here(ros, peer, name, definition, payload):
+    node, executor = ros
+    listener = peer("listener", name, "/forged", *filter(None, [definition]))
+    publisher = node.create_publisher(message_class(name, definition), "/forged", 10)
+    spin_until(executor, lambda: publisher.get_subscription_count() > 0)
+    publisher.publish(payload)
+    assert bytes.fromhex(listener.stdout.readline().decode()) == payload
+    info = node.get_subscriptions_info_by_topic("/forged")[0]
+    assert (info.topic_type, str(info.topic_type_hash)) == (name, type_hash(name))
+
+
+def test_a_real_package_and_a_composed_class_understand_each_other(ros):
+    from geometry_msgs.msg import PointStamped
+    from rclpy.serialization import serialize_message
+
+    node, executor = ros
+    received = []
+    sent = PointStamped()
+    sent.header.frame_id = "map"
+    sent.point.y = 2.5
+    composed = types._composed("geometry_msgs/msg/PointStamped", None)
+    node.create_subscription(PointStamped, "/point", received.append, 10)
+    publisher = node.create_publisher(composed, "/point", 10)
+    spin_until(executor, lambda: publisher.get_subscription_count() > 0)
+    publisher.publish(serialize_message(sent))
+    spin_until(executor, lambda: received)
+    assert received == [sent]
+
+
+def test_the_node_describes_a_composed_type_to_whoever_asks(ros):
+    from type_description_interfaces.srv import GetTypeDescription
+
+    node, executor = ros
+    node.create_publisher(message_class("tf2_msgs/msg/TFMessage"), "/tf", 10)
+    client = node.create_client(GetTypeDescription, "/types_test/get_type_description")
+    spin_until(executor, client.service_is_ready)
+    request = GetTypeDescription.Request(type_name="tf2_msgs/msg/TFMessage", type_hash=TF_HASH)
+    future = client.call_async(request)
+    spin_until(executor, future.done)
+    answer = future.result()
+    assert answer.successful, answer.failure_reason
+    [field] = answer.type_description.type_description.fields
+    assert (field.name, field.type.type_id) == ("transforms", 145)
+    assert field.type.nested_type_name == "geometry_msgs/msg/TransformStamped"
+    referenced = answer.type_description.referenced_type_descriptions
+    assert [other.type_name for other in referenced][:2] == NESTED_TF
+
+
+def test_a_subscription_without_raw_raises_instead_of_crashing(ros):
+    if find_spec("map_msgs"):
+        pytest.skip("map_msgs is installed here")
+    node, executor = ros
+    cls = message_class("map_msgs/msg/OccupancyGridUpdate")
+    node.create_subscription(cls, "/cooked", print, 10)
+    publisher = node.create_publisher(cls, "/cooked", 10)
+    spin_until(executor, lambda: publisher.get_subscription_count() > 0)
+    publisher.publish(bytes(8))
+    with pytest.raises(MemoryError):
+        spin_until(executor, lambda: False, seconds=5.0)
