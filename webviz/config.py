@@ -1,0 +1,216 @@
+"""The saved state of a viewer as YAML: fixed frame, background, view, and the list of displays."""
+
+from __future__ import annotations
+
+import difflib
+import io
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+
+from webviz.display import Color, Display, default_name, display_types, make, to_values
+
+VERSION = 1
+MAX_BYTES = 16 << 20
+STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
+"""What is shown when nobody says what to show."""
+
+
+class ConfigError(Exception):
+    """A file cannot be used; one sentence that names the file and the place in it."""
+
+
+class View(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The camera: RViz's Orbit view, in metres and radians."""
+
+    type: Literal["Orbit"] = "Orbit"
+    distance: Annotated[float, msgspec.Meta(gt=0, le=1e6)] = 10.0
+    yaw: float = 0.785398
+    pitch: Annotated[float, msgspec.Meta(ge=-1.5698, le=1.5698)] = 0.785398
+    focal_point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+class Settings(msgspec.Struct, forbid_unknown_fields=True):
+    """What a config file says besides its displays."""
+
+    version: int = VERSION
+    fixed_frame: str = "map"
+    background: Color = (48, 48, 48)
+    frame_rate: Annotated[float, msgspec.Meta(ge=1, le=240)] = 60.0
+    view: View = View()
+
+
+@dataclass
+class Unreadable:
+    """A display that cannot be shown: kept as it was written, and saved again so.
+
+    Args:
+        values: the entry of the file.
+        reason: a sentence with the place of the fault.
+    """
+
+    values: Any
+    reason: str
+
+    @property
+    def name(self) -> str:
+        """What the list of displays calls it."""
+        if isinstance(self.values, Mapping):
+            return str(self.values.get("name") or self.values.get("type") or "?")
+        return "?"
+
+
+@dataclass
+class Config:
+    """A whole config: settings and displays in order."""
+
+    settings: Settings = field(default_factory=Settings)
+    displays: list[Display | Unreadable] = field(default_factory=list)
+
+
+def standard() -> Config:
+    """What is shown without a config file: the usual displays on their usual topics."""
+    types = display_types()
+    return Config(displays=[make(types[name], {}) for name in STANDARD if name in types])
+
+
+def load(path: Path) -> Config:
+    """Read a config file.
+
+    Raises:
+        ConfigError: the file is missing, no YAML, or not a config. A single display that does not
+            fit is no error: it becomes an `Unreadable`.
+    """
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise ConfigError(f"{path} is larger than {MAX_BYTES >> 20} MB and no config file.")
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
+    except UnicodeDecodeError as error:
+        raise ConfigError(f"{path} is not UTF-8 text.") from error
+    return parse(text, str(path))
+
+
+def parse(text: str, where: str) -> Config:
+    """A config from YAML text; `where` names it in errors. See `load`."""
+    try:
+        document = YAML(typ="safe", pure=True).load(text)
+    except YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{where}:{mark.line + 1}" if mark else where
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise ConfigError(f"{place} is not valid YAML: {problem}.") from error
+    except (ValueError, RecursionError) as error:  # such as a date that does not exist
+        raise ConfigError(f"{where} is not valid YAML: {error}.") from error
+    if not isinstance(document, Mapping):
+        raise ConfigError(f"{where} holds no settings such as `fixed_frame: map`.")
+    version = document.get("version", VERSION)
+    if isinstance(version, int) and version > VERSION:
+        raise ConfigError(
+            f"{where} has version {version}, this webviz reads up to {VERSION}: update webviz."
+        )
+    rest = {str(key): value for key, value in document.items() if key != "displays"}
+    _refuse_unknown(rest, [*Settings.__struct_fields__, "displays"], where)
+    try:
+        settings = msgspec.convert(rest, Settings)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"{where}: {describe(error)}.") from error
+    entries = document.get("displays") or []
+    if not isinstance(entries, list):
+        raise ConfigError(f"{where}: displays: expected a list, each entry with a `type`.")
+    return Config(settings, [_display(entry, i) for i, entry in enumerate(entries)])
+
+
+def dump(config: Config) -> str:
+    """A config as YAML text; defaults are left out."""
+    settings = msgspec.to_builtins(config.settings)
+    basis = msgspec.to_builtins(Settings())
+    document: dict[str, Any] = {"version": VERSION}
+    document |= {key: value for key, value in settings.items() if value != basis[key]}
+    document["displays"] = [_entry(display) for display in config.displays]
+    yaml = YAML(typ="safe", pure=True)
+    yaml.default_flow_style = None  # short lists such as colours stay on one line
+    yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
+    stream = io.StringIO()
+    yaml.dump(document, stream)
+    return stream.getvalue()
+
+
+def save(config: Config, path: Path) -> None:
+    """Write a config file in one step: after a failure the old file is still there.
+
+    Raises:
+        ConfigError: it cannot be written.
+    """
+    text = dump(config)
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", dir=path.parent, prefix=path.name, delete=False
+        ) as file:
+            temporary = Path(file.name)
+            try:
+                file.write(text)
+                file.flush()
+                os.fsync(file.fileno())
+                temporary.replace(path)
+            except BaseException:
+                temporary.unlink(missing_ok=True)
+                raise
+    except OSError as error:
+        raise ConfigError(f"Cannot write {path}: {error.strerror or error}.") from error
+
+
+def describe(error: msgspec.ValidationError) -> str:
+    """A validation error with its place first: ``displays[2].size: expected `float` > 0.0``."""
+    text, _, path = str(error).partition(" - at `")
+    place = path.removesuffix("`").lstrip("$").lstrip(".")
+    text = text[:1].lower() + text[1:]
+    return f"{place}: {text}" if place else text
+
+
+def nearest(word: str, valid: Iterable[str]) -> str:
+    """A hint at the valid word somebody may have meant, or the list of all."""
+    valid = sorted(valid)
+    close = difflib.get_close_matches(word, valid, n=1)
+    return f"did you mean `{close[0]}`?" if close else f"known are: {', '.join(valid)}"
+
+
+def _refuse_unknown(values: Mapping[str, Any], valid: Iterable[str], where: str) -> None:
+    for key in values:
+        if key not in valid:
+            raise ConfigError(f"{where}: unknown key `{key}`, {nearest(key, valid)}")
+
+
+def _display(entry: Any, index: int) -> Display | Unreadable:
+    place = f"displays[{index}]"
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
+        return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
+    types = display_types()
+    cls = types.get(entry["type"])
+    if cls is None:
+        hint = nearest(entry["type"], types)
+        return Unreadable(entry, f"{place}: no display type `{entry['type']}` here, {hint}")
+    values = {key: value for key, value in entry.items() if key != "type"}
+    try:
+        _refuse_unknown(values, cls.__struct_fields__, place)
+        return make(cls, values)
+    except ConfigError as error:
+        return Unreadable(entry, str(error))
+    except msgspec.ValidationError as error:
+        return Unreadable(entry, f"{place}.{describe(error)}")
+
+
+def _entry(display: Display | Unreadable) -> Any:
+    if isinstance(display, Unreadable):
+        return display.values
+    cls = type(display)
+    name = next((name for name, each in display_types().items() if each is cls), default_name(cls))
+    return {"type": name, **to_values(display)}

@@ -1,0 +1,78 @@
+"""The only way messages enter: a bounded queue for each topic, filled by any thread."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Raw:
+    """A message as it arrived.
+
+    Args:
+        cdr: the serialised message with its encapsulation header.
+        received_ns: ROS time of arrival.
+    """
+
+    cdr: bytes
+    received_ns: int
+
+
+class Inbox:
+    """Holds what arrived since the frame loop last looked.
+
+    Bounded by count for each topic and by bytes for all: the oldest messages of a topic give way,
+    and are counted.
+
+    Args:
+        max_bytes: of one topic. A topic always holds its newest message, however large.
+    """
+
+    def __init__(self, max_bytes: int = 64 << 20) -> None:
+        self._lock = threading.Lock()
+        self._queues: dict[str, deque[Raw]] = {}
+        self._limits: dict[str, int] = {}
+        self._bytes: dict[str, int] = {}
+        self._dropped: dict[str, int] = {}
+        self._max_bytes = max_bytes
+        self.arrived = threading.Event()
+        """Set by every arrival, and by whoever else wants the frame loop to wake."""
+
+    def open(self, topic: str, limit: int) -> None:
+        """Accept messages of a topic, at most `limit` between two looks."""
+        with self._lock:
+            self._limits[topic] = limit
+
+    def close(self, topic: str) -> None:
+        """Refuse and forget messages of a topic."""
+        with self._lock:
+            for table in (self._limits, self._queues, self._bytes, self._dropped):
+                table.pop(topic, None)
+
+    def put(self, topic: str, raw: Raw) -> None:
+        """Add a message; a topic that is not open is ignored."""
+        with self._lock:
+            limit = self._limits.get(topic)
+            if limit is None:
+                return
+            queue = self._queues.setdefault(topic, deque())
+            queue.append(raw)
+            size = self._bytes.get(topic, 0) + len(raw.cdr)
+            while len(queue) > 1 and (len(queue) > limit or size > self._max_bytes):
+                size -= len(queue.popleft().cdr)
+                self._dropped[topic] = self._dropped.get(topic, 0) + 1
+            self._bytes[topic] = size
+        self.arrived.set()
+
+    def drain(self) -> dict[str, deque[Raw]]:
+        """Take everything that is there, by topic, oldest first."""
+        with self._lock:
+            taken, self._queues, self._bytes = self._queues, {}, {}
+        return taken
+
+    def dropped(self, topic: str) -> int:
+        """How many messages of a topic gave way since it was opened."""
+        with self._lock:
+            return self._dropped.get(topic, 0)
