@@ -1,0 +1,304 @@
+"""The transform buffer: tf2's BufferCore in plain Python."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isnan
+
+from webviz.transforms.cache import Cache, StaticCache, TimeCache
+from webviz.transforms.errors import (
+    NS_PER_S,
+    InvalidArgumentException,
+    LookupException,
+    TransformException,
+    format_stamp,
+)
+from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose
+from webviz.transforms.publishers import Publishers
+from webviz.transforms.tree import FrameTree
+
+QUATERNION_TOLERANCE = 10e-3
+"""How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """Maps coordinates of a source frame into a target frame.
+
+    Attributes:
+        translation: (x, y, z) in metres.
+        rotation: unit quaternion (x, y, z, w) as in ROS messages.
+        stamp_ns: the time it holds for, nanoseconds.
+    """
+
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    stamp_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class Rejection:
+    """Why the buffer last refused a transform of some child, and how many it has refused.
+
+    Attributes:
+        reason: tf2's word for it, such as `TF_OLD_DATA`.
+        sentence: the case in words.
+        count: transforms of this child refused since the buffer was made or cleared.
+        stamp_ns: stamp of the last one refused.
+    """
+
+    reason: str
+    sentence: str
+    count: int
+    stamp_ns: int
+
+
+class TransformBuffer:
+    """Transforms of the last seconds, and the pose of any frame in any other at a time.
+
+    Answers as tf2's BufferCore (ROS 2 Jazzy) does, its error texts included. A stamp is an int in
+    nanoseconds; 0 asks for the latest time common to all links of the chain.
+
+    There is no lock, by design: the frame loop alone inserts, clears and reads. Subscriptions hand
+    over raw messages; the loop decodes and inserts them at the start of a tick, so all that is
+    looked up within a tick sees one state.
+
+    Args:
+        cache_time_ns: how much history each moving frame keeps (tf2's and RViz's default is 10 s).
+
+    Attributes:
+        version: changes whenever something was stored or cleared.
+        structure_version: changes when frames, parents, static poses or the kind of a frame did:
+            what follows from the shape of the tree alone can be kept while it stands.
+    """
+
+    def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
+        self.cache_time_ns = cache_time_ns
+        self.version = 0
+        self.structure_version = 0
+        self._tree = FrameTree()
+        self._publishers: dict[str, Publishers] = {}
+        self._rejections: dict[str, Rejection] = {}
+
+    @property
+    def tree(self) -> FrameTree:
+        """The frames and their samples; for reading."""
+        return self._tree
+
+    @property
+    def rejections(self) -> Mapping[str, Rejection]:
+        """Per child frame the last refusal; nothing where nothing was refused."""
+        return self._rejections
+
+    @property
+    def publishers(self) -> Mapping[str, Publishers]:
+        """Per child frame who published it."""
+        return self._publishers
+
+    def set_transform(
+        self,
+        parent: str,
+        child: str,
+        stamp_ns: int,
+        translation: tuple[float, float, float],
+        rotation: tuple[float, float, float, float],
+        is_static: bool = False,
+        authority: str = "",
+    ) -> bool:
+        """Store the pose of `child` in `parent`.
+
+        One leading slash is stripped from the frame ids. The quaternion (x, y, z, w) may have any
+        length but zero. A frame that changes between static and moving loses its history.
+
+        Returns:
+            Whether it was stored (a repeated sample counts as stored); if not, `rejections` tells
+            why.
+        """
+        if parent[:1] == "/":
+            parent = parent[1:]
+        if child[:1] == "/":
+            child = child[1:]
+        x, y, z = translation
+        quaternion = canonical(*rotation)
+        if (
+            quaternion is None
+            or child == parent
+            or not child
+            or not parent
+            or isnan(x)
+            or isnan(y)
+            or isnan(z)
+        ):
+            reason, sentence = _fault_of(parent, child)
+            return self._reject(child, stamp_ns, reason, sentence)
+        qx, qy, qz, qw = quaternion
+        if abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) >= QUATERNION_TOLERANCE:
+            sentence = "its rotation cannot be normalised"
+            return self._reject(child, stamp_ns, "TF_DENORMALIZED_QUATERNION", sentence)
+
+        tree = self._tree
+        cache = tree.caches.get(child)
+        if cache is None or cache.is_static != is_static:
+            cache = self._new_cache(parent, child, stamp_ns, is_static, authority)
+        elif parent not in tree.names:
+            tree.names[parent] = None
+            self.structure_version += 1
+        before = cache.newest
+        if not cache.insert(stamp_ns, ((x, y, z, qx, qy, qz, qw), parent)):
+            sentence = (
+                f"its stamp {format_stamp(stamp_ns)} is older than the newest, "
+                f"{format_stamp(cache.newest_stamp)}, by more than the buffer keeps"
+            )
+            return self._reject(child, stamp_ns, "TF_OLD_DATA", sentence)
+        after = cache.newest
+        assert after is not None
+        changed_static = is_static and before != after
+        if before is None or before[1] != after[1] or changed_static:
+            self.structure_version += 1
+        publishers = self._publishers[child]
+        if publishers.current != authority:
+            horizon_ns = cache.newest_stamp - self.cache_time_ns
+            publishers.switch(authority, stamp_ns, horizon_ns, changed_static)
+        self.version += 1
+        return True
+
+    def lookup(self, target: str, source: str, stamp_ns: int) -> Transform:
+        """The pose of `source` in `target` at a time; 0 means the latest common time.
+
+        The same frame twice gives the identity without asking whether it exists.
+
+        Raises:
+            InvalidArgumentException: a frame id is empty or starts with a slash.
+            LookupException: a frame is unknown, or the tree contains a loop.
+            ConnectivityException: nothing connects the frames.
+            ExtrapolationException: a link has no data around that time; one of its three kinds.
+        """
+        pose, stamp_ns = self._pose(target, source, stamp_ns)
+        return _transform(pose, stamp_ns)
+
+    def lookup_full(
+        self, target: str, target_stamp_ns: int, source: str, source_stamp_ns: int, fixed: str
+    ) -> Transform:
+        """Where `source` was at one time, seen from `target` at another; `fixed` did not move.
+
+        The stamp returned is the one of the target's side.
+
+        Raises:
+            TransformException: as `lookup`, for each of the two steps.
+        """
+        self._validate("lookupTransform argument target_frame", target)
+        self._validate("lookupTransform argument source_frame", source)
+        self._validate("lookupTransform argument fixed_frame", fixed)
+        to_fixed, _ = self._pose(fixed, source, source_stamp_ns)
+        to_target, stamp_ns = self._pose(target, fixed, target_stamp_ns)
+        return _transform(compose(to_target, to_fixed), stamp_ns)
+
+    def can_transform(self, target: str, source: str, stamp_ns: int) -> bool:
+        """Whether `lookup` would succeed."""
+        return self.can_transform_error(target, source, stamp_ns) is None
+
+    def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
+        """The text of tf2's canTransform, or None if the transform is available."""
+        if target == source:
+            return None
+        for argument, frame in (("target", target), ("source", source)):
+            fault = self._fault(frame)
+            if fault:
+                return (
+                    f'Invalid frame ID "{frame}" passed to canTransform argument '
+                    f"{argument}_frame - {fault}"
+                )
+        try:
+            self._tree.resolve(target, source, stamp_ns)
+        except TransformException as error:
+            return str(error)
+        return None
+
+    def latest_common_time(self, target: str, source: str) -> int:
+        """The newest time at which every link between the frames has data, as tf2 computes it.
+
+        Returns:
+            Nanoseconds; 0 if all links are static.
+
+        Raises:
+            TransformException: as `lookup`, except for extrapolation.
+        """
+        self._validate("get_latest_common_time", target)
+        self._validate("get_latest_common_time", source)
+        return self._tree.latest_common_time(target, source)
+
+    def clear(self) -> None:
+        """Forget the samples of moving frames; as in tf2 the rest stays, static transforms too."""
+        for cache in self._tree.caches.values():
+            cache.clear()
+        self._rejections.clear()
+        self.version += 1
+        self.structure_version += 1
+
+    def frames(self) -> list[str]:
+        """All frame ids ever mentioned, in order of first mention."""
+        return list(self._tree.names)
+
+    def _pose(self, target: str, source: str, stamp_ns: int) -> tuple[Pose, int]:
+        if target == source:
+            if stamp_ns == 0:
+                stamp_ns = self._tree.latest_common_time(target, source)
+            return IDENTITY, stamp_ns
+        self._validate("lookupTransform argument target_frame", target)
+        self._validate("lookupTransform argument source_frame", source)
+        return self._tree.resolve(target, source, stamp_ns)
+
+    def _fault(self, frame: str) -> str:
+        if not frame:
+            return "in tf2 frame_ids cannot be empty"
+        if frame[0] == "/":
+            return "in tf2 frame_ids cannot start with a '/'"
+        return "" if frame in self._tree.names else "frame does not exist"
+
+    def _validate(self, argument: str, frame: str) -> None:
+        fault = self._fault(frame)
+        if fault == "frame does not exist":
+            raise LookupException(f'"{frame}" passed to {argument} does not exist. ')
+        if fault:
+            raise InvalidArgumentException(
+                f'Invalid argument "{frame}" passed to {argument} - {fault}'
+            )
+
+    def _new_cache(
+        self, parent: str, child: str, stamp_ns: int, is_static: bool, authority: str
+    ) -> Cache:
+        cache = StaticCache() if is_static else TimeCache(self.cache_time_ns)
+        tree = self._tree
+        tree.caches[child] = cache
+        tree.names.setdefault(child)
+        tree.names.setdefault(parent)
+        publishers = self._publishers.get(child)
+        if publishers is None:
+            self._publishers[child] = Publishers(authority)
+        else:
+            publishers.contested_ns = stamp_ns
+        return cache
+
+    def _reject(self, child: str, stamp_ns: int, reason: str, sentence: str) -> bool:
+        last = self._rejections.get(child)
+        count = last.count + 1 if last else 1
+        self._rejections[child] = Rejection(reason, sentence, count, stamp_ns)
+        return False
+
+
+def _fault_of(parent: str, child: str) -> tuple[str, str]:
+    if child == parent:
+        return "TF_SELF_TRANSFORM", "the frame is its own parent"
+    if not child:
+        return "TF_NO_CHILD_FRAME_ID", "its child frame id is empty"
+    if not parent:
+        return "TF_NO_FRAME_ID", "its parent frame id is empty"
+    return "TF_NAN_INPUT", "it holds a NaN, or a rotation of length zero"
+
+
+def _transform(pose: Pose, stamp_ns: int) -> Transform:
+    """tf2 returns a rotation only after the way through a matrix."""
+    x, y, z, qx, qy, qz, qw = pose
+    rotation = canonical(qx, qy, qz, qw)
+    return Transform((x, y, z), rotation or (qx, qy, qz, qw), stamp_ns)

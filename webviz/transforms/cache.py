@@ -1,0 +1,184 @@
+"""What is remembered of one child frame: its samples over time, or its one static pose."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+
+from webviz.transforms.errors import (
+    BackwardExtrapolationException,
+    ExtrapolationException,
+    ForwardExtrapolationException,
+    NoDataForExtrapolationException,
+    format_stamp,
+)
+from webviz.transforms.geometry import Pose, interpolate
+
+# A bound on memory that tf2 lacks: a publisher whose clock stands still never lets data grow old.
+# 65536 samples are 10 s at 6.5 kHz.
+MAX_SAMPLES = 65_536
+
+Sample = tuple[Pose, str]
+"""A pose and the parent frame it is given in."""
+
+
+class StaticCache:
+    """The one pose of a frame that holds at any time."""
+
+    __slots__ = ("sample",)
+    is_static = True
+    newest_stamp = 0
+    oldest_stamp = 0
+
+    def __init__(self) -> None:
+        self.sample: Sample | None = None
+
+    def __len__(self) -> int:
+        return 1
+
+    @property
+    def newest(self) -> Sample | None:
+        """The sample; None only before the first insert."""
+        return self.sample
+
+    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+        """Overwrite the pose; the stamp has no meaning."""
+        self.sample = sample
+        return True
+
+    def at(self, stamp_ns: int) -> Sample | None:
+        """The sample, whatever the time."""
+        return self.sample
+
+    def clear(self) -> None:
+        """Static transforms outlive a cleared buffer."""
+
+
+class TimeCache:
+    """The samples of a moving frame, ascending by stamp.
+
+    Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists; readers must not change them.
+    """
+
+    __slots__ = ("_cache_time_ns", "samples", "stamps")
+    is_static = False
+
+    def __init__(self, cache_time_ns: int) -> None:
+        self.stamps: list[int] = []
+        self.samples: list[Sample] = []
+        self._cache_time_ns = cache_time_ns
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    @property
+    def newest_stamp(self) -> int:
+        """Nanoseconds; 0 if empty."""
+        return self.stamps[-1] if self.stamps else 0
+
+    @property
+    def oldest_stamp(self) -> int:
+        """Nanoseconds; 0 if empty."""
+        return self.stamps[0] if self.stamps else 0
+
+    @property
+    def newest(self) -> Sample | None:
+        """The sample of the newest stamp, or None if empty."""
+        return self.samples[-1] if self.samples else None
+
+    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+        """Insert in order; an exact duplicate counts as stored but is not kept twice.
+
+        Old samples are pruned before the new one is inserted, measured by the newest stamp so far:
+        as in tf2, one old sample can survive a jump forward until the next insert.
+
+        Returns:
+            False if the sample is older than the newest by more than the cache time.
+        """
+        stamps = self.stamps
+        if not stamps:
+            stamps.append(stamp_ns)
+            self.samples.append(sample)
+            return True
+        newest = stamps[-1]
+        horizon = newest - self._cache_time_ns
+        if stamps[0] < horizon:
+            self._drop_oldest(self._count_before(horizon))
+        elif len(stamps) >= MAX_SAMPLES:
+            self._drop_oldest(1)
+        if stamp_ns > newest:
+            stamps.append(stamp_ns)
+            self.samples.append(sample)
+            return True
+        if stamp_ns < horizon:
+            return False
+        place = bisect_right(stamps, stamp_ns)
+        i = place - 1
+        while i >= 0 and stamps[i] == stamp_ns:
+            if self.samples[i] == sample:
+                return True
+            i -= 1
+        stamps.insert(place, stamp_ns)
+        self.samples.insert(place, sample)
+        return True
+
+    def _count_before(self, horizon_ns: int) -> int:
+        count = 1
+        while self.stamps[count] < horizon_ns:
+            count += 1
+        return count
+
+    def _drop_oldest(self, count: int) -> None:
+        del self.stamps[:count]
+        del self.samples[:count]
+
+    def at(self, stamp_ns: int) -> Sample | None:
+        """The sample interpolated at a time; 0 means the newest; None if `refusal` says why not."""
+        stamps = self.stamps
+        if not stamps:
+            return None
+        newest = stamps[-1]
+        if stamp_ns == newest or stamp_ns == 0:
+            return self.samples[-1]
+        oldest = stamps[0]
+        if stamp_ns == oldest:
+            return self.samples[0]
+        if not oldest < stamp_ns < newest:
+            return None
+        i = bisect_right(stamps, stamp_ns)
+        before = self.samples[i - 1]
+        after = self.samples[i]
+        parent = before[1]
+        if parent != after[1]:
+            return before  # no interpolation across re-parenting
+        start = stamps[i - 1]
+        ratio = float(stamp_ns - start) / float(stamps[i] - start)
+        return interpolate(before[0], after[0], ratio), parent
+
+    def refusal(self, stamp_ns: int) -> tuple[type[ExtrapolationException], str]:
+        """Why `at` gave nothing, as tf2's exception and the beginning of its text."""
+        stamps = self.stamps
+        if not stamps:
+            return NoDataForExtrapolationException, ""
+        asked, newest, oldest = (format_stamp(s) for s in (stamp_ns, stamps[-1], stamps[0]))
+        if len(stamps) == 1:
+            return NoDataForExtrapolationException, (
+                f"Lookup would require extrapolation at time {asked}, "
+                f"but only time {newest} is in the buffer"
+            )
+        if stamp_ns > stamps[-1]:
+            return ForwardExtrapolationException, (
+                f"Lookup would require extrapolation into the future.  Requested time {asked} "
+                f"but the latest data is at time {newest}"
+            )
+        return BackwardExtrapolationException, (
+            f"Lookup would require extrapolation into the past.  Requested time {asked} "
+            f"but the earliest data is at time {oldest}"
+        )
+
+    def clear(self) -> None:
+        """Forget all samples; the frame itself stays known."""
+        self.stamps.clear()
+        self.samples.clear()
+
+
+Cache = StaticCache | TimeCache
