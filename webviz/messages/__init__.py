@@ -2,29 +2,19 @@
 
 `decode` takes the type as text and the bytes as they came from DDS or a bag. The message it
 returns has the field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays
-are read-only numpy arrays, mostly views of the bytes. `webviz.messages.types` has the classes of
-the messages that displays read most and says which sequences are arrays.
+are read-only numpy arrays, mostly views of the bytes, also where ROS has a sequence of points or
+poses (`webviz.messages.geometry` says which). Some messages have typed classes here; the class of
+any other is `message_class(type_name)`. All are built as in rclpy: `Header(frame_id="map")`.
 """
 
 from webviz.messages.classes import message_class
 from webviz.messages.decode import decode, peek_header, register
 from webviz.messages.errors import DecodeError, DefinitionError, MessageError, UnknownTypeError
-from webviz.messages.text import to_text
-from webviz.messages.types import (
-    Clock,
+from webviz.messages.geometry import (
     Duration,
     FrameTransform,
     Header,
-    JointState,
-    LaserScan,
-    MapMetaData,
-    OccupancyGrid,
-    OccupancyGridUpdate,
-    Odometry,
-    Path,
     Point,
-    PointCloud2,
-    PointField,
     Pose,
     PoseArray,
     PoseSequence,
@@ -33,12 +23,25 @@ from webviz.messages.types import (
     PoseWithCovariance,
     PoseWithCovarianceStamped,
     Quaternion,
-    String,
     TFMessage,
     Time,
     Twist,
     TwistWithCovariance,
     Vector3,
+)
+from webviz.messages.text import to_text
+from webviz.messages.types import (
+    Clock,
+    JointState,
+    LaserScan,
+    MapMetaData,
+    OccupancyGrid,
+    OccupancyGridUpdate,
+    Odometry,
+    Path,
+    PointCloud2,
+    PointField,
+    String,
 )
 from webviz.messages.typestore import definition, type_exists, type_hash
 

@@ -1,4 +1,4 @@
-"""The class of each message type: written out in `types`, or made from its definition."""
+"""The class of each message type: written out by hand, or made from its definition."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from webviz.messages import types
+from webviz.messages import geometry, types
+from webviz.messages.geometry import zeros
 from webviz.messages.typestore import Field, constants, fields, full_name
 
 DTYPES = {
@@ -33,29 +34,21 @@ DTYPES = {
 """ROS primitive to numpy type, for all primitives of fixed size."""
 
 WRITTEN: dict[str, type] = {
-    f"{package}/msg/{name}": getattr(types, name)
-    for package, names in {
-        "builtin_interfaces": ["Duration", "Time"],
-        "geometry_msgs": [
-            "Point",
-            "Pose",
-            "PoseArray",
-            "PoseStamped",
-            "PoseWithCovariance",
-            "PoseWithCovarianceStamped",
-            "Quaternion",
-            "Twist",
-            "TwistWithCovariance",
-            "Vector3",
-        ],
-        "map_msgs": ["OccupancyGridUpdate"],
-        "nav_msgs": ["MapMetaData", "OccupancyGrid", "Odometry", "Path"],
-        "rosgraph_msgs": ["Clock"],
-        "sensor_msgs": ["JointState", "LaserScan", "PointCloud2", "PointField"],
-        "std_msgs": ["Header", "String"],
-        "tf2_msgs": ["TFMessage"],
-    }.items()
-    for name in names
+    f"{package}/msg/{name}": getattr(module, name)
+    for module, package, names in (
+        (geometry, "builtin_interfaces", "Duration Time"),
+        (geometry, "std_msgs", "Header"),
+        (geometry, "geometry_msgs", "Point Pose PoseArray PoseStamped PoseWithCovariance"),
+        (geometry, "geometry_msgs", "PoseWithCovarianceStamped Quaternion Twist"),
+        (geometry, "geometry_msgs", "TwistWithCovariance Vector3"),
+        (geometry, "tf2_msgs", "TFMessage"),
+        (types, "map_msgs", "OccupancyGridUpdate"),
+        (types, "nav_msgs", "MapMetaData OccupancyGrid Odometry Path"),
+        (types, "rosgraph_msgs", "Clock"),
+        (types, "sensor_msgs", "JointState LaserScan PointCloud2 PointField"),
+        (types, "std_msgs", "String"),
+    )
+    for name in names.split()
 }
 """Types with a hand-written class. Their definition is fixed."""
 
@@ -69,8 +62,8 @@ VECTORS = {
 """Messages of k equal numbers: a sequence of N of them is one (N, k) array."""
 
 SEQUENCES: dict[str, type] = {
-    "geometry_msgs/msg/Pose": types.PoseSequence,
-    "geometry_msgs/msg/PoseStamped": types.PoseStampedSequence,
+    "geometry_msgs/msg/Pose": geometry.PoseSequence,
+    "geometry_msgs/msg/PoseStamped": geometry.PoseStampedSequence,
 }
 """Messages whose sequences have a class of their own."""
 
@@ -108,20 +101,11 @@ def _default(field: Field) -> Any:
             return msgspec.field(default_factory=lambda: message_class(field.base)())
         return DTYPES[field.base].type(0).item() if field.base in DTYPES else ""
     if field.base in DTYPES:
-        return _zeros(DTYPES[field.base], (field.size,))
+        return zeros(DTYPES[field.base], field.size)
     if field.base in VECTORS:
         dtype, width = VECTORS[field.base]
-        return _zeros(DTYPES[dtype], (field.size, width))
+        return zeros(DTYPES[dtype], field.size, width)
     if field.base in SEQUENCES and field.size == 0:
         return msgspec.field(default_factory=SEQUENCES[field.base])
     make = (lambda: message_class(field.base)()) if field.is_message else str
     return msgspec.field(default_factory=lambda: [make() for _ in range(field.size or 0)])
-
-
-def _zeros(dtype: np.dtype, shape: tuple[int, ...]) -> Any:
-    def make() -> np.ndarray:
-        array = np.zeros(shape, dtype)
-        array.flags.writeable = False
-        return array
-
-    return msgspec.field(default_factory=make)

@@ -8,7 +8,7 @@ from struct import Struct
 import numpy as np
 
 from webviz.messages.cdr import CdrError, Reader
-from webviz.messages.types import (
+from webviz.messages.geometry import (
     NANOSECONDS,
     FrameTransform,
     PoseSequence,
