@@ -1,0 +1,6 @@
+"""The scene in every browser: viser behind webviz's own terms."""
+
+from webviz.scene.scene import Scene
+from webviz.scene.server import CannotListen, PortInUse, open_server, set_background
+
+__all__ = ["CannotListen", "PortInUse", "Scene", "open_server", "set_background"]

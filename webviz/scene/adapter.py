@@ -1,0 +1,245 @@
+"""The one place that calls viser's private parts; everything here is held by contract tests.
+
+Why not the public setters: a pose setter ignores moves that `numpy.allclose` calls equal (3 m at
+UTM coordinates) and costs ten times as much as queueing its message; two property setters are two
+messages between which a browser may draw.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import threading
+import time
+import uuid
+from collections.abc import AsyncGenerator, Sequence
+from typing import Any
+
+import viser
+from viser import _messages as wire
+from viser.infra._async_message_buffer import AsyncMessageBuffer
+from viser.infra._messages import Message
+
+# Removal messages that may wait in the buffer before browsers that do not read are let go.
+MAX_TOMBSTONES = 10_000
+_PRUNE_EVERY = 500
+
+
+class Adapter:
+    """Sends a scene's messages to every browser of one viser server.
+
+    Args:
+        server: the server; its broadcast buffer is told to replay in the number of live messages.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.server = server
+        self._socket = server._websock_server
+        self._buffer: AsyncMessageBuffer = self._socket.get_message_buffer()
+        self._queue = self._socket.queue_message
+        self._acknowledged: dict[str, set[int]] = {}
+        self._answered = threading.Condition()
+        self._removed = 0
+        replay_live_messages_only(self._buffer)
+        self._socket.register_handler(
+            wire.LocalStorageGetItemResponseMessage, self._on_acknowledgement
+        )
+
+    def set_pose(
+        self,
+        name: str,
+        position: tuple[float, float, float],
+        wxyz: tuple[float, float, float, float],
+    ) -> None:
+        """Places a node relative to its parent, however small the move."""
+        self._queue(wire.SetPositionMessage(name, position))
+        self._queue(wire.SetOrientationMessage(name, wxyz))
+
+    def set_position(self, name: str, position: tuple[float, float, float]) -> None:
+        """Moves a node that never turns."""
+        self._queue(wire.SetPositionMessage(name, position))
+
+    def update(self, name: str, props: dict[str, Any]) -> None:
+        """Assigns several properties in one message; arrays must not change afterwards.
+
+        A message replaces an unsent one with the same property names, so a node's properties are
+        always sent in the same disjoint sets.
+        """
+        self._queue(wire.SceneNodeUpdateMessage(name, props))
+
+    def atomic(self) -> contextlib.AbstractContextManager[None]:
+        """What is queued inside reaches every browser in one piece."""
+        return self.server.atomic()
+
+    def flush(self) -> None:
+        """Sends what is queued now instead of at the end of viser's 16 ms window."""
+        self.server.flush()
+
+    def count_removals(self, count: int) -> None:
+        """Notes removed nodes, and now and then forgets the ones every browser has heard of."""
+        self._removed += count
+        if self._removed >= _PRUNE_EVERY:
+            self._removed = 0
+            self.server.get_event_loop().call_soon_threadsafe(self._prune)
+
+    def run_javascript(self, source: str, client: viser.ClientHandle | None = None) -> None:
+        """Runs `source` in one browser, or in every browser now and later.
+
+        Without `client` the source is kept and run again by each browser that joins: use it once.
+        """
+        message = wire.RunJavascriptMessage(source=source)
+        (self._socket if client is None else client._websock_connection).queue_message(message)
+
+    @property
+    def queued_messages(self) -> int:
+        """Messages ever queued for everybody."""
+        return self._buffer.message_counter
+
+    @property
+    def live_messages(self) -> int:
+        """Messages that a browser which joins now is sent."""
+        return len(self._buffer.message_from_id)
+
+    def acknowledge(self, timeout: float = 10.0) -> None:
+        """Waits until every connected browser has applied everything queued so far.
+
+        Applied means handled in order; the pixels follow with the next frame. Not to be called on
+        viser's event loop.
+
+        Raises:
+            TimeoutError: a browser that is still connected did not answer within `timeout` seconds.
+        """
+        request = uuid.uuid4().hex
+        answered = self._acknowledged[request] = set()
+        question = wire.LocalStorageGetItemRequestMessage(key="webviz", request_uuid=request)
+        asked = set(self.server.get_clients())
+        deadline = time.monotonic() + timeout
+        try:
+            self._queue(question)
+            self.flush()
+            with self._answered:
+                while asked & set(self.server.get_clients()) - answered:
+                    if time.monotonic() > deadline:
+                        raise TimeoutError(f"A browser did not answer within {timeout:g} s.")
+                    self._answered.wait(0.05)
+        finally:
+            del self._acknowledged[request]
+            self._buffer.remove_from_buffer(lambda message: message is question)
+
+    def _on_acknowledgement(
+        self, client_id: int, message: wire.LocalStorageGetItemResponseMessage
+    ) -> None:
+        with self._answered:
+            if message.request_uuid in self._acknowledged:
+                self._acknowledged[message.request_uuid].add(client_id)
+                self._answered.notify_all()
+
+    def _prune(self) -> None:
+        """Drops removal messages, and browsers that stopped reading (on the event loop).
+
+        A browser must be told of every node it has seen go, so one that is asleep would hold a
+        removal message for each node ever removed. Let go, it reconnects and gets the scene anew.
+        """
+        self.server._run_garbage_collector()
+        with self._buffer.buffer_lock:
+            messages = self._buffer.message_from_id.values()
+            tombstones = sum(message.lifecycle_phase == "remove" for message in messages)
+            oldest_wanted = self._buffer.message_counter - MAX_TOMBSTONES
+        if tombstones <= MAX_TOMBSTONES:
+            return
+        for client_id, cursor in tuple(self._buffer.generator_cursors.items()):
+            if cursor < oldest_wanted and client_id in self._socket._live_connections:
+                self._socket._live_connections[client_id].transport.abort()
+
+
+def gui_input(server: viser.ViserServer, handle_uuid: str) -> Any:
+    """The input widget of that id in the shared or any browser's own GUI, or None."""
+    for gui in (server.gui, *(client.gui for client in server.get_clients().values())):
+        handle = gui._gui_input_handle_from_uuid.get(handle_uuid)
+        if handle is not None and not handle._impl.removed:
+            return handle
+    return None
+
+
+def gui_value(handle: Any) -> Any:
+    """The value an input widget has now."""
+    return handle._impl.value
+
+
+def gui_props(handle: Any) -> Any:
+    """The properties of an input widget: min, max, options, disabled."""
+    return handle._impl.props
+
+
+def replay_live_messages_only(buffer: AsyncMessageBuffer) -> None:
+    """Makes a joining browser cost what the scene holds, not what was ever sent.
+
+    viser's own loop walks every message number from 0 on its event loop (170 ms per million
+    messages, for everybody). This one walks the messages that still exist, for a browser that joins
+    and for one that was stalled. It also sends a tick in one piece: viser cuts it every 128 messages.
+    """
+
+    def window_loop(
+        client_id: int, backlog_last_id: int, backlog_done_message: Message | None
+    ) -> AsyncGenerator[Sequence[Message], None]:
+        return _windows(buffer, client_id, backlog_last_id, backlog_done_message)
+
+    buffer._window_loop = window_loop
+
+
+async def _windows(
+    buffer: AsyncMessageBuffer,
+    client_id: int,
+    backlog_last_id: int,
+    backlog_done_message: Message | None,
+) -> AsyncGenerator[Sequence[Message], None]:
+    cursor = -1
+    end_of_backlog = backlog_done_message
+    flushed = asyncio.ensure_future(buffer.flush_event.wait())
+    buffer.generator_cursors[client_id] = cursor
+    try:
+        while not buffer.done:
+            window: list[Message] = []
+            with buffer.buffer_lock:
+                if buffer.atomic_counter == 0:
+                    newest = (
+                        buffer.message_counter - 1 if end_of_backlog is None else backlog_last_id
+                    )
+                    limit = None if end_of_backlog is None else buffer.max_window_size
+                    window, cursor = _messages_after(buffer, cursor, newest, limit)
+                    if end_of_backlog is not None and cursor >= backlog_last_id:
+                        window.append(end_of_backlog)
+                        end_of_backlog = None
+            # viser's garbage collector may forget what every browser's cursor has passed.
+            buffer.generator_cursors[client_id] = cursor
+            window = [m for m in window if m.excluded_self_client != client_id]
+            if window:
+                yield window
+            else:
+                await buffer.message_event.wait()
+                buffer.message_event.clear()
+            if not window or cursor == buffer.message_counter - 1:
+                done, _ = await asyncio.wait([flushed], timeout=buffer.window_duration_sec)
+                if done and not buffer.done:
+                    buffer.flush_event.clear()
+                    flushed = asyncio.ensure_future(buffer.flush_event.wait())
+    finally:
+        buffer.generator_cursors.pop(client_id, None)
+        flushed.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await flushed
+
+
+def _messages_after(
+    buffer: AsyncMessageBuffer, cursor: int, newest: int, limit: int | None
+) -> tuple[list[Message], int]:
+    """The messages numbered above `cursor` up to `newest`, at most `limit`, and the new cursor."""
+    live = buffer.message_from_id
+    if newest - cursor > len(live):
+        numbers = [n for n in live if cursor < n <= newest]  # a dict in order of numbers
+    else:
+        numbers = [n for n in range(cursor + 1, newest + 1) if n in live]
+    if limit is not None and len(numbers) > limit:
+        numbers = numbers[:limit]
+        newest = numbers[-1]
+    return [live[n] for n in numbers], max(cursor, newest)

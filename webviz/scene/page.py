@@ -1,0 +1,49 @@
+"""What viser's page does differently for us: a script that every browser runs when it joins."""
+
+from __future__ import annotations
+
+from webviz.scene.images import TILE_PREFIX
+from webviz.scene.names import ROOT
+
+# Constants of three.js: NoToneMapping = 0, NearestFilter = 1003.
+PAGE_SCRIPT = """
+(function install() {
+  const scene = window.__viserMutable && window.__viserMutable.scene;
+  const root = scene && scene.__r3f && scene.__r3f.root;
+  if (!root) return requestAnimationFrame(install);
+  if (scene.webviz) return;
+  scene.webviz = true;
+
+  // Colours as they were sent: no film curve (viser's page turns ACES on).
+  Object.defineProperty(root.getState().gl, "toneMapping", { get: () => 0, set: () => {} });
+
+  // Pictures: sharp cells; behind lines and meshes in the same plane; never hiding what is blended
+  // later; not a white sheet while the first texture is decoded.
+  const refs = window.__viserMutable.nodeRefFromName;
+  const before = scene.onBeforeRender;
+  scene.onBeforeRender = function (...args) {
+    for (const name in refs) {
+      const tail = name.lastIndexOf("/") + 1;
+      if (!name.startsWith("TILE", tail) || !name.startsWith("ROOT/") || !refs[name]) continue;
+      refs[name].traverse((object) => {
+        const material = object.material;
+        if (!object.isMesh || !material || material.side !== 2) return;
+        const texture = material.map;
+        object.visible = !!texture;
+        if (texture && texture.magFilter !== 1003) {
+          texture.magFilter = 1003;
+          texture.needsUpdate = true;
+        }
+        if (!material.polygonOffset) {
+          object.renderOrder = -1;
+          material.depthWrite = false;
+          material.polygonOffset = true;
+          material.polygonOffsetFactor = 1;
+          material.polygonOffsetUnits = 4;
+        }
+      });
+    }
+    return before.apply(this, args);
+  };
+})();
+""".replace("TILE", TILE_PREFIX).replace("ROOT", ROOT)

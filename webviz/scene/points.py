@@ -1,0 +1,47 @@
+"""Point clouds."""
+
+from __future__ import annotations
+
+import numpy as np
+from viser import SceneApi, SceneNodeHandle
+
+from webviz.nodes import Points
+from webviz.scene.drawn import Props, SingleNode, rgb_array
+
+# Beyond every camera's far plane.
+_OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
+
+
+class PointsDrawn(SingleNode[Points]):
+    """Points as viser's point cloud, flat and float32: exact colours, exact to 1e-7."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a cloud without points."""
+        return _add(scene, name, np.zeros((0, 3), np.float32), np.zeros(3, np.uint8))
+
+    def props(self, node: Points) -> tuple[Props, ...]:
+        """Positions with their colours, then the look."""
+        return (
+            {
+                "points": np.ascontiguousarray(node.xyz, dtype=np.float32),
+                "colors": rgb_array(node.colors, len(node.xyz)),
+            },
+            {"point_size": float(node.size), "point_shape": node.shape},
+        )
+
+
+def keep_shaders(scene: SceneApi, root: str) -> None:
+    """Adds two clouds that nobody sees, so that the point shaders are never thrown away.
+
+    viser makes a new material for each update that carries colours, and three.js compiles its
+    shader again (0.4 s without a GPU) unless some other node still uses it. There is one shader for
+    a colour per point and one for a colour for all.
+    """
+    _add(scene, f"{root}/shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
+    _add(scene, f"{root}/shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))
+
+
+def _add(scene: SceneApi, name: str, points: np.ndarray, colors: np.ndarray) -> SceneNodeHandle:
+    return scene.add_point_cloud(
+        name, points, colors, precision="float32", point_shading="flat", point_size=0.01
+    )

@@ -1,0 +1,184 @@
+"""The scene that every browser shows, kept as rigid groups of nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from webviz.nodes import Arrows, Axes, Glb, Image, Labels, Lines, Mesh, Node, Points, Pose
+from webviz.scene.adapter import Adapter
+from webviz.scene.axes import AxesDrawn
+from webviz.scene.drawn import Drawn
+from webviz.scene.images import ImageDrawn
+from webviz.scene.labels import LabelsDrawn
+from webviz.scene.lines import ArrowsDrawn, LinesDrawn
+from webviz.scene.meshes import GlbDrawn, MeshDrawn
+from webviz.scene.names import ROOT, node_path
+from webviz.scene.page import PAGE_SCRIPT
+from webviz.scene.points import PointsDrawn, keep_shaders
+
+_DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
+    Points: PointsDrawn,
+    Lines: LinesDrawn,
+    Arrows: ArrowsDrawn,
+    Axes: AxesDrawn,
+    Labels: LabelsDrawn,
+    Mesh: MeshDrawn,
+    Glb: GlbDrawn,
+    Image: ImageDrawn,
+}
+
+Position = tuple[float, float, float]
+
+
+class Scene:
+    """Groups of nodes, each group placed by one pose in the fixed frame.
+
+    Methods only note what is wanted; `flush` compares it with what was sent and sends the
+    difference in one piece, so that poses and data of one tick are never seen apart, and what did
+    not change costs nothing. All methods belong to one thread.
+
+    Args:
+        server: as from `open_server`.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.link = Adapter(server)
+        self._groups: dict[str, _Group] = {}
+        self._dirty: dict[str, _Group] = {}
+        self._gone: list[_Group] = []
+        self._origin: Position = (0.0, 0.0, 0.0)
+        server.scene.add_frame(ROOT, show_axes=False)
+        keep_shaders(server.scene, ROOT)
+        self.link.run_javascript(PAGE_SCRIPT)
+
+    def set_pose(self, group: str, pose: Pose) -> None:
+        """Places a group in the fixed frame; a new group stands at the identity.
+
+        Raises:
+            ValueError: the pose is not finite.
+        """
+        known = self._groups.get(group)
+        if known is not None and known.pose == pose:
+            return
+        if not math.isfinite(sum(pose.position) + sum(pose.wxyz)):
+            raise ValueError(f"The pose of {group!r} is not finite.")
+        self._touch(group).pose = pose
+
+    def upsert(self, group: str, key: str, node: Node) -> None:
+        """Draws `node` as `key` of a group, instead of what had that key."""
+        wanted = self._touch(group)
+        wanted.nodes[key] = node
+        wanted.dirty[key] = None
+
+    def remove(self, group: str, key: str) -> None:
+        """Removes one node; one that is not there is no error."""
+        if group in self._groups and key in self._groups[group].nodes:
+            wanted = self._touch(group)
+            del wanted.nodes[key]
+            wanted.dirty[key] = None
+
+    def remove_group(self, group: str) -> None:
+        """Removes a group with its nodes and its pose; one that is not there is no error."""
+        self._dirty.pop(group, None)
+        if group in self._groups:
+            self._gone.append(self._groups.pop(group))
+
+    def set_visible(self, group: str, visible: bool) -> None:
+        """Hides a group, or shows it again; its nodes may be changed meanwhile."""
+        self._touch(group).visible = visible
+
+    def clear(self) -> None:
+        """Removes every group."""
+        for group in tuple(self._groups):
+            self.remove_group(group)
+
+    def set_origin(self, xyz: Position) -> None:
+        """Shows the scene relative to a point of the fixed frame, in metres.
+
+        Browsers place labels in float32, which resolves 3 cm at UTM coordinates, and their camera
+        starts at zero. So when the scene is far out, one choice of a point in its midst, kept while
+        the scene stays there, is subtracted from every group's position in float64. Cameras and
+        clicks are then relative to `origin` too.
+        """
+        if xyz != self._origin:
+            self._origin = xyz
+            self._dirty.update(self._groups)
+
+    @property
+    def origin(self) -> Position:
+        """The point of the fixed frame that browsers have as zero."""
+        return self._origin
+
+    def flush(self) -> None:
+        """Sends everything that changed since the last flush, in one piece."""
+        if not self._dirty and not self._gone:
+            return
+        with self.link.atomic():
+            for group in self._gone:
+                group.remove(self.link)
+            for group in self._dirty.values():
+                group.send(self.link, self._origin)
+        self._gone.clear()
+        self._dirty.clear()
+        self.link.flush()
+
+    def _touch(self, name: str) -> _Group:
+        group = self._groups.get(name)
+        if group is None:
+            group = self._groups[name] = _Group(name)
+        self._dirty[name] = group
+        return group
+
+
+class _Group:
+    """One rigid body: what is wanted, and what browsers have."""
+
+    def __init__(self, name: str) -> None:
+        self.pose = Pose()
+        self.visible = True
+        self.nodes: dict[str, Node] = {}
+        self.dirty: dict[str, None] = {}
+        self._name = name
+        self._handle: viser.FrameHandle | None = None
+        self._sent_pose: tuple[Position, tuple[float, float, float, float]] | None = None
+        self._drawn: dict[str, tuple[Node, Drawn[Any]]] = {}
+
+    def send(self, link: Adapter, origin: Position) -> None:
+        path = node_path(self._name)
+        if self._handle is None:
+            self._handle = link.server.scene.add_frame(path, show_axes=False)
+        x, y, z = self.pose.position
+        position = (x - origin[0], y - origin[1], z - origin[2])
+        if (position, self.pose.wxyz) != self._sent_pose:
+            self._sent_pose = (position, self.pose.wxyz)
+            link.set_pose(path, position, self.pose.wxyz)
+        self._handle.visible = self.visible
+        for key in self.dirty:
+            self._send_node(link, key)
+        self.dirty.clear()
+
+    def _send_node(self, link: Adapter, key: str) -> None:
+        node = self.nodes.get(key)
+        old, drawn = self._drawn.get(key, (None, None))
+        if drawn is not None and type(node) is not type(old):
+            drawn.remove()
+            link.count_removals(1)
+            del self._drawn[key]
+            drawn = None
+        if node is None:
+            return
+        if drawn is None:
+            drawn = _DRAWN[type(node)](link, node_path(self._name, key))
+        elif node == old:
+            return
+        drawn.draw(node)
+        self._drawn[key] = (node, drawn)
+
+    def remove(self, link: Adapter) -> None:
+        if self._handle is not None:
+            self._handle.remove()
+            link.count_removals(1 + len(self._drawn))

@@ -1,0 +1,156 @@
+"""Opens a viser server that is safe to leave running and looks like RViz."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import math
+import socket
+import threading
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+import rich
+import viser
+import websockets.asyncio.server as websocket
+
+from webviz.nodes import Rgb
+from webviz.scene.guard import HostList, guarded_serve
+from webviz.scene.gui_values import accepts_update
+
+# RViz's default background and Orbit view.
+BACKGROUND: Rgb = (48, 48, 48)
+_DISTANCE, _YAW, _PITCH, _FIELD_OF_VIEW = 10.0, math.pi / 4, math.pi / 4, math.pi / 4
+
+_opening = threading.Lock()
+
+
+class CannotListen(OSError):
+    """The server cannot be reached at the address it was given; the text says why."""
+
+
+class PortInUse(CannotListen):
+    """Another program listens on the port."""
+
+
+def open_server(
+    host: str = "127.0.0.1", port: int = 8080, allowed_hosts: Iterable[str] = ()
+) -> viser.ViserServer:
+    """Opens a server with an empty, lit scene.
+
+    Args:
+        host: address to bind to.
+        port: TCP port; 0 picks a free one.
+        allowed_hosts: names, without port, under which browsers may address the server, besides
+            the loopback ones and `host`.
+
+    Returns:
+        The running server; `stop()` ends its threads and frees the port.
+
+    Raises:
+        PortInUse: another program listens there.
+        CannotListen: `host` is no address of this machine, or the port is not allowed.
+    """
+    listener = _listen(host, port)
+    server: viser.ViserServer | None = None
+
+    def accepts(message: dict[str, Any]) -> bool:
+        return server is not None and accepts_update(server, message)
+
+    serve = guarded_serve(websocket.serve, listener, HostList(host, allowed_hosts), accepts)
+    with _opening, _replaced(websocket, "serve", serve):
+        server = _Server(host=host, port=port, verbose=False)
+    _prepare(server)
+    return server
+
+
+def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
+    """Fills what lies behind the scene with one colour."""
+    server.scene.set_background_image(np.array([[rgb]], dtype=np.uint8), format="png")
+
+
+class _Server(viser.ViserServer):
+    """viser's server without its greetings on the terminal."""
+
+    def __init__(self, **options: Any) -> None:
+        with _quiet():
+            super().__init__(**options)
+
+    def stop(self) -> None:
+        with _quiet():
+            super().stop()
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    try:
+        family, _, _, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        return socket.create_server(address[:2], family=family)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise PortInUse(
+                f"Port {port} of {host} is in use; end the program that listens there or choose "
+                "another port."
+            ) from None
+        reason = error.strerror or str(error)
+        raise CannotListen(f"Cannot listen on port {port} of {host}: {reason}.") from None
+
+
+def _prepare(server: viser.ViserServer) -> None:
+    server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
+    set_background(server, BACKGROUND)
+    _light(server.scene)
+    server.scene.set_up_direction("+z")
+    camera = server.initial_camera
+    camera.position = (
+        _DISTANCE * math.cos(_YAW) * math.cos(_PITCH),
+        _DISTANCE * math.sin(_YAW) * math.cos(_PITCH),
+        _DISTANCE * math.sin(_PITCH),
+    )
+    camera.look_at = (0.0, 0.0, 0.0)
+    camera.up = (0.0, 0.0, 1.0)
+    camera.fov = _FIELD_OF_VIEW
+    camera.far = 1e5
+
+
+def _light(scene: viser.SceneApi) -> None:
+    """Lights every side of a thing differently, none of them black, none brighter than its colour.
+
+    A lamp of intensity pi shows a white surface that faces it as white (Lambert). viser's own
+    lights are too bright without tone mapping, its image lighting stalls a browser without a GPU
+    for seconds, and its directional lights cannot be turned: lamps far away without decay can.
+    """
+    scene.configure_environment_map(None)
+    scene.configure_default_lights(False, cast_shadow=False)
+    scene.add_light_ambient("/lights/ambient", intensity=0.45 * math.pi)
+    for name, intensity, direction in (
+        ("key", 0.5, (0.4, 0.2, 0.9)),
+        ("fill", 0.25, (-0.5, -0.6, 0.3)),
+    ):
+        x, y, z = 1e6 * np.array(direction)
+        scene.add_light_point(
+            f"/lights/{name}",
+            intensity=intensity * math.pi,
+            decay=0.0,
+            cast_shadow=False,
+            position=(x, y, z),
+        )
+
+
+@contextlib.contextmanager
+def _replaced(module: Any, name: str, value: Any) -> Iterator[None]:
+    original = getattr(module, name)
+    setattr(module, name, value)
+    try:
+        yield
+    finally:
+        setattr(module, name, original)
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    console = rich.get_console()
+    with _replaced(console, "quiet", True):
+        yield
