@@ -14,7 +14,7 @@ from webviz.transforms.errors import (
     TransformException,
     format_stamp,
 )
-from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose
+from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
 from webviz.transforms.publishers import Publishers
 from webviz.transforms.tree import FrameTree
 
@@ -120,22 +120,17 @@ class TransformBuffer:
         if child[:1] == "/":
             child = child[1:]
         x, y, z = translation
-        quaternion = canonical(*rotation)
+        qx, qy, qz, qw = canonical(*rotation)
         if (
-            quaternion is None
-            or child == parent
+            child == parent
             or not child
             or not parent
             or isnan(x)
             or isnan(y)
             or isnan(z)
+            or not abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) < QUATERNION_TOLERANCE
         ):
-            reason, sentence = _fault_of(parent, child)
-            return self._reject(child, stamp_ns, reason, sentence)
-        qx, qy, qz, qw = quaternion
-        if abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) >= QUATERNION_TOLERANCE:
-            sentence = "its rotation cannot be normalised"
-            return self._reject(child, stamp_ns, "TF_DENORMALIZED_QUATERNION", sentence)
+            return self._reject(child, stamp_ns, *_fault_of(parent, child, translation))
 
         tree = self._tree
         cache = tree.caches.get(child)
@@ -192,7 +187,8 @@ class TransformBuffer:
         self._validate("lookupTransform argument fixed_frame", fixed)
         to_fixed, _ = self._pose(fixed, source, source_stamp_ns)
         to_target, stamp_ns = self._pose(target, fixed, target_stamp_ns)
-        return _transform(compose(to_target, to_fixed), stamp_ns)
+        pose = compose_as_matrices(to_target, to_fixed)
+        return Transform(pose[:3], pose[3:], stamp_ns)
 
     def can_transform(self, target: str, source: str, stamp_ns: int) -> bool:
         """Whether `lookup` would succeed."""
@@ -287,18 +283,20 @@ class TransformBuffer:
         return False
 
 
-def _fault_of(parent: str, child: str) -> tuple[str, str]:
+def _fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
+    """Why a transform is refused whatever its time."""
     if child == parent:
         return "TF_SELF_TRANSFORM", "the frame is its own parent"
     if not child:
         return "TF_NO_CHILD_FRAME_ID", "its child frame id is empty"
     if not parent:
         return "TF_NO_FRAME_ID", "its parent frame id is empty"
-    return "TF_NAN_INPUT", "it holds a NaN, or a rotation of length zero"
+    if any(isnan(value) for value in translation):
+        return "TF_NAN_INPUT", "its translation holds a NaN"
+    return "TF_NAN_INPUT", "its rotation holds a NaN or has length zero"
 
 
 def _transform(pose: Pose, stamp_ns: int) -> Transform:
     """tf2 returns a rotation only after the way through a matrix."""
     x, y, z, qx, qy, qz, qw = pose
-    rotation = canonical(qx, qy, qz, qw)
-    return Transform((x, y, z), rotation or (qx, qy, qz, qw), stamp_ns)
+    return Transform((x, y, z), canonical(qx, qy, qz, qw), stamp_ns)

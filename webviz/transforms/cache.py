@@ -56,7 +56,8 @@ class StaticCache:
 class TimeCache:
     """The samples of a moving frame, ascending by stamp.
 
-    Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists; readers must not change them.
+    Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
+    readers must not change them.
     """
 
     __slots__ = ("_cache_time_ns", "samples", "stamps")

@@ -8,63 +8,86 @@ matrix to quaternion gives to a rotation by 120 or 180 degrees hangs on the last
 
 from __future__ import annotations
 
-from math import acos, sin, sqrt
+from math import acos, nan, sin, sqrt
 from typing import Any
 
 Pose = tuple[float, float, float, float, float, float, float]
 Quaternion = tuple[float, float, float, float]
+Matrix = tuple[float, float, float, float, float, float, float, float, float]
 
 IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
-def canonical(x: float, y: float, z: float, w: float) -> Quaternion | None:
-    """The same rotation after tf2's way through a rotation matrix: normalised, of defined sign.
-
-    With a positive trace w is positive, otherwise the component of the largest diagonal element is.
-    The conversion is the one described by K. Shoemake, "Quaternion calculus and fast animation",
-    SIGGRAPH 1987 course notes 10.
-
-    Returns:
-        The unit quaternion `(x, y, z, w)`, or None if no rotation comes out: zero length or NaN.
-    """
-    length2 = x * x + y * y + z * z + w * w
-    if length2 == 0.0:
-        return None
-    s = 2.0 / length2
+def to_matrix(x: float, y: float, z: float, w: float) -> Matrix:
+    """The rotation matrix of a quaternion of any length but zero."""
+    s = 2.0 / (x * x + y * y + z * z + w * w)
     xs, ys, zs = x * s, y * s, z * s
     wx, wy, wz = w * xs, w * ys, w * zs
     xx, xy, xz = x * xs, x * ys, x * zs
     yy, yz, zz = y * ys, y * zs, z * zs
-    m00, m11, m22 = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
+    return (
+        *(1.0 - (yy + zz), xy - wz, xz + wy),
+        *(xy + wz, 1.0 - (xx + zz), yz - wx),
+        *(xz - wy, yz + wx, 1.0 - (xx + yy)),
+    )
+
+
+def to_quaternion(matrix: Matrix) -> Quaternion:
+    """The quaternion (x, y, z, w) of a rotation matrix, in the sign that tf2 gives it.
+
+    With a positive trace w is positive, otherwise the component of the largest diagonal element is.
+    The formula is the one of K. Shoemake, "Quaternion calculus and fast animation", SIGGRAPH 1987
+    course notes 10. NaN in, NaN out.
+    """
+    m00, m01, m02, m10, m11, m12, m20, m21, m22 = matrix
     trace = m00 + m11 + m22
     if trace > 0.0:
         root = sqrt(trace + 1.0)
         s = 0.5 / root
-        return (
-            ((yz + wx) - (yz - wx)) * s,
-            ((xz + wy) - (xz - wy)) * s,
-            ((xy + wz) - (xy - wz)) * s,
-            root * 0.5,
-        )
-    largest = (2 if m11 < m22 else 1) if m00 < m11 else (2 if m00 < m22 else 0)
-    if largest == 0:
-        square = m00 - m11 - m22 + 1.0
-    elif largest == 1:
-        square = m11 - m22 - m00 + 1.0
+        return (m21 - m12) * s, (m02 - m20) * s, (m10 - m01) * s, root * 0.5
+    if m00 < m11:
+        largest, square = (2, m22 - m00 - m11) if m11 < m22 else (1, m11 - m22 - m00)
     else:
-        square = m22 - m00 - m11 + 1.0
+        largest, square = (2, m22 - m00 - m11) if m00 < m22 else (0, m00 - m11 - m22)
+    square += 1.0
     if not square > 0.0:
-        return None
+        return nan, nan, nan, nan
     root = sqrt(square)
     s = 0.5 / root
-    sum_xy = ((xy + wz) + (xy - wz)) * s
-    sum_xz = ((xz - wy) + (xz + wy)) * s
-    sum_yz = ((yz + wx) + (yz - wx)) * s
     if largest == 0:
-        return root * 0.5, sum_xy, sum_xz, ((yz + wx) - (yz - wx)) * s
+        return root * 0.5, (m10 + m01) * s, (m20 + m02) * s, (m21 - m12) * s
     if largest == 1:
-        return sum_xy, root * 0.5, sum_yz, ((xz + wy) - (xz - wy)) * s
-    return sum_xz, sum_yz, root * 0.5, ((xy + wz) - (xy - wz)) * s
+        return (m01 + m10) * s, root * 0.5, (m21 + m12) * s, (m02 - m20) * s
+    return (m02 + m20) * s, (m12 + m21) * s, root * 0.5, (m10 - m01) * s
+
+
+def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
+    """The same rotation after tf2's way through a matrix: normalised, of defined sign.
+
+    A quaternion of length zero gives NaN, and so does one that holds NaN.
+    """
+    if x * x + y * y + z * z + w * w == 0.0:
+        return nan, nan, nan, nan
+    return to_quaternion(to_matrix(x, y, z, w))
+
+
+def compose_as_matrices(a: Pose, b: Pose) -> Pose:
+    """The pose `a * b` by way of rotation matrices, as tf2 joins two finished lookups."""
+    ax, ay, az, *aq = a
+    x, y, z, *bq = b
+    a0, a1, a2, a3, a4, a5, a6, a7, a8 = to_matrix(*aq)
+    b0, b1, b2, b3, b4, b5, b6, b7, b8 = to_matrix(*bq)
+    rotation = (
+        *(b0 * a0 + b3 * a1 + b6 * a2, b1 * a0 + b4 * a1 + b7 * a2, b2 * a0 + b5 * a1 + b8 * a2),
+        *(b0 * a3 + b3 * a4 + b6 * a5, b1 * a3 + b4 * a4 + b7 * a5, b2 * a3 + b5 * a4 + b8 * a5),
+        *(b0 * a6 + b3 * a7 + b6 * a8, b1 * a6 + b4 * a7 + b7 * a8, b2 * a6 + b5 * a7 + b8 * a8),
+    )
+    return (
+        a0 * x + a1 * y + a2 * z + ax,
+        a3 * x + a4 * y + a5 * z + ay,
+        a6 * x + a7 * y + a8 * z + az,
+        *to_quaternion(rotation),
+    )
 
 
 def rotate(qx: Any, qy: Any, qz: Any, qw: Any, x: Any, y: Any, z: Any) -> Any:
