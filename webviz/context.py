@@ -18,8 +18,8 @@ from webviz.frames import Frames
 from webviz.nodes import Node, Pose, Rgb
 from webviz.status import Level, Status
 
-When = Literal["latest", "now"] | int
-"""The latest common time, the time of the viewer's clock, or a stamp in nanoseconds."""
+When = Literal["latest", "now"]
+"""The latest common time of a frame and the fixed frame, or the time of the viewer's clock."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,14 @@ class Group:
         """Draw independent segments; see `webviz.nodes.Lines`."""
         self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), _colors(colors), width, unit)
 
-    def strip(self, key: str, xyz: ArrayLike, color: Rgb, width: float = 1.0, unit: Literal["px", "m"] = "px") -> None:
+    def strip(
+        self,
+        key: str,
+        xyz: ArrayLike,
+        color: Rgb,
+        width: float = 1.0,
+        unit: Literal["px", "m"] = "px",
+    ) -> None:
         """Draw one line through points, float (N, 3)."""
         points = _f32(xyz, 3)
         segments = np.stack([points[:-1], points[1:]], axis=1)
@@ -92,7 +99,9 @@ class Group:
             _f32(segments, 2, 3), _colors(colors), shaft_radius, head_radius, head_length
         )
 
-    def axes(self, key: str, positions: ArrayLike, wxyzs: ArrayLike, length: float, radius: float) -> None:
+    def axes(
+        self, key: str, positions: ArrayLike, wxyzs: ArrayLike, length: float, radius: float
+    ) -> None:
         """Draw coordinate axes; see `webviz.nodes.Axes`."""
         self.nodes[key] = nodes.Axes(_f32(positions, 3), _f32(wxyzs, 4), length, radius)
 

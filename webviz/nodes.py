@@ -165,6 +165,12 @@ class Image(_Node):
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Glb | Image
 
 
+def has_content(node: Node) -> bool:
+    """Whether there is anything to see of a node."""
+    content = getattr(node, fields(node)[0].name)
+    return len(content) > 0
+
+
 @dataclass(frozen=True)
 class Pose:
     """Where something is: `position` x, y, z in metres, `wxyz` a unit quaternion."""

@@ -8,7 +8,7 @@ from typing import Any
 from webviz.nodes import Pose
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sample:
     """A decoded message and where and when it belongs.
 

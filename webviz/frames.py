@@ -1,0 +1,100 @@
+"""The transforms of one moment, as displays see them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.nodes import Pose
+from webviz.transforms import Transform, TransformBuffer, TransformException, explain
+from webviz.transforms.geometry import compose as compose_tuples
+
+
+@dataclass(frozen=True)
+class FramePoses:
+    """All frames in the fixed frame, each at its latest common time with it.
+
+    Args:
+        names: frame ids, in order of first mention.
+        positions: float64 (N, 3), metres.
+        wxyzs: float64 (N, 4), unit quaternions.
+        stamps_ns: int64 (N,), the latest common time; 0 where all transforms are static.
+        ok: bool (N,), where there is a pose; the other rows mean nothing.
+    """
+
+    names: list[str]
+    positions: NDArray[np.float64]
+    wxyzs: NDArray[np.float64]
+    stamps_ns: NDArray[np.int64]
+    ok: NDArray[np.bool_]
+
+
+class Frames:
+    """Poses of frames in the fixed frame at one tick of the frame loop; computed once each.
+
+    Args:
+        buffer: not to be changed while this object is in use.
+        fixed_frame: frame id that everything is drawn in.
+        now_ns: ROS time of the tick.
+    """
+
+    def __init__(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> None:
+        self.buffer = buffer
+        self.fixed_frame = fixed_frame
+        self.now_ns = now_ns
+        self._poses: dict[tuple[str, int], Pose | None] = {}
+        self._all: FramePoses | None = None
+
+    def at(self, frame: str, stamp_ns: int) -> Pose | None:
+        """Pose of a frame at a stamp (0: the latest common time), None if there is none."""
+        key = (frame, stamp_ns)
+        if key not in self._poses:
+            try:
+                self._poses[key] = to_pose(self.buffer.lookup(self.fixed_frame, frame, stamp_ns))
+            except TransformException:
+                self._poses[key] = None
+        return self._poses[key]
+
+    def latest(self, frame: str) -> Pose | None:
+        """Pose of a frame at its latest common time with the fixed frame."""
+        return self.at(frame, 0)
+
+    def now(self, frame: str) -> Pose | None:
+        """Pose of a frame now, or at the latest common time if now is not known yet."""
+        return self.at(frame, self.now_ns) or self.at(frame, 0)
+
+    def why_not(self, frame: str, stamp_ns: int = 0) -> str:
+        """Why a frame has no pose, and what to do; a sentence."""
+        return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns).sentence
+
+    def all(self) -> FramePoses:
+        """Every frame that was ever mentioned."""
+        if self._all is None:
+            poses = self.buffer.poses_in(self.fixed_frame)
+            self._all = FramePoses(
+                poses.frames,
+                poses.translations,
+                np.roll(poses.rotations, 1, axis=1),
+                poses.stamps_ns,
+                poses.ok,
+            )
+        return self._all
+
+
+def to_pose(transform: Transform) -> Pose:
+    """A transform as the pose of its source frame in its target frame."""
+    x, y, z, w = transform.rotation
+    return Pose(transform.translation, (w, x, y, z))
+
+
+def compose(a: Pose, b: Pose) -> Pose:
+    """The pose `b`, given in the coordinates of `a`."""
+    x, y, z, qx, qy, qz, qw = compose_tuples(_flat(a), _flat(b))
+    return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def _flat(pose: Pose) -> tuple[float, float, float, float, float, float, float]:
+    w, x, y, z = pose.wxyz
+    return (*pose.position, x, y, z, w)

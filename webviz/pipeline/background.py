@@ -1,0 +1,68 @@
+"""Slow work beside the frame loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
+
+
+class Workers:
+    """A few threads for the slow work of all displays.
+
+    Args:
+        wake: called from a worker whenever a result is there.
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-worker")
+        self._wake = wake
+
+    def submit(self, fn: Callable[..., Any], *args: Any) -> Future[Any]:
+        """Start work; the frame loop wakes when it is done."""
+        future = self._pool.submit(fn, *args)
+        future.add_done_callback(lambda _: self._wake())
+        return future
+
+    def close(self) -> None:
+        """Forget what has not begun and wait for the rest."""
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+class Tasks:
+    """The slow work of one display: `ctx.background`.
+
+    Work that a display no longer asks for is forgotten, so a stale result is never drawn.
+    """
+
+    def __init__(self, workers: Workers) -> None:
+        self._workers = workers
+        self._futures: dict[object, Future[Any]] = {}
+        self._asked: set[object] = set()
+
+    def __call__(self, key: object, fn: Callable[..., Any], *args: Any) -> Any:
+        """The result of `fn(*args)`, None while it is not there.
+
+        Args:
+            key: names the work and what goes into it; another key is other work.
+            fn: runs in a thread; must not touch anything the frame loop changes.
+            args: for `fn`.
+
+        Raises:
+            Exception: what `fn` raised.
+        """
+        self._asked.add(key)
+        if key not in self._futures:
+            self._futures[key] = self._workers.submit(fn, *args)
+        future = self._futures[key]
+        return future.result() if future.done() else None
+
+    def pending(self) -> set[object]:
+        """The work that is under way."""
+        return {key for key, future in self._futures.items() if not future.done()}
+
+    def forget_unasked(self) -> None:
+        """Drop what was not asked for since the last call."""
+        for key in self._futures.keys() - self._asked:
+            self._futures.pop(key).cancel()
+        self._asked.clear()

@@ -1,0 +1,203 @@
+"""One input of a display: from raw messages to those whose place in the fixed frame is known."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from webviz.display import Input, Topic
+from webviz.frames import Frames
+from webviz.messages import MessageError, peek_header
+from webviz.sources import Offer, Raw, Subscription
+from webviz.status import Level, Status
+from webviz.transforms import MessageFilter
+
+PATIENCE_S = 1.0
+"""A message that waits for its transform so long is worth a word; TF is often 30 ms late."""
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """A message that can be placed: its frame has a pose at its stamp, or it needs none."""
+
+    raw: Raw
+    frame: str
+    stamp_ns: int
+    number: int
+
+
+class Intake:
+    """Counts, filters and explains the messages of one input.
+
+    Args:
+        spec: the input as the display declares it.
+        topic: the topic the user chose.
+        name: the full name of the topic, "" if there is none.
+        problem: why there is none.
+    """
+
+    def __init__(self, spec: Input, topic: Topic, name: str, problem: str = "") -> None:
+        self.spec = spec
+        self.topic = topic
+        self.name = name
+        self._problem = problem
+        self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
+        self._received = 0
+        self._last: Raw | None = None
+        self._times: deque[float] = deque(maxlen=50)
+        self._fault = ""
+        self._placed_at = 0.0
+        self._waiting_since: float | None = None
+
+    def subscription(self) -> Subscription | None:
+        """What to ask the source for."""
+        return Subscription(self.spec.type, self.topic, self.spec.latched) if self.name else None
+
+    def take(
+        self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float
+    ) -> list[Arrival]:
+        """Let messages in and return those that can be placed now, oldest first.
+
+        Args:
+            raws: what arrived since the last call.
+            frames: the transforms of this tick.
+            offer: what is known of the topic.
+            clock: monotonic time in seconds.
+        """
+        arrivals: list[Arrival] = []
+        is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
+        for raw in raws:
+            if is_latched and self._last is not None and raw.cdr == self._last.cdr:
+                continue  # delivered again, by a second publisher or a new subscription
+            self._last = raw
+            self._received += 1
+            self._times.append(clock)
+            try:
+                header = peek_header(self.spec.type, raw.cdr)
+            except MessageError as error:
+                self.refuse(str(error))
+                continue
+            if header is None:
+                arrivals.append(Arrival(raw, "", 0, self._received - 1))
+                continue
+            frame, stamp_ns = header
+            arrival = Arrival(raw, frame.removeprefix("/"), stamp_ns, self._received - 1)
+            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns)
+        arrivals += self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
+        if arrivals:
+            self._placed_at, self._waiting_since = clock, None
+        elif self._waiting_since is None and self._filter.is_stuck:
+            self._waiting_since = clock
+        return arrivals
+
+    def refuse(self, reason: str) -> None:
+        """Note that the newest message cannot be shown, and why."""
+        self._fault = reason
+
+    def accepted(self) -> None:
+        """Note that the newest message can be shown."""
+        self._fault = ""
+
+    def reset(self) -> None:
+        """Forget what waits; after a jump of time its stamps mean nothing."""
+        self._filter.clear()
+        self._times.clear()
+        self._waiting_since = None
+
+    def statuses(
+        self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float
+    ) -> dict[str, Status]:
+        """What there is to say about the topic, its messages and their transforms."""
+        result = {"Topic": self._topic_status(offers, clock)}
+        if self._fault:
+            result["Message"] = Status(Level.ERROR, self._fault)
+        elif dropped:
+            text = f"{dropped} messages came faster than they could be read and were dropped."
+            result["Message"] = Status(Level.WARN, text)
+        waits = self._waiting_since is not None and clock - self._waiting_since > PATIENCE_S
+        if waits and (
+            explanation := self._filter.explanation(
+                frames.buffer, frames.fixed_frame, frames.now_ns
+            )
+        ):
+            result["Transform"] = Status(Level.ERROR, explanation.sentence)
+        elif self._placed_at:
+            result["Transform"] = Status(Level.OK, "Transform OK")
+        return result
+
+    def _topic_status(self, offers: Mapping[str, Offer], clock: float) -> Status:
+        if not self.name:
+            return Status(Level.ERROR, self._problem)
+        offer = offers.get(self.name)
+        if offer and offer.problem:
+            return Status(Level.ERROR, f"{self.name}: {offer.problem}")
+        everybody = offer.publishers if offer else ()
+        publishers = [p for p in everybody if p.type == self.spec.type]
+        if everybody and not publishers:
+            return Status(
+                Level.ERROR,
+                f"{self.name} carries {everybody[0].type}, this display shows {self.spec.type}: "
+                "choose another topic or another display.",
+            )
+        if not publishers:
+            return Status(Level.WARN, self._nobody(offers, clock))
+        if refusal := self._refusal(offer):
+            return Status(Level.ERROR, refusal)
+        who = ", ".join(
+            sorted(
+                {
+                    f"{p.node or 'a DDS program'} ({_words(p.reliability, p.durability)})"
+                    for p in publishers
+                }
+            )
+        )
+        if not self._received:
+            return Status(Level.WARN, f"No message yet on {self.name} from {who}.")
+        age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
+        if rate and age > max(2.0, 5.0 / rate):
+            return Status(
+                Level.WARN,
+                f"No message for {age:.1f} s on {self.name}, before at {rate:.1f} Hz; from {who}.",
+            )
+        pace = f" at {rate:.1f} Hz" if rate else ""
+        count = f"{self._received} message{'s' if self._received != 1 else ''}"
+        return Status(Level.OK, f"{count}{pace}, the newest {age:.1f} s ago, from {who}.")
+
+    def _nobody(self, offers: Mapping[str, Offer], clock: float) -> str:
+        if self._received:
+            age = clock - self._times[-1] if self._times else 0.0
+            return f"Nobody publishes {self.name} any more; the last message came {age:.1f} s ago."
+        others = sorted(
+            topic
+            for topic, offer in offers.items()
+            if any(p.type == self.spec.type for p in offer.publishers)
+        )
+        hint = f" {self.spec.type} is published on {', '.join(others[:3])}." if others else ""
+        return f"Nobody publishes {self.name}.{hint}"
+
+    def _refusal(self, offer: Offer | None) -> str:
+        """Why DDS does not connect us to anybody, though the type fits."""
+        if offer is None or offer.requested is None:
+            return ""
+        reliability, durability = offer.requested
+        for publisher in offer.publishers:
+            unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
+            forgetful = durability == "transient_local" and publisher.durability == "volatile"
+            if not unreliable and not forgetful:
+                return ""
+        ours = _words(reliability, durability)
+        theirs = _words(offer.publishers[0].reliability, offer.publishers[0].durability)
+        return (
+            f"QoS does not match on {self.name}: this display asks for {ours}, "
+            f"the publisher offers {theirs}. Set reliability and durability to auto."
+        )
+
+    def _rate(self) -> float:
+        """Messages per second over the last ones, 0 if unknown."""
+        span = self._times[-1] - self._times[0] if len(self._times) > 2 else 0.0
+        return (len(self._times) - 1) / span if span > 0 else 0.0
+
+
+def _words(reliability: str, durability: str) -> str:
+    return f"{reliability}, {durability}".replace("_", " ")

@@ -1,0 +1,290 @@
+"""Runs one display: feeds it messages, calls its hooks, draws what they say."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from webviz.context import Context, Placement
+from webviz.display import Display, Keep, inputs, overrides, set_property
+from webviz.frames import Frames
+from webviz.messages import MessageError, decode
+from webviz.nodes import Pose
+from webviz.pipeline.background import Tasks, Workers
+from webviz.pipeline.drawing import Drawing, Scene
+from webviz.pipeline.history import Held, History
+from webviz.pipeline.intake import Arrival, Intake
+from webviz.sample import Sample
+from webviz.sources import Offer, Raw, Subscription
+from webviz.status import Level, Status, worst
+
+log = logging.getLogger("webviz")
+
+
+@dataclass(frozen=True)
+class Services:
+    """What all runners share.
+
+    Args:
+        scene: where to draw.
+        workers: for slow work.
+        resolve: the full name of a topic; raises ValueError.
+        strict: raise what a display raises, as tests want it.
+    """
+
+    scene: Scene
+    workers: Workers
+    resolve: Callable[[str], str]
+    strict: bool = False
+
+
+class Runner:
+    """One display at work.
+
+    Args:
+        id: unique name in the scene.
+        display: its properties may be changed through `set` only.
+        services: shared by all.
+    """
+
+    def __init__(self, id: str, display: Display, services: Services) -> None:
+        self.id = id
+        self.display = display
+        self._services = services
+        self._drawing = Drawing(services.scene, id)
+        self._tasks = Tasks(services.workers)
+        self._pending: set[object] = set()
+        self._state: dict[str, Any] = {}
+        self._statuses: dict[str, dict[str, Status]] = {}
+        self._crashes: dict[str, str] = {}
+        self._history = History()
+        self._newest: Arrival | None = None
+        self._folded: Any = None
+        self._drawn: dict[int, Sample] = {}
+        self._fixed_frame = ""
+        self._is_stale = True
+        self._intakes = self._make_intakes()
+        self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
+
+    # Configuration
+
+    def set(self, path: str, value: Any) -> None:
+        """Change a property; what is drawn follows without waiting for a message.
+
+        Raises:
+            msgspec.ValidationError: the value does not fit; nothing was changed.
+            AttributeError: there is no such property.
+        """
+        topics = {name: topic for name, _, topic in inputs(self.display)}
+        set_property(self.display, path, value)
+        if topics != {name: topic for name, _, topic in inputs(self.display)}:
+            self.reset()
+            self._intakes = self._make_intakes()
+        if not self.display.enabled:
+            self._drawing.clear()
+            self._drawn.clear()
+        self._is_stale = True
+
+    def subscriptions(self) -> list[Subscription]:
+        """What the display needs to hear, nothing while it is disabled."""
+        if not self.display.enabled:
+            return []
+        return [wish for intake in self._intakes.values() if (wish := intake.subscription())]
+
+    def topics(self) -> Mapping[str, str]:
+        """The full name of the topic of each input."""
+        return {name: intake.name for name, intake in self._intakes.items()}
+
+    def reset(self) -> None:
+        """Forget all messages, as after a jump of time."""
+        for intake in self._intakes.values():
+            intake.reset()
+        self._history = History()
+        self._newest = self._folded = None
+        self._state.clear()
+        self._drawing.clear()
+        self._drawn.clear()
+        self._is_stale = True
+
+    def close(self) -> None:
+        """Remove everything from the scene."""
+        self._drawing.clear()
+
+    # One tick
+
+    def take(
+        self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
+    ) -> None:
+        """Let the messages of this tick in; cheap, also when nobody watches."""
+        if not self.display.enabled:
+            return
+        clock = time.monotonic()
+        primary = next(iter(self._intakes), "")
+        for name, intake in self._intakes.items():
+            raws = batches.get(intake.name, ())
+            arrivals = intake.take(raws, frames, offers.get(intake.name), clock)
+            if not arrivals:
+                continue
+            if self._every_message_counts or self._keep() != Keep():
+                for arrival in arrivals:
+                    self._let_in(name, intake, arrival, frames)
+            elif name == primary:
+                self._newest = arrivals[-1]
+
+    def draw(self, frames: Frames) -> None:
+        """Bring the scene up to date."""
+        if not self.display.enabled:
+            return
+        if self._newest is not None:
+            name, intake = next(iter(self._intakes.items()))
+            arrival, self._newest = self._newest, None
+            self._let_in(name, intake, arrival, frames)
+        if frames.fixed_frame != self._fixed_frame:
+            if self._fixed_frame:
+                self._history.move(frames, self._fixed_frame)
+            self._fixed_frame = frames.fixed_frame
+            self._is_stale = True
+        self._history.trim(self._keep(), frames.now_ns)
+        if self._pending - self._tasks.pending():
+            self._is_stale = True  # slow work is done
+        self._redraw(frames)
+        self._pending = self._tasks.pending()
+        self._drawing.move(frames)
+
+    def statuses(
+        self,
+        offers: Mapping[str, Offer],
+        frames: Frames,
+        dropped: Callable[[str], int],
+    ) -> dict[str, Status]:
+        """Everything the display and the framework have to say, by key."""
+        if not self.display.enabled:
+            return {}
+        result: dict[str, Status] = {}
+        clock = time.monotonic()
+        for name, intake in self._intakes.items():
+            said = intake.statuses(offers, dropped(intake.name), frames, clock)
+            title = "" if name == "topic" else f" ({name})"
+            result |= {f"{key}{title}": status for key, status in said.items()}
+        for frame in self._drawing.lost(frames):
+            result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
+        for said in self._statuses.values():
+            result |= said
+        for text in self._crashes.values():
+            result["Display"] = Status(Level.ERROR, text)
+        if worst(result.values()) is Level.OK and self._drawing.is_empty():
+            result["Display"] = Status(Level.WARN, "There is nothing to draw.")
+        return result
+
+    # Inside
+
+    def _make_intakes(self) -> dict[str, Intake]:
+        result = {}
+        for name, spec, topic in inputs(self.display):
+            full, problem = "", ""
+            try:
+                full = self._services.resolve(topic.name) if topic.name else ""
+                problem = "" if full else "No topic is chosen."
+            except ValueError as error:
+                problem = str(error)
+            result[name] = Intake(spec, topic, full, problem)
+        return result
+
+    def _keep(self) -> Keep:
+        return self.display.keep()
+
+    def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
+        """Decode a message and hold it, if the display wants it."""
+        pose = frames.at(arrival.frame, arrival.stamp_ns) if arrival.frame else Pose()
+        if pose is None:
+            return  # the buffer was cleared since; newer messages will tell
+        try:
+            message = decode(intake.spec.type, arrival.raw.cdr)
+        except MessageError as error:
+            intake.refuse(str(error))
+            return
+        intake.accepted()
+        sample = Sample(
+            message, arrival.frame, arrival.stamp_ns, arrival.raw.received_ns, arrival.number, pose
+        )
+        if overrides(self.display, "fold"):
+            self._fold(name, sample)
+        elif self._guard("accept", self.display.accept, sample, self._history.samples()) is True:
+            self._history.add(sample, self._keep())
+
+    def _fold(self, name: str, sample: Sample) -> None:
+        folded = self._guard("fold", self.display.fold, name, sample, self._folded)
+        if folded is None or folded is _CRASHED:
+            return
+        self._folded = folded
+        self._history.add(
+            Sample(
+                folded,
+                sample.frame,
+                sample.stamp_ns,
+                sample.received_ns,
+                sample.number,
+                sample.pose,
+            ),
+            self._keep(),
+        )
+
+    def _redraw(self, frames: Frames) -> None:
+        display = self.display
+        samples = {held.slot: held for held in self._history.held if held.has_pose}
+        changed = self._is_stale or {s: h.sample for s, h in samples.items()} != self._drawn
+        if overrides(display, "draw") and changed:
+            for slot in self._drawn.keys() - samples.keys():
+                self._drawing.remove(f"sample{slot}")
+            for slot, held in samples.items():
+                if self._is_stale or self._drawn.get(slot) is not held.sample:
+                    self._draw_sample(slot, held, frames)
+        if overrides(display, "draw_all") and changed:
+            self._call("all", display.draw_all, frames, self._history.samples())
+        if overrides(display, "tick"):
+            self._call("tick", display.tick, frames)
+        if changed:
+            self._drawn = {slot: held.sample for slot, held in samples.items()}
+            self._tasks.forget_unasked()
+        self._is_stale = False
+
+    def _draw_sample(self, slot: int, held: Held, frames: Frames) -> None:
+        placement = Placement(offset=held.sample.pose)
+        self._call(f"sample{slot}", self.display.draw, frames, held.sample, placement=placement)
+
+    def _call(
+        self,
+        scope: str,
+        hook: Callable[..., None],
+        frames: Frames,
+        *args: Any,
+        placement: Placement = Placement(),  # noqa: B008 - it is frozen
+    ) -> None:
+        """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
+        context = Context(frames, self._tasks, self._state, placement)
+        if self._guard(scope, hook, *args, context) is _CRASHED:
+            return
+        self._drawing.replace(scope, context)
+        # All samples speak with one voice, the newest one's.
+        self._statuses["sample" if scope.startswith("sample") else scope] = context.statuses
+
+    def _guard(self, scope: str, hook: Callable[..., Any], *args: Any) -> Any:
+        """Call into a display; what it raises becomes its status and is logged once."""
+        try:
+            result = hook(*args)
+        except Exception as error:
+            if self._services.strict:
+                raise
+            text = f"{type(self.display).__name__} failed: {type(error).__name__}: {error}"
+            if self._crashes.get(scope) != text:
+                log.exception("%s (%s)", text, self.display.name)
+            self._crashes[scope] = text
+            return _CRASHED
+        self._crashes.pop(scope, None)
+        return result
+
+
+_CRASHED = object()
