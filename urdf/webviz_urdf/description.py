@@ -1,0 +1,158 @@
+"""Links and joints of a checked URDF document, and whether the joints make a tree."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass
+
+import yourdfpy
+from lxml import etree
+from trimesh.transformations import quaternion_from_matrix
+
+from webviz.nodes import Pose
+from webviz_urdf.document import parse_document
+from webviz_urdf.robot import JOINT_TYPES, Joint, Mimic, Missing, RobotDescriptionError
+
+
+@dataclass(frozen=True)
+class Description:
+    """A description before any mesh is read.
+
+    Args:
+        model: yourdfpy's links, with visuals, collisions and inertials, and materials.
+        joints: by name.
+        root: the link without a parent.
+        missing: visuals and collisions without a geometry, which `model` leaves out.
+        warnings: sentences about what was put up with.
+    """
+
+    model: yourdfpy.Robot
+    joints: dict[str, Joint]
+    root: str
+    missing: list[Missing]
+    warnings: list[str]
+
+
+def parse_description(text: str) -> Description:
+    """Parse URDF text.
+
+    Raises:
+        RobotDescriptionError: the text is no robot, or its joints do not make one tree.
+    """
+    document = parse_document(text)
+    xml = etree.tostring(document.root)
+    urdf = yourdfpy.URDF.load(io.BytesIO(xml), build_scene_graph=False, load_meshes=False)
+    model = urdf.robot
+    links = _unique("link", [link.name for link in model.links])
+    _unique("joint", [joint.name for joint in model.joints])
+    joints = {joint.name: _joint(joint) for joint in model.joints}
+    root = _root(links, joints)
+    warnings = document.warnings + _drop_broken_mimics(joints)
+    return Description(model, joints, root, document.missing, warnings)
+
+
+def pose_of(origin: object) -> Pose:
+    """Pose of yourdfpy's float64 (4, 4) origin; None, a missing element, is the identity."""
+    if origin is None:
+        return Pose()
+    matrix = origin
+    x, y, z = (float(v) for v in matrix[:3, 3])  # pyright: ignore[reportIndexIssue]
+    w, i, j, k = (float(v) for v in quaternion_from_matrix(matrix))
+    return Pose((x, y, z), (w, i, j, k))
+
+
+def _unique(kind: str, names: list[str]) -> set[str]:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise RobotDescriptionError(f"Two {kind}s are named '{name}'.")
+        seen.add(name)
+    return seen
+
+
+def _joint(joint: yourdfpy.Joint) -> Joint:
+    if joint.type not in JOINT_TYPES:
+        raise RobotDescriptionError(
+            f"Joint '{joint.name}' has the unknown type '{joint.type}': "
+            f"it must be one of {', '.join(JOINT_TYPES)}."
+        )
+    x, y, z = (float(v) for v in joint.axis)  # pyright: ignore[reportOptionalIterable]
+    length = math.hypot(x, y, z) or 1.0
+    limit, mimic = joint.limit, joint.mimic
+    has_limits = limit is not None and joint.type in ("revolute", "prismatic")
+    return Joint(
+        name=joint.name,
+        type=joint.type,
+        parent=joint.parent,
+        child=joint.child,
+        origin=pose_of(joint.origin),
+        axis=(x / length, y / length, z / length),
+        # urdfdom: a bound left out is 0.
+        limits=(limit.lower or 0.0, limit.upper or 0.0) if has_limits else None,
+        mimic=mimic and Mimic(mimic.joint, mimic.multiplier, mimic.offset),
+    )
+
+
+def _root(links: set[str], joints: dict[str, Joint]) -> str:
+    """The one link from which the joints reach all others."""
+    parent_joint: dict[str, Joint] = {}
+    for joint in joints.values():
+        for role, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in links:
+                raise RobotDescriptionError(
+                    f"Joint '{joint.name}' has the {role} '{link}', which is not a link."
+                )
+        if joint.child in parent_joint:
+            raise RobotDescriptionError(
+                f"Link '{joint.child}' is the child of two joints, "
+                f"'{parent_joint[joint.child].name}' and '{joint.name}'."
+            )
+        parent_joint[joint.child] = joint
+    roots = sorted(links - parent_joint.keys())
+    if len(roots) > 1:
+        raise RobotDescriptionError(
+            f"The links are not one tree: {_listed(roots)} each have no parent joint."
+        )
+    hanging: set[str] = set(roots)
+    for link in links:
+        path = []
+        while link not in hanging:
+            if link in path:
+                loop = sorted(path[path.index(link) :])
+                raise RobotDescriptionError(f"The joints make a loop through {_listed(loop)}.")
+            path.append(link)
+            link = parent_joint[link].parent
+        hanging.update(path)
+    return roots[0]
+
+
+def _drop_broken_mimics(joints: dict[str, Joint]) -> list[str]:
+    """Free the joints that mimic nothing, or in a circle; one warning each."""
+    warnings = []
+    for name, joint in list(joints.items()):
+        seen, leader = {name}, joint
+        while leader.mimic is not None:
+            if leader.mimic.joint not in joints:
+                reason = f"mimics '{leader.mimic.joint}', which is not a joint"
+            elif leader.mimic.joint in seen:
+                reason = f"mimics in a circle through '{leader.mimic.joint}'"
+            else:
+                leader = joints[leader.mimic.joint]
+                seen.add(leader.name)
+                continue
+            joints[leader.name] = _free(leader)
+            warnings.append(f"Joint '{leader.name}' {reason}; it is drawn as a free joint.")
+            break
+    return warnings
+
+
+def _free(joint: Joint) -> Joint:
+    return Joint(
+        joint.name, joint.type, joint.parent, joint.child, joint.origin, joint.axis, joint.limits
+    )
+
+
+def _listed(names: list[str], most: int = 5) -> str:
+    shown = ", ".join(f"'{name}'" for name in names[:most])
+    return shown + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -1,0 +1,213 @@
+"""URDF text to a clean XML tree: hardened against hostile XML, every number checked.
+
+What urdfdom would silently misread or yourdfpy would answer with a bare `ValueError` is found here,
+where the line number is still known. The tree that comes out holds only what a viewer draws.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from lxml import etree
+
+from webviz_urdf.robot import Missing, RobotDescriptionError
+
+_CHILDREN = {
+    "robot": ("link", "joint", "material"),
+    "link": ("visual", "collision", "inertial"),
+    "visual": ("origin", "geometry", "material"),
+    "collision": ("origin", "geometry"),
+    "geometry": ("box", "cylinder", "sphere", "mesh"),
+    "material": ("color", "texture"),
+    "inertial": ("origin", "mass", "inertia"),
+    "joint": ("origin", "parent", "child", "axis", "limit", "mimic"),
+}
+_TEXTS = {
+    "robot": ("name",),
+    "link": ("name",),
+    "visual": ("name",),
+    "collision": ("name",),
+    "mesh": ("filename",),
+    "material": ("name",),
+    "texture": ("filename",),
+    "joint": ("name", "type"),
+    "parent": ("link",),
+    "child": ("link",),
+    "mimic": ("joint",),
+}
+# How many numbers each attribute holds.
+_NUMBERS = {
+    "origin": {"xyz": (3,), "rpy": (3,)},
+    "box": {"size": (3,)},
+    "cylinder": {"radius": (1,), "length": (1,)},
+    "sphere": {"radius": (1,)},
+    "mesh": {"scale": (1, 3)},
+    "color": {"rgba": (4,)},
+    "mass": {"value": (1,)},
+    "inertia": dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), (1,)),
+    "axis": {"xyz": (3,)},
+    "limit": {"lower": (1,), "upper": (1,)},
+    "mimic": {"multiplier": (1,), "offset": (1,)},
+}
+_REQUIRED = {
+    "link": ("name",),
+    "joint": ("name", "type"),
+    "parent": ("link",),
+    "child": ("link",),
+    "mimic": ("joint",),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "color": ("rgba",),
+}
+
+
+@dataclass
+class Document:
+    """A description's XML after the checks.
+
+    Args:
+        root: `<robot>` with known elements and attributes only, no comments, no namespaces.
+        missing: visuals and collisions left out of `root` because they have no known geometry.
+        warnings: sentences about what was put up with.
+    """
+
+    root: etree._Element
+    missing: list[Missing] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+
+def parse_document(text: str) -> Document:
+    """Parse and check URDF text.
+
+    External entities, DTDs and URLs are never loaded, and a description that declares entities is
+    refused: no robot needs them.
+
+    Raises:
+        RobotDescriptionError: one sentence with the line and the element.
+    """
+    source = _parse_xml(text)
+    namespace = etree.QName(source).namespace
+    if etree.QName(source).localname != "robot":
+        raise RobotDescriptionError(
+            f"The root element is <{source.tag}>, not <robot>: this is not a robot description."
+        )
+    document = Document(etree.Element("robot"))
+    _copy(source, document.root, document, namespace, link="")
+    if document.root.find("link") is None:
+        raise RobotDescriptionError(
+            "The robot has no <link>"
+            + (
+                ": it is a xacro file that was not expanded."
+                if any("xacro" in (etree.QName(child).namespace or "") for child in source)
+                else "."
+            )
+        )
+    if not document.root.get("name"):
+        document.warnings.append("The robot has no name.")
+        document.root.set("name", "robot")
+    return document
+
+
+def _parse_xml(text: str) -> etree._Element:
+    parser = etree.XMLParser(
+        encoding="utf-8",
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        huge_tree=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    if not text.strip():
+        raise RobotDescriptionError("The robot description is empty.")
+    try:
+        root = etree.fromstring(text.strip().encode(), parser)
+    except etree.XMLSyntaxError as error:
+        raise RobotDescriptionError(f"The robot description is not XML: {error.msg}.") from error
+    except ValueError as error:  # lone surrogates
+        raise RobotDescriptionError(f"The robot description is not text: {error}.") from error
+    declarations = root.getroottree().docinfo.internalDTD
+    if declarations is not None and any(True for _ in declarations.iterentities()):
+        raise RobotDescriptionError(
+            "The robot description declares XML entities, which the viewer does not expand."
+        )
+    return root
+
+
+def _copy(
+    source: etree._Element,
+    target: etree._Element,
+    document: Document,
+    namespace: str | None,
+    link: str,
+) -> None:
+    """Copy the known attributes and children of `source` to `target`, checking each."""
+    tag = str(target.tag)
+    for name in _TEXTS.get(tag, ()):
+        value = source.get(name)
+        if value is not None:
+            target.set(name, value)
+    for name, counts in _NUMBERS.get(tag, {}).items():
+        value = source.get(name)
+        if value is not None:
+            target.set(name, _numbers(source, tag, name, value, counts))
+    for name in _REQUIRED.get(tag, ()):
+        if not target.get(name):
+            raise RobotDescriptionError(
+                f"Line {source.sourceline}: <{tag}> has no '{name}' attribute."
+            )
+    if tag == "link":
+        link = target.get("name", "")
+    for child in source:
+        name = etree.QName(child)
+        if name.localname not in _CHILDREN.get(tag, ()) or name.namespace != namespace:
+            continue
+        copy = etree.SubElement(target, name.localname)
+        _copy(child, copy, document, namespace, link)
+        if name.localname in ("visual", "collision"):
+            reason = _no_geometry(child, copy)
+            if reason:
+                target.remove(copy)
+                document.missing.append(Missing(link, "", reason, name.localname))
+
+
+def _no_geometry(source: etree._Element, copy: etree._Element) -> str:
+    """Why a visual or collision cannot be drawn, empty if it can.
+
+    Of several geometries the first counts, as in urdfdom.
+    """
+    geometry = copy.find("geometry")
+    line = f"Line {source.sourceline}: <{copy.tag}>"
+    if geometry is None:
+        return f"{line} has no <geometry>."
+    if len(geometry) == 0:
+        names = [etree.QName(c).localname for g in source for c in g if _is(g, "geometry")]
+        what = f"<{names[0]}>, which is not a geometry of URDF" if names else "nothing"
+        return f"{line} has a <geometry> with {what}."
+    if geometry[0].tag == "mesh" and not geometry[0].get("filename"):
+        return f"{line} has a <mesh> without a file name."
+    return ""
+
+
+def _is(element: etree._Element, name: str) -> bool:
+    return etree.QName(element).localname == name
+
+
+def _numbers(
+    source: etree._Element, tag: str, name: str, value: str, counts: tuple[int, ...]
+) -> str:
+    """The attribute's numbers as clean text."""
+    where = f"Line {source.sourceline}: {name}='{value[:80]}' of <{tag}>"
+    words = value.split()
+    if len(words) not in counts:
+        wanted = " or ".join(map(str, counts))
+        raise RobotDescriptionError(f"{where} has {len(words)} numbers, not {wanted}.")
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        raise RobotDescriptionError(f"{where} is not a number.") from None
+    if tag != "limit" and not all(map(math.isfinite, numbers)):
+        raise RobotDescriptionError(f"{where} is not finite.")
+    return " ".join(map(repr, numbers))

@@ -1,0 +1,210 @@
+"""Binary glTF 2.0: written from plain arrays, recoloured without touching the geometry.
+
+Layout and constants are those of the Khronos glTF 2.0 specification, sections 3 and 4.4.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.nodes import F32, U8, Rgb
+
+_MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+_FLOAT, _UINT, _UBYTE = 5126, 5125, 5121
+_VERTICES, _INDICES = 34962, 34963
+_WIDTH = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+OPAQUE = 0.9998
+"""An alpha from here on is drawn opaque, as in RViz."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """How a part looks.
+
+    Args:
+        rgba: 0 to 1, sRGB; multiplies texture and vertex colours.
+        texture: PNG or JPEG bytes.
+    """
+
+    rgba: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    texture: bytes | None = None
+
+
+@dataclass(frozen=True)
+class Part:
+    """Triangles of one surface.
+
+    Args:
+        vertices: float32 (N, 3), metres.
+        faces: uint32 (M, 3), counter-clockwise seen from outside.
+        surface: None if the mesh file says nothing about it.
+        normals: float32 (N, 3), unit length.
+        uvs: float32 (N, 2), v upwards from the lower edge of the picture.
+        colors: uint8 (N, 4), sRGB.
+    """
+
+    vertices: F32
+    faces: NDArray[np.uint32]
+    surface: Surface | None = None
+    normals: F32 | None = None
+    uvs: F32 | None = None
+    colors: U8 | None = None
+
+
+def write_glb(parts: Sequence[Part]) -> bytes:
+    """One mesh of several parts as a binary glTF; a part without a surface is white."""
+    writer = _Writer()
+    primitives = [writer.primitive(part) for part in parts]
+    writer.json["meshes"] = [{"primitives": primitives}]
+    return _join(writer.json, b"".join(writer.chunks))
+
+
+def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) -> bytes:
+    """A binary glTF with another opacity or colour; the geometry is copied as it is.
+
+    Args:
+        data: binary glTF.
+        alpha: 0 to 1, multiplies each material's own.
+        color: replaces colours, textures and vertex colours of all parts.
+
+    Raises:
+        ValueError: `data` is no binary glTF.
+    """
+    document, binary = _split(data)
+    for material in document.setdefault("materials", [{}]):
+        pbr = material.setdefault("pbrMetallicRoughness", {})
+        r, g, b, a = pbr.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))
+        if color is not None:
+            r, g, b = srgb_to_linear(np.array(color) / 255.0).tolist()
+            pbr.pop("baseColorTexture", None)
+            for key in ("emissiveFactor", "emissiveTexture", "normalTexture"):
+                material.pop(key, None)
+        if alpha is not None:
+            a *= alpha
+        pbr["baseColorFactor"] = (r, g, b, a)
+        if a < OPAQUE:
+            material["alphaMode"] = "BLEND"
+    for mesh in document.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            primitive.setdefault("material", 0)
+            if color is not None:
+                primitive["attributes"].pop("COLOR_0", None)
+    return _join(document, binary)
+
+
+def srgb_to_linear(srgb: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Linear light 0 to 1 from sRGB 0 to 1 (IEC 61966-2-1)."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+class _Writer:
+    """Collects the JSON and the binary chunk of one file."""
+
+    def __init__(self) -> None:
+        self.chunks: list[bytes] = []
+        self._size = 0
+        self._materials: dict[Surface, int] = {}
+        self._textures: dict[bytes, int] = {}
+        self.json: dict[str, Any] = {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "accessors": [],
+            "bufferViews": [],
+            "materials": [],
+        }
+
+    def primitive(self, part: Part) -> dict[str, Any]:
+        attributes = {"POSITION": self._accessor(part.vertices, _FLOAT, bounds=True)}
+        if part.normals is not None:
+            attributes["NORMAL"] = self._accessor(part.normals, _FLOAT)
+        if part.uvs is not None:
+            # glTF counts v from the upper edge.
+            uvs = part.uvs * np.float32((1, -1)) + np.float32((0, 1))
+            attributes["TEXCOORD_0"] = self._accessor(uvs, _FLOAT)
+        if part.colors is not None:
+            linear = part.colors / 255.0
+            linear[:, :3] = srgb_to_linear(linear[:, :3])
+            attributes["COLOR_0"] = self._accessor(linear.astype(np.float32), _FLOAT)
+        return {
+            "attributes": attributes,
+            "indices": self._accessor(part.faces.reshape(-1, 1), _UINT, target=_INDICES),
+            "material": self._material(part.surface or Surface()),
+        }
+
+    def _material(self, surface: Surface) -> int:
+        if surface not in self._materials:
+            r, g, b = srgb_to_linear(np.array(surface.rgba[:3])).tolist()
+            pbr: dict[str, Any] = {
+                "baseColorFactor": (r, g, b, surface.rgba[3]),
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.9,
+            }
+            if surface.texture is not None:
+                pbr["baseColorTexture"] = {"index": self._texture(surface.texture)}
+            material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": True}
+            if surface.rgba[3] < OPAQUE:
+                material["alphaMode"] = "BLEND"
+            self._materials[surface] = len(self._materials)
+            self.json["materials"].append(material)
+        return self._materials[surface]
+
+    def _texture(self, image: bytes) -> int:
+        if image not in self._textures:
+            mime = "image/png" if image.startswith(b"\x89PNG") else "image/jpeg"
+            index = len(self._textures)
+            self._textures[image] = index
+            self.json.setdefault("images", []).append(
+                {"bufferView": self._view(image), "mimeType": mime}
+            )
+            self.json.setdefault("textures", []).append({"source": index})
+        return self._textures[image]
+
+    def _accessor(
+        self, array: NDArray[Any], component: int, target: int = _VERTICES, bounds: bool = False
+    ) -> int:
+        view = self._view(np.ascontiguousarray(array).tobytes(), target)
+        accessor: dict[str, Any] = {
+            "bufferView": view,
+            "componentType": component,
+            "count": len(array),
+            "type": _WIDTH[array.shape[1]],
+        }
+        if bounds:
+            accessor["min"] = array.min(axis=0).tolist()
+            accessor["max"] = array.max(axis=0).tolist()
+        self.json["accessors"].append(accessor)
+        return len(self.json["accessors"]) - 1
+
+    def _view(self, data: bytes, target: int | None = None) -> int:
+        view = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
+        self.json["bufferViews"].append(view)
+        self.chunks.append(data + bytes(-len(data) % 4))
+        self._size += len(self.chunks[-1])
+        return len(self.json["bufferViews"]) - 1
+
+
+def _join(document: dict[str, Any], binary: bytes) -> bytes:
+    document["buffers"] = [{"byteLength": len(binary)}]
+    text = msgspec.json.encode(document)
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + len(binary)
+    head = struct.pack("<5I", _MAGIC, 2, total, len(text), _JSON)
+    return b"".join((head, text, struct.pack("<2I", len(binary), _BIN), binary))
+
+
+def _split(data: bytes) -> tuple[dict[str, Any], bytes]:
+    if len(data) < 28 or struct.unpack_from("<2I", data) != (_MAGIC, 2):
+        raise ValueError("These bytes are no binary glTF 2.0.")
+    (length,) = struct.unpack_from("<I", data, 12)
+    return msgspec.json.decode(data[20 : 20 + length]), data[28 + length :]

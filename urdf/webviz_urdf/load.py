@@ -1,0 +1,73 @@
+"""A robot description and the files it names, to a robot that can be drawn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from webviz_urdf.build import Progress, build_robot
+from webviz_urdf.description import parse_description
+from webviz_urdf.resolve import Resolver
+from webviz_urdf.robot import Robot, RobotDescriptionError
+
+
+def load_robot(
+    description: str,
+    resolver: Resolver,
+    progress: Progress | None = None,
+    collisions: bool = True,
+) -> Robot:
+    """Load a robot from URDF text, as `/robot_description` has it.
+
+    What cannot be found or read is listed in `Robot.missing`, and the rest is loaded.
+
+    Args:
+        description: URDF, xacro already expanded.
+        resolver: finds meshes and textures.
+        progress: called before each shape and once at the end.
+        collisions: False leaves collision shapes unread.
+
+    Raises:
+        RobotDescriptionError: the text is not a robot; one sentence says why.
+    """
+    return build_robot(parse_description(description), resolver, progress, collisions)
+
+
+def load_file(
+    path: str | Path,
+    resolver: Resolver | None = None,
+    progress: Progress | None = None,
+    collisions: bool = True,
+) -> Robot:
+    """Load a robot from a URDF file, or a xacro file if the `xacro` package is there.
+
+    Raises:
+        RobotDescriptionError: the file cannot be read, expanded or parsed.
+    """
+    path = Path(path)
+    text = _expand(path) if path.suffix.lower() == ".xacro" else _read(path)
+    resolver = (resolver or Resolver()).relative_to(path.absolute().parent)
+    return load_robot(text, resolver, progress, collisions)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise RobotDescriptionError(f"{path} cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise RobotDescriptionError(f"{path} is not UTF-8 text: {error.reason}.") from error
+
+
+def _expand(path: Path) -> str:
+    try:
+        import xacro  # pyright: ignore[reportMissingImports]
+    except ImportError as error:
+        raise RobotDescriptionError(
+            f"{path} needs xacro: install ros-$ROS_DISTRO-xacro and source ROS, or `pip install "
+            "xacro`, or expand it yourself with `xacro file.urdf.xacro > file.urdf`."
+        ) from error
+    try:
+        return xacro.process_file(str(path)).toxml()
+    except Exception as error:  # xacro evaluates Python, so anything may come
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise RobotDescriptionError(f"xacro cannot expand {path}: {reason}.") from error

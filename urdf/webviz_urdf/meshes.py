@@ -1,0 +1,200 @@
+"""Mesh files to parts: arrays in metres, with the materials that the file itself brings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from trimesh.visual.material import PBRMaterial, SimpleMaterial
+
+from webviz.nodes import U8
+from webviz_urdf.glb import Part, Surface
+from webviz_urdf.resolve import Resolver
+from webviz_urdf.textures import TextureFolder, encode
+
+Scale = tuple[float, float, float]
+
+MAX_FILE_SIZE = 512 * 2**20
+"""Bytes of a mesh file; a larger one is refused rather than stalling the viewer."""
+
+
+class MeshError(Exception):
+    """A mesh file that cannot be drawn; the text is one sentence that says why."""
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """A mesh as its file has it, in metres.
+
+    Args:
+        parts: at least one, none of them empty.
+        warnings: sentences, such as textures that were not found.
+    """
+
+    parts: tuple[Part, ...]
+    warnings: tuple[str, ...] = ()
+
+
+class MeshLibrary:
+    """Reads each mesh file once, and scales it once for each scale it is used with.
+
+    Args:
+        resolver: finds textures that a mesh names by URI.
+    """
+
+    def __init__(self, resolver: Resolver) -> None:
+        self._resolver = resolver
+        self._files: dict[tuple[Path, int], MeshFile] = {}
+        self._scaled: dict[tuple[Path, int, Scale], MeshFile] = {}
+
+    def load(self, path: Path, scale: Scale) -> MeshFile:
+        """The mesh at `path`, multiplied by `scale` along x, y, z.
+
+        Raises:
+            MeshError: it cannot be read, or has no triangles.
+        """
+        try:
+            version = path.stat().st_mtime_ns
+        except OSError as error:
+            raise MeshError(f"{path} cannot be read: {error.strerror}.") from error
+        key = (path, version)
+        if key not in self._files:
+            self._files[key] = read_mesh(path, self._resolver)
+        if (*key, scale) not in self._scaled:
+            file = self._files[key]
+            parts = tuple(scaled(part, scale) for part in file.parts)
+            self._scaled[(*key, scale)] = replace(file, parts=parts)
+        return self._scaled[(*key, scale)]
+
+
+def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
+    """Read a mesh file of any format that trimesh knows.
+
+    A COLLADA file's unit is applied and its up axis is not, as in RViz, which tells Assimp to
+    ignore it. Faces keep the shading that their file gives them.
+
+    Raises:
+        MeshError: it cannot be read, or has no triangles.
+    """
+    suffix = path.suffix.lower().lstrip(".")
+    if suffix not in trimesh.available_formats():
+        raise MeshError(f"{path} has the unknown mesh format '.{suffix}'.")
+    textures = TextureFolder(path.parent, resolver)
+    try:
+        size = path.stat().st_size
+        if size > MAX_FILE_SIZE:
+            raise MeshError(f"{path} has {size / 2**20:.0f} MB, more than the viewer loads.")
+        with path.open("rb") as file:
+            scene = trimesh.load_scene(file, file_type=suffix, resolver=textures, process=False)
+        parts = tuple(_parts(scene, is_dae=suffix in ("dae", "zae")))
+    except MeshError:
+        raise
+    except Exception as error:
+        # Third-party parsers answer a broken file with any exception there is.
+        raise MeshError(f"{path} cannot be read as a mesh: {_one_line(error)}.") from error
+    if not parts:
+        raise MeshError(f"{path} has no triangles.")
+    warnings = tuple(f"Texture {name} of {path} {why}." for name, why in textures.problems.items())
+    return MeshFile(parts, warnings)
+
+
+def scaled(part: Part, scale: Scale) -> Part:
+    """`part` multiplied along x, y, z; a mirrored one keeps its outside outside."""
+    if scale == (1.0, 1.0, 1.0):
+        return part
+    factors = np.array(scale, np.float32)
+    normals = part.normals
+    if normals is not None:
+        # Normals go with the inverse transpose; a flattened mesh has none that mean anything.
+        normals = _unit(normals / factors) if factors.all() else None
+    mirrored = np.prod(np.sign(factors)) < 0
+    faces = np.ascontiguousarray(part.faces[:, ::-1]) if mirrored else part.faces
+    return replace(part, vertices=part.vertices * factors, faces=faces, normals=normals)
+
+
+def _parts(scene: trimesh.Scene, is_dae: bool) -> list[Part]:
+    parts = []
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        mesh = scene.geometry[name]
+        if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
+            continue
+        unit = _unit_metres(mesh) if is_dae else 1.0
+        parts.append(_part(mesh, np.asarray(transform, np.float64), unit))
+    return parts
+
+
+def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> Part:
+    """The mesh in the scene's frame, in metres."""
+    vertices = np.asarray(mesh.vertices)
+    faces = np.asarray(mesh.faces)
+    # Asking trimesh for normals that the file does not give would compute smooth ones.
+    given = mesh._cache.cache.get("vertex_normals")
+    normals = None if given is None else np.asarray(given)
+    linear = transform[:3, :3]
+    if not np.array_equal(transform, np.eye(4)):
+        vertices = vertices @ linear.T + transform[:3, 3]
+        if np.linalg.det(linear) < 0.0:
+            faces = faces[:, ::-1]
+        if normals is not None:
+            normals = normals @ np.linalg.pinv(linear)
+    surface, uvs = _surface(mesh)
+    colors = _vertex_colors(mesh)
+    part = Part(
+        (vertices * unit).astype(np.float32),
+        np.ascontiguousarray(faces, np.uint32),
+        surface or (Surface() if colors is not None else None),
+        None if normals is None else _unit(normals.astype(np.float32)),
+        uvs,
+        colors,
+    )
+    if not np.isfinite(part.vertices).all():
+        raise MeshError("a vertex is not finite")
+    return part
+
+
+def _unit_metres(mesh: trimesh.Trimesh) -> float:
+    """COLLADA's `<unit meter>`, which trimesh notes as "0.0254 * meters" but does not apply."""
+    factor, _, name = (mesh.units or "meters").partition(" * ")
+    return float(factor) if name else 1.0
+
+
+def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
+    """The file's own material, None if it names none, and texture coordinates."""
+    visual = mesh.visual
+    if visual.kind != "texture":
+        return None, None
+    uvs = None if visual.uv is None else np.asarray(visual.uv, np.float32)
+    material = visual.material
+    if isinstance(material, PBRMaterial):
+        factor, image = material.baseColorFactor, material.baseColorTexture
+    elif isinstance(material, SimpleMaterial):
+        factor, image = material.diffuse, material.image
+    else:
+        return None, uvs
+    r, g, b, a = (1.0,) * 4 if factor is None else (float(v) / 255.0 for v in factor)
+    if image is not None and uvs is not None:
+        r = g = b = 1.0
+        return Surface((r, g, b, a or 1.0), encode(image)), uvs
+    # Exporters that mix up COLLADA's opaque modes write 0 for a solid body.
+    return Surface((r, g, b, a or 1.0)), uvs
+
+
+def _vertex_colors(mesh: trimesh.Trimesh) -> U8 | None:
+    if mesh.visual.kind not in ("vertex", "face"):
+        return None
+    return np.asarray(mesh.visual.vertex_colors, np.uint8)
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    """Each row at length 1; zero and non-finite rows become +z."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    good = np.isfinite(length) & (length > 0.0)
+    return np.where(good, vectors / np.where(good, length, 1.0), (0.0, 0.0, 1.0)).astype(np.float32)
+
+
+def _one_line(error: Exception) -> str:
+    text = " ".join(str(error).split())
+    return (text or type(error).__name__)[:200].rstrip(".")

@@ -1,0 +1,68 @@
+"""Box, sphere and cylinder as triangles, with sharp edges where the body has them."""
+
+from __future__ import annotations
+
+import numpy as np
+import trimesh
+
+from webviz_urdf.glb import Part
+
+_SEGMENTS = 32
+
+
+def box(x: float, y: float, z: float) -> Part:
+    """A box around the origin, edges in metres; each side shows a whole texture."""
+    u = np.array((0.0, 1.0, 1.0, 0.0))
+    v = np.array((0.0, 0.0, 1.0, 1.0))
+    vertices, faces = [], []
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            side = np.empty((4, 3))
+            side[:, axis] = sign
+            # Along these two axes the corners run counter-clockwise seen from outside.
+            side[:, (axis + 1) % 3] = sign * (2.0 * u - 1.0)
+            side[:, (axis + 2) % 3] = 2.0 * v - 1.0
+            faces.append(np.array(((0, 1, 2), (0, 2, 3))) + 4 * len(vertices))
+            vertices.append(side)
+    corners = np.concatenate(vertices) * (x / 2.0, y / 2.0, z / 2.0)
+    uvs = np.tile(np.stack((u, v), axis=1), (6, 1))
+    return _part(corners, np.concatenate(faces), uvs)
+
+
+def sphere(radius: float) -> Part:
+    """A sphere around the origin, metres."""
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
+    return _part(ball.vertices, ball.faces)
+
+
+def cylinder(radius: float, length: float) -> Part:
+    """A cylinder along z around the origin, metres.
+
+    The caps have vertices of their own, so that a renderer that averages normals at shared
+    vertices keeps the edge sharp and the side round.
+    """
+    angle = np.linspace(0.0, 2.0 * np.pi, _SEGMENTS, endpoint=False)
+    ring = np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=1)
+    bottom = np.column_stack((ring, np.full(_SEGMENTS, -length / 2.0)))
+    top = bottom * (1.0, 1.0, -1.0)
+    i = np.arange(_SEGMENTS)
+    j = np.roll(i, -1)
+    n = _SEGMENTS
+    fan = np.stack((np.zeros(n - 2, int), i[1:-1], i[2:]), axis=1)
+    faces = np.concatenate(
+        (
+            np.stack((i, j, j + n), axis=1),
+            np.stack((i, j + n, i + n), axis=1),
+            fan[:, ::-1] + 2 * n,
+            fan + 3 * n,
+        )
+    )
+    return _part(np.concatenate((bottom, top, bottom, top)), faces)
+
+
+def _part(vertices: np.ndarray, faces: np.ndarray, uvs: np.ndarray | None = None) -> Part:
+    return Part(
+        vertices.astype(np.float32),
+        faces.astype(np.uint32),
+        uvs=None if uvs is None else uvs.astype(np.float32),
+    )
