@@ -140,7 +140,7 @@ class Context(Group):
         frames: Frames,
         background: Background,
         state: dict[str, Any],
-        placement: Placement = Placement(),  # noqa: B008 - it is frozen
+        placement: Placement = Placement(),
     ) -> None:
         super().__init__(placement)
         self.frames = frames
@@ -154,7 +154,7 @@ class Context(Group):
         frame: str | None,
         *,
         when: When = "latest",
-        offset: Pose = Pose(),  # noqa: B008 - it is frozen
+        offset: Pose = Pose(),
         keep_last: bool = False,
         key: str = "",
     ) -> Group:

@@ -63,7 +63,7 @@ class Input:
     latched: bool = False
 
 
-def Prop(  # noqa: N802 - it reads as the declaration it is
+def Prop(
     *,
     help: str = "",
     unit: str = "",

@@ -153,7 +153,7 @@ class Image(_Node):
     """A flat picture in the x-y plane, unlit, with sharp cells (nearest filtering).
 
     Args:
-        rgba: uint8 (H, W, 4). Row 0 lies along y = 0, column 0 along x = 0, as in an occupancy grid.
+        rgba: uint8 (H, W, 4). As in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
         width, height: extent along x and y in metres; the corner of cell (0, 0) is the origin.
     """
 

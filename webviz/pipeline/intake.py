@@ -50,9 +50,9 @@ class Intake:
         self._placed_at = 0.0
         self._waiting_since: float | None = None
 
-    def subscription(self) -> Subscription | None:
+    def subscription(self) -> Subscription:
         """What to ask the source for."""
-        return Subscription(self.spec.type, self.topic, self.spec.latched) if self.name else None
+        return Subscription(self.spec.type, self.topic, self.spec.latched)
 
     def take(
         self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float

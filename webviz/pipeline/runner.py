@@ -88,15 +88,11 @@ class Runner:
             self._drawn.clear()
         self._is_stale = True
 
-    def subscriptions(self) -> list[Subscription]:
-        """What the display needs to hear, nothing while it is disabled."""
+    def subscriptions(self) -> dict[str, Subscription]:
+        """What the display needs to hear by topic, nothing while it is disabled."""
         if not self.display.enabled:
-            return []
-        return [wish for intake in self._intakes.values() if (wish := intake.subscription())]
-
-    def topics(self) -> Mapping[str, str]:
-        """The full name of the topic of each input."""
-        return {name: intake.name for name, intake in self._intakes.items()}
+            return {}
+        return {i.name: i.subscription() for i in self._intakes.values() if i.name}
 
     def reset(self) -> None:
         """Forget all messages, as after a jump of time."""
@@ -261,7 +257,7 @@ class Runner:
         hook: Callable[..., None],
         frames: Frames,
         *args: Any,
-        placement: Placement = Placement(),  # noqa: B008 - it is frozen
+        placement: Placement = Placement(),
     ) -> None:
         """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
         context = Context(frames, self._tasks, self._state, placement)

@@ -1,0 +1,26 @@
+"""Entry points and ROS's own files; everything else stands in pyproject.toml."""
+
+from setuptools import setup
+
+setup(
+    entry_points={
+        "console_scripts": [
+            "webviz = webviz.cli:main",
+            "webviz-sim = webviz_sim.node:main",
+        ],
+        "webviz.displays": [
+            "Axes = webviz_displays.axes:Axes",
+            "Grid = webviz_displays.grid:Grid",
+            "LaserScan = webviz_displays.laser_scan:LaserScan",
+            "Map = webviz_displays.map:Map",
+            "Odometry = webviz_displays.odometry:Odometry",
+            "Path = webviz_displays.path:Path",
+            "RobotModel = webviz_displays.robot_model:RobotModel",
+            "TF = webviz_displays.tf:TF",
+        ],
+    },
+    data_files=[
+        ("share/ament_index/resource_index/packages", ["resource/webviz"]),
+        ("share/webviz", ["package.xml"]),
+    ],
+)

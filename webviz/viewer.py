@@ -1,0 +1,265 @@
+"""The frame loop: the one thread that changes displays, transforms, scene and panel."""
+
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+import msgspec
+
+from webviz import config as config_file
+from webviz.commands import AddDisplay, Command, RemoveDisplay, Reset, SetFixedFrame, SetProperty
+from webviz.config import Config, Unreadable
+from webviz.display import Display, Topic, display_types, make
+from webviz.frames import Frames
+from webviz.messages import MessageError, TFMessage, decode
+from webviz.pipeline import Runner, Services, Workers
+from webviz.pipeline.drawing import Scene as DrawingScene
+from webviz.sources import Source, Subscription
+from webviz.state import Row, State
+from webviz.status import Level, Status
+from webviz.transforms import TransformBuffer
+
+log = logging.getLogger("webviz")
+
+TF_TOPICS = {"/tf": False, "/tf_static": True}
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+IDLE_S = 0.25
+"""How often to look around when nothing arrives: ages in statuses, frames that fade."""
+PANEL_S = 0.2
+MAX_COMMANDS = 1000
+
+
+class Scene(DrawingScene, Protocol):
+    """What the viewer needs of a scene besides drawing; see `webviz.scene.Scene`."""
+
+    def flush(self) -> None:
+        """Send everything that changed since the last flush."""
+        ...
+
+    def has_watchers(self) -> bool:
+        """Whether anybody looks."""
+        ...
+
+
+class Viewer:
+    """Keeps a scene true to a source, as a config says.
+
+    Args:
+        config: what to show; the viewer goes on from it.
+        source: where messages come from.
+        scene: where to draw.
+        show: called with the state whenever a panel should show a new one.
+        strict: raise what displays raise, as tests want it.
+    """
+
+    def __init__(
+        self,
+        config: Config,
+        source: Source,
+        scene: Scene,
+        show: Callable[[State], None] = lambda state: None,
+        *,
+        strict: bool = False,
+    ) -> None:
+        self.settings = config.settings
+        self.buffer = TransformBuffer()
+        self._source = source
+        self._scene = scene
+        self._show = show
+        self._workers = Workers(self._wake)
+        self._services = Services(scene, self._workers, source.resolve, strict)
+        self._commands: queue.Queue[Command] = queue.Queue(MAX_COMMANDS)
+        self._stop = threading.Event()
+        self._made = 0
+        self._entries: list[Runner | tuple[str, Unreadable]] = []
+        self._statuses: dict[str, Status] = {}
+        self._last_now_ns = 0
+        self._next_panel = 0.0
+        for display in config.displays:
+            self._append(display)
+
+    def enqueue(self, command: Command) -> None:
+        """Ask for a change from any thread; it is done on the next turn of the loop."""
+        try:
+            self._commands.put_nowait(command)
+        except queue.Full:
+            log.warning("Too many requests at once, ignored: %s", command)
+        self._wake()
+
+    def stop(self) -> None:
+        """End `run`, from any thread or a signal handler."""
+        self._stop.set()
+        self._wake()
+
+    def run(self) -> None:
+        """Work until `stop`: a turn as soon as something arrives, at most `frame_rate` a second."""
+        arrived = self._source.inbox.arrived
+        try:
+            while not self._stop.is_set():
+                began = time.monotonic()
+                arrived.clear()
+                self.turn()
+                rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
+                if rest > 0 and self._stop.wait(rest):
+                    break
+                arrived.wait(IDLE_S)
+        finally:
+            self._workers.close()
+
+    def turn(self) -> None:
+        """One turn of the frame loop."""
+        commanded = self._obey()
+        batches = self._source.inbox.drain()
+        now_ns = self._source.now_ns()
+        if now_ns < self._last_now_ns:
+            log.warning("Time went back by %.3f s: reset.", (self._last_now_ns - now_ns) / 1e9)
+            self._reset()
+        self._last_now_ns = now_ns
+        for topic, is_static in TF_TOPICS.items():
+            for raw in batches.get(topic, ()):
+                self._take_transforms(raw.cdr, is_static)
+        frames = Frames(self.buffer, self.settings.fixed_frame, now_ns)
+        offers = self._source.offers()
+        runners = self._runners()
+        for runner in runners:
+            runner.take(batches, frames, offers)
+        if self._scene.has_watchers():
+            for runner in runners:
+                runner.draw(frames)
+            self._scene.flush()
+        self._source.want(self._wanted())
+        if commanded or time.monotonic() >= self._next_panel:
+            self._next_panel = time.monotonic() + PANEL_S
+            self._show(self.state(frames))
+
+    def state(self, frames: Frames) -> State:
+        """A snapshot for a panel."""
+        offers = self._source.offers()
+        names = {cls: name for name, cls in display_types().items()}
+        rows = []
+        for entry in self._entries:
+            if isinstance(entry, Runner):
+                display = entry.display
+                statuses = self._statuses_of(entry, frames)
+                name = names.get(type(display), type(display).__name__)
+                rows.append(Row(entry.id, name, display, display.name, statuses))
+            else:
+                id, lost = entry
+                status = {"Config": Status(Level.ERROR, lost.reason)}
+                rows.append(Row(id, "", None, lost.name, status))
+        topics = {
+            topic: tuple(sorted({p.type for p in offer.publishers}))
+            for topic, offer in offers.items()
+        }
+        return State(
+            tuple(rows),
+            self.settings.fixed_frame,
+            tuple(sorted(self.buffer.frames())),
+            topics,
+            {"Fixed Frame": self._fixed_frame_status(), **self._statuses},
+        )
+
+    def config(self) -> Config:
+        """What to save to come back to this."""
+        displays = [e.display if isinstance(e, Runner) else e[1] for e in self._entries]
+        return Config(self.settings, displays)
+
+    # Commands
+
+    def _obey(self) -> bool:
+        obeyed = False
+        while not self._commands.empty():
+            command = self._commands.get_nowait()
+            obeyed = True
+            try:
+                self._do(command)
+            except (msgspec.ValidationError, AttributeError, KeyError) as error:
+                log.warning("Refused %s: %s", command, error)
+        return obeyed
+
+    def _do(self, command: Command) -> None:
+        match command:
+            case SetProperty(id, path, value):
+                for runner in self._runners():
+                    if runner.id == id:
+                        runner.set(path, value)
+            case AddDisplay(type, values):
+                self._append(make(display_types()[type], values))
+            case RemoveDisplay(id):
+                for runner in self._runners():
+                    if runner.id == id:
+                        runner.close()
+                self._entries = [e for e in self._entries if _id(e) != id]
+            case SetFixedFrame(frame):
+                self.settings = msgspec.structs.replace(self.settings, fixed_frame=frame)
+            case Reset():
+                self._reset()
+
+    def _append(self, display: Display | Unreadable) -> None:
+        self._made += 1
+        id = f"display{self._made}"
+        if isinstance(display, Unreadable):
+            log.warning("%s", display.reason)
+            self._entries.append((id, display))
+        else:
+            self._entries.append(Runner(id, display, self._services))
+
+    def _reset(self) -> None:
+        self.buffer.clear()
+        for runner in self._runners():
+            runner.reset()
+
+    # Parts of a turn
+
+    def _runners(self) -> list[Runner]:
+        return [entry for entry in self._entries if isinstance(entry, Runner)]
+
+    def _take_transforms(self, cdr: bytes, is_static: bool) -> None:
+        topic = "/tf_static" if is_static else "/tf"
+        try:
+            message: TFMessage = decode(TF_TYPE, cdr)
+        except MessageError as error:
+            self._statuses[topic] = Status(Level.ERROR, f"{topic}: {error}")
+            return
+        self._statuses.pop(topic, None)
+        for t in message.transforms:
+            self.buffer.set_transform(
+                t.parent, t.child, t.stamp_ns, t.translation, t.rotation, is_static, topic
+            )
+
+    def _wanted(self) -> Mapping[str, Subscription]:
+        """All subscriptions by topic. The first display decides on the type and QoS of a topic."""
+        wanted = {
+            topic: Subscription(TF_TYPE, Topic(topic), latched=is_static)
+            for topic, is_static in TF_TOPICS.items()
+        }
+        for runner in self._runners():
+            for name, subscription in runner.subscriptions().items():
+                wanted.setdefault(name, subscription)
+        return wanted
+
+    def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
+        return runner.statuses(self._source.offers(), frames, self._source.inbox.dropped)
+
+    def _fixed_frame_status(self) -> Status:
+        fixed_frame, known = self.settings.fixed_frame, self.buffer.frames()
+        if fixed_frame in known:
+            return Status(Level.OK, "OK")
+        if not known:
+            return Status(
+                Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
+            )
+        hint = config_file.nearest(fixed_frame, known)
+        return Status(Level.ERROR, f"Nobody publishes a frame named {fixed_frame}: {hint}")
+
+    def _wake(self) -> None:
+        self._source.inbox.arrived.set()
+
+
+def _id(entry: Runner | tuple[str, Unreadable]) -> str:
+    return entry.id if isinstance(entry, Runner) else entry[0]
