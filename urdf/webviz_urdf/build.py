@@ -96,7 +96,7 @@ class _Builder:
             name = element.name or f"{kind}_{index}"
             if name in shapes:
                 name = f"{name}_{index}"
-            geometry = element.geometry
+            geometry = element.geometry or yourdfpy.Geometry()
             try:
                 node = self._node(geometry, material)
             except (ResolveError, MeshError) as error:

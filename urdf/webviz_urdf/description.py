@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import yourdfpy
-from lxml import etree
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 from trimesh.transformations import quaternion_from_matrix
 
 from webviz.nodes import Pose
@@ -79,8 +79,8 @@ def _joint(joint: yourdfpy.Joint) -> Joint:
         )
     x, y, z = (float(v) for v in joint.axis)  # pyright: ignore[reportOptionalIterable]
     length = math.hypot(x, y, z) or 1.0
-    limit, mimic = joint.limit, joint.mimic
-    has_limits = limit is not None and joint.type in ("revolute", "prismatic")
+    limit = joint.limit if joint.type in ("revolute", "prismatic") else None
+    mimic = joint.mimic
     return Joint(
         name=joint.name,
         type=joint.type,
@@ -89,8 +89,8 @@ def _joint(joint: yourdfpy.Joint) -> Joint:
         origin=pose_of(joint.origin),
         axis=(x / length, y / length, z / length),
         # urdfdom: a bound left out is 0.
-        limits=(limit.lower or 0.0, limit.upper or 0.0) if has_limits else None,
-        mimic=mimic and Mimic(mimic.joint, mimic.multiplier, mimic.offset),
+        limits=limit and (limit.lower or 0.0, limit.upper or 0.0),
+        mimic=mimic and Mimic(mimic.joint, mimic.multiplier or 0.0, mimic.offset or 0.0),
     )
 
 
@@ -141,16 +141,10 @@ def _drop_broken_mimics(joints: dict[str, Joint]) -> list[str]:
                 leader = joints[leader.mimic.joint]
                 seen.add(leader.name)
                 continue
-            joints[leader.name] = _free(leader)
+            joints[leader.name] = replace(leader, mimic=None)
             warnings.append(f"Joint '{leader.name}' {reason}; it is drawn as a free joint.")
             break
     return warnings
-
-
-def _free(joint: Joint) -> Joint:
-    return Joint(
-        joint.name, joint.type, joint.parent, joint.child, joint.origin, joint.axis, joint.limits
-    )
 
 
 def _listed(names: list[str], most: int = 5) -> str:

@@ -128,8 +128,8 @@ class _Writer:
             attributes["NORMAL"] = self._accessor(part.normals, _FLOAT)
         if part.uvs is not None:
             # glTF counts v from the upper edge.
-            uvs = part.uvs * np.float32((1, -1)) + np.float32((0, 1))
-            attributes["TEXCOORD_0"] = self._accessor(uvs, _FLOAT)
+            u, v = part.uvs.T
+            attributes["TEXCOORD_0"] = self._accessor(np.stack((u, 1.0 - v), axis=1), _FLOAT)
         if part.colors is not None:
             linear = part.colors / 255.0
             linear[:, :3] = srgb_to_linear(linear[:, :3])

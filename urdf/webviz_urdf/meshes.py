@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from webviz.nodes import U8
+from webviz_urdf.dae import without_broken_materials
 from webviz_urdf.glb import Part, Surface
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.textures import TextureFolder, encode
@@ -86,9 +89,7 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
         size = path.stat().st_size
         if size > MAX_FILE_SIZE:
             raise MeshError(f"{path} has {size / 2**20:.0f} MB, more than the viewer loads.")
-        with path.open("rb") as file:
-            scene = trimesh.load_scene(file, file_type=suffix, resolver=textures, process=False)
-        parts = tuple(_parts(scene, is_dae=suffix in ("dae", "zae")))
+        parts, broken = _read(path.read_bytes(), suffix, textures)
     except MeshError:
         raise
     except Exception as error:
@@ -96,8 +97,20 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
         raise MeshError(f"{path} cannot be read as a mesh: {_one_line(error)}.") from error
     if not parts:
         raise MeshError(f"{path} has no triangles.")
-    warnings = tuple(f"Texture {name} of {path} {why}." for name, why in textures.problems.items())
-    return MeshFile(parts, warnings)
+    warnings = [f"'{name}', which {path} names, is not found." for name in textures.not_found]
+    warnings += [f"Material '{name}' of {path} is not completely defined." for name in broken]
+    return MeshFile(tuple(parts), tuple(warnings))
+
+
+def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[Part], list[str]]:
+    """The file's parts, and the ids of materials that could not be used."""
+    if suffix != "dae":
+        return _parts(data, suffix, textures), []
+    parts = _parts(data, suffix, textures)
+    if len(parts) >= data.count(b"<instance_geometry"):
+        return parts, []
+    data, broken = without_broken_materials(data)
+    return (_parts(data, suffix, textures) if broken else parts), broken
 
 
 def scaled(part: Part, scale: Scale) -> Part:
@@ -114,45 +127,48 @@ def scaled(part: Part, scale: Scale) -> Part:
     return replace(part, vertices=part.vertices * factors, faces=faces, normals=normals)
 
 
-def _parts(scene: trimesh.Scene, is_dae: bool) -> list[Part]:
+def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[Part]:
+    scene = trimesh.load_scene(io.BytesIO(data), suffix, resolver=textures, process=False)
     parts = []
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
         mesh = scene.geometry[name]
-        if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
-            continue
-        unit = _unit_metres(mesh) if is_dae else 1.0
-        parts.append(_part(mesh, np.asarray(transform, np.float64), unit))
+        if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
+            unit = _unit_metres(mesh) if suffix in ("dae", "zae") else 1.0
+            parts.append(_part(mesh, np.asarray(transform, np.float64), unit))
     return parts
 
 
 def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> Part:
     """The mesh in the scene's frame, in metres."""
-    vertices = np.asarray(mesh.vertices)
-    faces = np.asarray(mesh.faces)
-    # Asking trimesh for normals that the file does not give would compute smooth ones.
-    given = mesh._cache.cache.get("vertex_normals")
-    normals = None if given is None else np.asarray(given)
-    linear = transform[:3, :3]
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if not np.isfinite(vertices).all():
+        raise ValueError("a vertex is not finite")
+    surface, uvs = _surface(mesh)
+    colors = _vertex_colors(mesh)
+    # trimesh has no public way to ask whether the file gave normals; without, it computes some.
+    normals = mesh._cache.cache.get("vertex_normals")
+    if normals is None:
+        # Flat facets, as RViz draws a file without normals: every facet has its own corners.
+        corners = faces.reshape(-1)
+        vertices, faces = vertices[corners], np.arange(len(corners)).reshape(-1, 3)
+        uvs = None if uvs is None else uvs[corners]
+        colors = None if colors is None else colors[corners]
     if not np.array_equal(transform, np.eye(4)):
+        linear = transform[:3, :3]
         vertices = vertices @ linear.T + transform[:3, 3]
         if np.linalg.det(linear) < 0.0:
             faces = faces[:, ::-1]
         if normals is not None:
             normals = normals @ np.linalg.pinv(linear)
-    surface, uvs = _surface(mesh)
-    colors = _vertex_colors(mesh)
-    part = Part(
+    return Part(
         (vertices * unit).astype(np.float32),
         np.ascontiguousarray(faces, np.uint32),
         surface or (Surface() if colors is not None else None),
-        None if normals is None else _unit(normals.astype(np.float32)),
+        None if normals is None else _unit(np.asarray(normals, np.float32)),
         uvs,
         colors,
     )
-    if not np.isfinite(part.vertices).all():
-        raise MeshError("a vertex is not finite")
-    return part
 
 
 def _unit_metres(mesh: trimesh.Trimesh) -> float:
@@ -163,7 +179,7 @@ def _unit_metres(mesh: trimesh.Trimesh) -> float:
 
 def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
     """The file's own material, None if it names none, and texture coordinates."""
-    visual = mesh.visual
+    visual: Any = mesh.visual
     if visual.kind != "texture":
         return None, None
     uvs = None if visual.uv is None else np.asarray(visual.uv, np.float32)
@@ -183,9 +199,10 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
 
 
 def _vertex_colors(mesh: trimesh.Trimesh) -> U8 | None:
-    if mesh.visual.kind not in ("vertex", "face"):
+    visual: Any = mesh.visual
+    if visual.kind not in ("vertex", "face"):
         return None
-    return np.asarray(mesh.visual.vertex_colors, np.uint8)
+    return np.asarray(visual.vertex_colors, np.uint8)
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

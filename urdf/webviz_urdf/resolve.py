@@ -97,11 +97,12 @@ class Resolver:
         return _existing(self.base / path)
 
     def _package(self, rest: str) -> Path:
-        package, _, path = rest.partition("/")
+        # Some files in the wild have a third slash: package:///name/mesh.stl.
+        package, _, path = rest.lstrip("/").partition("/")
         for text in dict.fromkeys((path, unquote(path))):
             if os.path.isabs(text) or os.path.normpath(text).split(os.sep)[0] == "..":
                 raise ResolveError(f"'package://{rest}' leaves its package by '..'.")
-        folders = list(dict.fromkeys(self._package_folders(package))) if package else []
+        folders = list(dict.fromkeys(self._package_folders(package))) if package.strip(".") else []
         if not folders:
             raise ResolveError(
                 f"Package '{package}' is neither on AMENT_PREFIX_PATH nor below the given package "

@@ -24,24 +24,24 @@ class TextureFolder(TrimeshResolver):
 
     def __init__(self, folder: Path, resolver: Resolver) -> None:
         self._resolver = resolver.relative_to(folder)
-        self.problems: dict[str, str] = {}
+        self.not_found: dict[str, None] = {}
 
-    def get(self, name: str) -> bytes:
-        """Content of the file `name`.
+    def get(self, key: str) -> bytes:
+        """Content of the file `key`.
 
         Raises:
-            ResolveError: it is not found; `problems` then says so.
+            ResolveError: it is not found; `not_found` then has it.
         """
         # Exporters on Windows write backslashes, and absolute paths of the author's machine.
-        plain = name.replace("\\", "/")
-        for candidate in (name, plain, plain.rpartition("/")[2]):
+        plain = key.replace("\\", "/")
+        for candidate in (key, plain, plain.rpartition("/")[2]):
             try:
                 path = self._resolver.resolve(candidate)
             except ResolveError:
                 continue
             return path.read_bytes()
-        self.problems[name] = "is not found"
-        raise ResolveError(f"There is no file '{name}'.")
+        self.not_found[key] = None
+        raise ResolveError(f"There is no file '{key}'.")
 
     def keys(self) -> list[str]:
         """Nothing is listed: files are looked up by name only."""
