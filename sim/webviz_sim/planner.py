@@ -1,0 +1,212 @@
+"""Paths around walls: A* on a grid of clearances, then smoothing."""
+
+import heapq
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz_sim.pose import Pose
+from webviz_sim.robot import RADIUS
+from webviz_sim.world import World
+
+MARGIN = 0.08  # m between the robot and a wall, at the least
+COMFORT = 0.55  # m of clearance beyond which more is not worth a detour
+CELL = 0.1  # m, edge of a planning cell, unless the world's cells are larger
+SPACING = 0.05  # m between the points of a path
+
+_STEPS = [
+    (row, column, math.hypot(row, column))
+    for row in (-1, 0, 1)
+    for column in (-1, 0, 1)
+    if (row, column) != (0, 0)
+]
+
+Cell = tuple[int, int]
+"""Row and column in the planning grid."""
+
+
+class Planner:
+    """Plans in one world."""
+
+    def __init__(self, world: World):
+        self._world = world
+        self._stride = max(1, round(CELL / world.resolution))
+        reach = math.ceil(COMFORT / world.resolution) + 1
+        self._distance = obstacle_distance(~world.traversable, reach) * world.resolution
+        self._offset = self._stride // 2
+        coarse = slice(self._offset, None, self._stride)
+        self._clearance = self._distance[coarse, coarse]
+        self._open = self._clearance >= RADIUS + MARGIN
+        # From 1 in the open to 4 beside a wall, for each metre of the way.
+        near = (COMFORT - self._clearance) / (COMFORT - RADIUS - MARGIN)
+        self._cost = 1.0 + 3.0 * np.clip(near, 0.0, 1.0)
+
+    def plan(self, start: Pose, goal: Pose) -> NDArray[np.float64] | None:
+        """Plans a path which keeps the robot clear of walls and of unknown space.
+
+        Args:
+            start: In the map frame. Where the robot has no clearance, the path begins at the
+                nearest place where it has.
+            goal: In the map frame; likewise. The yaw does not matter.
+
+        Returns:
+            Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None where
+            there is no way.
+        """
+        source, target = self._nearest_open(start), self._nearest_open(goal)
+        if source is None or target is None:
+            return None
+        came_from = self._search(source, target)
+        if target not in came_from:
+            return None
+        cells = [target]
+        while cells[-1] != source:
+            cells.append(came_from[cells[-1]])
+        points = self._to_map(np.array(cells[::-1], dtype=float))
+        for end, pose in ((0, start), (-1, goal)):
+            if self._has_clearance(np.array([[pose.x, pose.y]]))[0]:
+                points[end] = pose.x, pose.y
+        return self._smooth(_resample(points))
+
+    def spread(self, start: Pose, count: int) -> list[Pose]:
+        """Chooses places to visit: reachable, with room around, and far from one another.
+
+        Each place is the one farthest from all chosen before (farthest-point sampling).
+
+        Args:
+            start: In the map frame.
+            count: How many places at most.
+        """
+        source = self._nearest_open(start)
+        if source is None:
+            return []
+        places = self._roomy(np.array(sorted(self._search(source, None))))
+        nearest = np.hypot(*(places - (start.x, start.y)).T)
+        chosen = []
+        while len(chosen) < count and nearest.max() > 2.0 * RADIUS:
+            place = places[nearest.argmax()]
+            chosen.append(Pose(float(place[0]), float(place[1])))
+            nearest = np.minimum(nearest, np.hypot(*(places - place).T))
+        return chosen
+
+    def roomy_pose(self) -> Pose | None:
+        """A place with room around it near the middle of the free space; None without any."""
+        cells = np.argwhere(self._open)
+        if not len(cells):
+            return None
+        places = self._roomy(cells)
+        middle = self._to_map(cells.astype(float)).mean(axis=0)
+        x, y = places[np.hypot(*(places - middle).T).argmin()]
+        return Pose(float(x), float(y))
+
+    def _roomy(self, cells: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Those of the cells with at least the usual room around them, in the map frame."""
+        clearance = self._clearance[tuple(cells.T)]
+        return self._to_map(cells[clearance >= min(COMFORT, np.median(clearance))].astype(float))
+
+    def _search(self, source: Cell, target: Cell | None) -> dict[Cell, Cell]:
+        """A* from a cell to another, or to all there are; maps each cell to the one before."""
+        came_from = {source: source}
+        costs = {source: 0.0}
+        queue = [(0.0, source)]
+        done = set()
+        while queue:
+            _, cell = heapq.heappop(queue)
+            if cell == target:
+                break
+            if cell in done:
+                continue
+            done.add(cell)
+            for other, step in self._neighbours(cell):
+                cost = costs[cell] + step
+                if cost < costs.get(other, math.inf):
+                    costs[other] = cost
+                    came_from[other] = cell
+                    ahead = math.dist(other, target) if target else 0.0
+                    heapq.heappush(queue, (cost + ahead, other))
+        return came_from
+
+    def _neighbours(self, cell: Cell) -> Iterator[tuple[Cell, float]]:
+        height, width = self._open.shape
+        for rows, columns, length in _STEPS:
+            row, column = cell[0] + rows, cell[1] + columns
+            if 0 <= row < height and 0 <= column < width and self._open[row, column]:
+                yield (row, column), length * self._cost[row, column]
+
+    def _nearest_open(self, pose: Pose) -> Cell | None:
+        x, y, _ = self._world.to_grid(pose)
+        cells = np.argwhere(self._open)
+        if not len(cells):
+            return None
+        here = (np.array([y, x]) - self._offset - 0.5) / self._stride
+        row, column = cells[np.hypot(*(cells - here).T).argmin()]
+        return int(row), int(column)
+
+    def _to_map(self, cells: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Centres of planning cells (row, column) in the map frame (x, y)."""
+        return self._world.to_map(cells[:, ::-1] * self._stride + self._offset + 0.5)
+
+    def _has_clearance(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        height, width = self._distance.shape
+        columns, rows = np.floor(self._world.to_cells(points)).astype(int).T
+        inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+        index = np.where(inside, rows, 0), np.where(inside, columns, 0)
+        return inside & (self._distance[index] >= RADIUS + MARGIN)
+
+    def _smooth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Moves each point towards the middle of its neighbours, again and again, if it may."""
+        for _ in range(80):
+            moved = 0.5 * points[1:-1] + 0.25 * (points[:-2] + points[2:])
+            allowed = self._has_clearance(moved)
+            points[1:-1][allowed] = moved[allowed]
+        return _resample(points)
+
+
+def obstacle_distance(obstacles: NDArray[np.bool_], reach: int) -> NDArray[np.float32]:
+    """Distance from the middle of each cell to the nearest obstacle cell, in cells.
+
+    A Euclidean distance transform in two passes, first along the columns, then across them,
+    exact up to `reach` and cut off there. Beyond the edge of the grid there is obstacle.
+
+    Args:
+        obstacles: Shape (height, width).
+        reach: The largest distance of interest, in cells.
+
+    Returns:
+        Shape (height, width).
+    """
+    padded = np.pad(obstacles, 1, constant_values=True)
+
+    def squared(steps: int) -> float:
+        return max(0.0, steps - 0.5) ** 2  # to the near edge of a cell so many steps away
+
+    vertical = np.where(padded, 0.0, float(reach) ** 2).astype(np.float32)
+    for steps in range(1, reach + 1):
+        for shifted, source in _shifts(steps):
+            near = np.where(padded[source], np.float32(squared(steps)), np.inf)
+            np.minimum(vertical[shifted], near, out=vertical[shifted])
+    both = vertical.copy()
+    for steps in range(1, reach + 1):
+        for shifted, source in _shifts(steps):
+            near = vertical.T[source] + np.float32(squared(steps))
+            np.minimum(both.T[shifted], near, out=both.T[shifted])
+    return np.sqrt(both[1:-1, 1:-1])
+
+
+def _shifts(steps: int) -> list[tuple[slice, slice]]:
+    """Pairs of row ranges: those that have a row so many steps before or after, and that row."""
+    return [
+        (slice(steps, None), slice(None, -steps)),
+        (slice(None, -steps), slice(steps, None)),
+    ]
+
+
+def _resample(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same line with points about `SPACING` apart; at least two, the ends kept."""
+    lengths = np.hypot(*np.diff(points, axis=0).T) if len(points) > 1 else np.zeros(0)
+    travelled = np.concatenate([[0.0], np.cumsum(lengths)])
+    count = max(2, math.ceil(travelled[-1] / SPACING) + 1)
+    at = np.linspace(0.0, travelled[-1], count)
+    return np.column_stack([np.interp(at, travelled, points[:, axis]) for axis in (0, 1)])

@@ -1,0 +1,97 @@
+"""The robot's body: how a differential drive moves, and what walls do to it."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from webviz_sim.pose import Pose
+from webviz_sim.world import World
+
+# Of the bundled robot (webviz_urdf/demo/robot.urdf), in metres.
+WHEEL_RADIUS = 0.05
+WHEEL_SEPARATION = 0.30
+RADIUS = 0.20  # of the circle around base_link which contains the robot
+
+MAX_LINEAR = 0.6  # m/s
+MAX_ANGULAR = 2.0  # rad/s
+
+
+def drive(pose: Pose, linear: float, angular: float, seconds: float) -> Pose:
+    """Moves a pose with constant velocities for a while: exactly, along a circular arc.
+
+    Args:
+        pose: Where to start.
+        linear: Forward velocity in m/s.
+        angular: Counter-clockwise velocity in rad/s.
+        seconds: How long.
+    """
+    half = 0.5 * angular * seconds
+    # The chord of the arc; np.sinc(x) is sin(pi x) / (pi x) and well behaved at 0.
+    chord = linear * seconds * float(np.sinc(half / math.pi))
+    return pose @ Pose(chord * math.cos(half), chord * math.sin(half), 2.0 * half)
+
+
+@dataclass
+class Robot:
+    """A kinematic differential-drive robot in a world."""
+
+    world: World
+    pose: Pose
+    """base_link in the map frame: the truth."""
+    random: np.random.Generator
+    drift: float = 0.0
+    """Standard deviation of the odometry's error, as a fraction of the motion of one step."""
+    odometry: Pose = Pose()
+    """base_link in the odom frame, as the wheels tell it."""
+    linear: float = 0.0
+    angular: float = 0.0
+    """The velocities of the last step, in m/s and rad/s, after limits and walls."""
+    wheels: list[float] = field(default_factory=lambda: [0.0, 0.0])
+    """Angles of the left and the right wheel, in radians."""
+
+    def step(self, linear: float, angular: float, seconds: float) -> None:
+        """Moves with the commanded velocities, as far as limits and walls allow.
+
+        At a wall the wheels stall: the robot stops where it touches, and can still turn on the
+        spot or drive away.
+        """
+        linear = min(max(linear, -MAX_LINEAR), MAX_LINEAR)
+        angular = min(max(angular, -MAX_ANGULAR), MAX_ANGULAR)
+        linear *= self._free_fraction(linear, angular, seconds)
+        self.pose = drive(self.pose, linear, angular, seconds)
+        slip, skew = 1.0 + self.drift * self.random.standard_normal(2)
+        self.odometry = drive(self.odometry, linear * slip, angular * skew, seconds)
+        self.linear, self.angular = linear, angular
+        for wheel, side in enumerate((-0.5, 0.5)):
+            speed = (linear + side * WHEEL_SEPARATION * angular) / WHEEL_RADIUS
+            self.wheels[wheel] += speed * seconds
+
+    @property
+    def wheel_speeds(self) -> tuple[float, float]:
+        """Angular velocities of the left and the right wheel in rad/s."""
+        turn = 0.5 * WHEEL_SEPARATION * self.angular
+        return (self.linear - turn) / WHEEL_RADIUS, (self.linear + turn) / WHEEL_RADIUS
+
+    def _free_fraction(self, linear: float, angular: float, seconds: float) -> float:
+        """How much of a step's forward motion is possible: 1, or less where a wall is met."""
+        if linear == 0.0:
+            return 0.0
+        before = self.world.clearance(self.pose, RADIUS)
+
+        def fits(fraction: float) -> bool:
+            pose = drive(self.pose, linear * fraction, angular, seconds)
+            clearance = self.world.clearance(pose, RADIUS)
+            # A robot put into a wall may leave it.
+            return clearance >= RADIUS or clearance > before
+
+        # A step is split so finely that no wall fits between two places looked at.
+        pieces = math.ceil(abs(linear) * seconds / (0.5 * self.world.resolution))
+        blocked = next((i for i in range(1, pieces + 1) if not fits(i / pieces)), None)
+        if blocked is None:
+            return 1.0
+        free, wall = (blocked - 1) / pieces, blocked / pieces
+        for _ in range(8):
+            middle = 0.5 * (free + wall)
+            free, wall = (middle, wall) if fits(middle) else (free, middle)
+        return free

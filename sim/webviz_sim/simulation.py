@@ -1,0 +1,161 @@
+"""The whole simulation, without ROS: who drives, and what happens in one step."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz_sim.follower import Follower
+from webviz_sim.planner import Planner
+from webviz_sim.pose import Pose
+from webviz_sim.robot import RADIUS, Robot
+from webviz_sim.world import World, WorldError
+
+RESUME_AFTER = 2.0  # s without a command after which the robot follows its own path again
+REST = 1.0  # s at each place of the tour
+REST_AT_GOAL = 5.0  # s at a goal somebody gave, before the tour goes on
+PATIENCE = 6.0  # s without progress after which a path is given up
+PROGRESS = 0.05  # m
+
+
+@dataclass
+class Settings:
+    """What may change while the simulation runs."""
+
+    tour: bool = True
+    """Whether the robot tours the world when nobody commands it."""
+    tour_speed: float = 0.35
+    """How fast it follows a path, in m/s."""
+    command_timeout: float = 0.5
+    """How long a velocity command holds, in seconds."""
+    odom_drift: float = 0.0
+    """See `Robot.drift`."""
+
+
+class Simulation:
+    """A robot in a world, and whoever drives it, in steps of fixed length.
+
+    Commands go before goals, goals before the tour. A command drops the goal; once there has
+    been none for `RESUME_AFTER`, the tour goes on, if there is to be one. The same calls in the
+    same order give the same states, whatever the speed of the machine.
+    """
+
+    def __init__(self, world: World, settings: Settings, start: Pose | None = None, seed: int = 0):
+        """Puts the robot into the world.
+
+        Args:
+            world: The world.
+            settings: May be changed between steps.
+            start: Where the robot starts, in the map frame; None: where there is room, near the
+                middle of the free space.
+            seed: Of the odometry's drift.
+
+        Raises:
+            WorldError: The world has no room for the robot.
+        """
+        self.world = world
+        self.settings = settings
+        self.planner = Planner(world)
+        start = start or self.planner.roomy_pose()
+        if start is None:
+            raise WorldError(
+                f"The world has no free place with {RADIUS:g} m around it for the robot to start."
+            )
+        self.robot = Robot(world, start, np.random.default_rng(seed))
+        self.time = 0.0
+        self.places = self.planner.spread(start, count=12)
+        """The tour: where the robot goes next comes first."""
+        self._command = (0.0, 0.0)
+        self._commanded_at = -math.inf
+        self._follower: Follower | None = None
+        self._touring = False
+        self._rest_until = 0.0
+        self._progress = (start, 0.0)
+
+    @property
+    def path(self) -> NDArray[np.float64]:
+        """The planned path from here on, in the map frame, shape (n, 2)."""
+        return self._follower.remaining() if self._follower else np.empty((0, 2))
+
+    def command(self, linear: float, angular: float) -> None:
+        """Takes over: velocities in m/s and rad/s, which hold for `command_timeout`."""
+        self._command = linear, angular
+        self._commanded_at = self.time
+        self._follower = None
+
+    def go_to(self, goal: Pose) -> bool:
+        """Plans a path to a goal in the map frame and follows it; False if there is none."""
+        path = self.planner.plan(self.robot.pose, goal)
+        if path is None:
+            return False
+        self._follow(Follower(path, goal.yaw), touring=False)
+        self._commanded_at = -math.inf
+        return True
+
+    def put(self, pose: Pose) -> None:
+        """Puts the robot somewhere else in the map; the odometry does not notice."""
+        self.robot.pose = pose
+        self._follower = None
+
+    def reset_odometry(self) -> None:
+        """Makes the place where the robot stands the origin of the odom frame."""
+        self.robot.odometry = Pose()
+
+    def step(self, seconds: float) -> None:
+        """Lets time pass."""
+        linear, angular = self._velocity(seconds)
+        self.robot.drift = self.settings.odom_drift
+        self.robot.step(linear, angular, seconds)
+        self.time += seconds
+
+    def _velocity(self, seconds: float) -> tuple[float, float]:
+        since = self.time - self._commanded_at
+        if since < self.settings.command_timeout:
+            return self._command
+        if since < RESUME_AFTER:
+            return 0.0, 0.0
+        if self._follower is None and self._touring_now():
+            self._next_place()
+        follower = self._follower
+        if follower is None:
+            return 0.0, 0.0
+        if self._touring and not self.settings.tour:
+            self._follower = None
+            return 0.0, 0.0
+        robot = self.robot
+        velocity = follower.step(
+            robot.pose, (robot.linear, robot.angular), self.settings.tour_speed, seconds
+        )
+        if follower.done:
+            self._arrive()
+        elif self._is_stuck():
+            self._follower = None
+        return velocity
+
+    def _touring_now(self) -> bool:
+        return self.settings.tour and bool(self.places) and self.time >= self._rest_until
+
+    def _next_place(self) -> None:
+        """Sets out for the place of the tour after the last one."""
+        place = self.places.pop(0)
+        self.places.append(place)
+        path = self.planner.plan(self.robot.pose, place)
+        if path is not None:
+            self._follow(Follower(path), touring=True)
+
+    def _follow(self, follower: Follower, touring: bool) -> None:
+        self._follower, self._touring = follower, touring
+        self._progress = (self.robot.pose, self.time)
+
+    def _arrive(self) -> None:
+        self._rest_until = self.time + (REST if self._touring else REST_AT_GOAL)
+        self._follower = None
+
+    def _is_stuck(self) -> bool:
+        """Whether the robot has neither moved nor turned for a while though it had a path."""
+        pose, since = self._progress
+        here = self.robot.pose
+        if math.dist(pose[:2], here[:2]) > PROGRESS:
+            self._progress = (here, self.time)
+        return self.time - since > PATIENCE

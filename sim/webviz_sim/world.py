@@ -1,0 +1,223 @@
+"""The world: an occupancy image and its yaml, read as nav2's map_server reads them."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from ruamel.yaml import YAML, YAMLError
+
+from webviz_sim.pose import Pose
+
+OCCUPIED, FREE, UNKNOWN = 100, 0, -1
+
+# The occupancies from which map_saver, by its defaults, takes a cell for occupied or free.
+OCCUPIED_FROM, FREE_BELOW = 65, 25
+
+
+class WorldError(ValueError):
+    """A world cannot be loaded; the text is one sentence that says why."""
+
+
+@dataclass(frozen=True)
+class World:
+    """An occupancy grid, placed in the map frame."""
+
+    cells: NDArray[np.int8]
+    """Shape (height, width): 0 free to 100 occupied, -1 unknown; row 0 is at the origin."""
+    resolution: float
+    """Edge of a cell in metres."""
+    origin: Pose
+    """The outer corner of cell (0, 0) in the map frame; rows run along its y axis."""
+
+    @cached_property
+    def occupied(self) -> NDArray[np.bool_]:
+        """Shape (height, width): where beams end and the robot cannot be."""
+        return self.cells >= OCCUPIED_FROM
+
+    @cached_property
+    def traversable(self) -> NDArray[np.bool_]:
+        """Shape (height, width): where the robot is known to be able to go."""
+        return (self.cells >= FREE) & (self.cells < FREE_BELOW)
+
+    @cached_property
+    def _rotation(self) -> NDArray[np.float64]:
+        cos, sin = math.cos(self.origin.yaw), math.sin(self.origin.yaw)
+        return np.array([[cos, -sin], [sin, cos]])
+
+    def to_grid(self, pose: Pose) -> Pose:
+        """A pose of the map frame in the grid's own frame, with x and y in cells."""
+        local = self.origin.inverse() @ pose
+        return Pose(local.x / self.resolution, local.y / self.resolution, local.yaw)
+
+    def to_cells(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The reverse of `to_map`."""
+        return (points - (self.origin.x, self.origin.y)) @ self._rotation / self.resolution
+
+    def to_map(self, cells: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points in the map frame, in metres.
+
+        Args:
+            cells: Shape (n, 2), x and y in the grid's frame, in cells.
+
+        Returns:
+            Shape (n, 2), x and y in metres.
+        """
+        return cells * self.resolution @ self._rotation.T + (self.origin.x, self.origin.y)
+
+    def clearance(self, pose: Pose, reach: float) -> float:
+        """Distance from a point to the nearest wall, exactly; at most `reach`.
+
+        Beyond the edge of the grid there is wall.
+
+        Args:
+            pose: Where, in the map frame; the yaw does not matter.
+            reach: How far to look, in metres.
+        """
+        height, width = self.cells.shape
+        x, y, _ = self.to_grid(pose)
+        cells = reach / self.resolution
+        edge = max(0.0, min(x, y, width - x, height - y))
+        left, right = max(0, math.floor(x - cells)), max(0, math.ceil(x + cells))
+        low, high = max(0, math.floor(y - cells)), max(0, math.ceil(y + cells))
+        rows, columns = np.nonzero(self.occupied[low:high, left:right])
+        if len(rows):
+            # From a point to a unit square: how far it is outside, along each axis.
+            dx = np.maximum(np.abs(columns + (left + 0.5 - x)) - 0.5, 0.0)
+            dy = np.maximum(np.abs(rows + (low + 0.5 - y)) - 0.5, 0.0)
+            edge = min(edge, math.sqrt(np.min(dx * dx + dy * dy)))
+        return min(edge * self.resolution, reach)
+
+
+def load_world(path: str | Path) -> World:
+    """Reads a map as nav2's map_server does (nav2_map_server/src/map_io.cpp, Jazzy).
+
+    Args:
+        path: The yaml file; `image` in it is relative to the yaml's folder.
+
+    Raises:
+        WorldError: A file is missing or unreadable, or an entry is missing or wrong.
+    """
+    path = Path(path)
+    try:
+        entries = YAML(typ="safe", pure=True).load(path.read_text())
+    except OSError as error:
+        raise WorldError(f"Cannot read the world {path}: {error.strerror}.") from None
+    except (YAMLError, UnicodeDecodeError):
+        raise WorldError(f"The world {path} is not valid YAML.") from None
+    if not isinstance(entries, dict):
+        raise WorldError(f"The world {path} is not a mapping with image, resolution and origin.")
+    try:
+        return _read(entries, path.parent)
+    except WorldError as error:
+        raise WorldError(f"The world {path} is wrong: {error}.") from None
+
+
+def _read(entries: dict[str, Any], folder: Path) -> World:
+    resolution = _number(entries, "resolution")
+    if resolution <= 0:
+        raise WorldError(f"resolution must be above 0, not {resolution:g}")
+    origin = entries.get("origin")
+    if not (isinstance(origin, list) and len(origin) == 3 and all(map(_finite, origin))):
+        raise WorldError(f"origin must be three finite numbers (x, y, yaw), not {origin}")
+    image = entries.get("image")
+    if not isinstance(image, str) or not image:
+        raise WorldError("image must name a file")
+    mode = entries.get("mode", "trinary")
+    if mode not in ("trinary", "scale", "raw"):
+        raise WorldError(f"mode must be trinary, scale or raw, not {mode}")
+    shade, alpha = _load_image(folder / image)
+    cells = occupancy(
+        shade,
+        alpha,
+        mode=mode,
+        negate=_flag(entries, "negate"),
+        occupied_thresh=_number(entries, "occupied_thresh"),
+        free_thresh=_number(entries, "free_thresh"),
+    )
+    # Image rows run down, grid rows up.
+    return World(np.ascontiguousarray(cells[::-1]), resolution, Pose(*map(float, origin)))
+
+
+def occupancy(
+    shade: NDArray[np.float64],
+    alpha: NDArray[np.float64] | None,
+    *,
+    mode: str,
+    negate: bool,
+    occupied_thresh: float,
+    free_thresh: float,
+) -> NDArray[np.int8]:
+    """What map_server makes of an image.
+
+    Args:
+        shade: Shape (height, width), mean of the colour channels, 0 black to 1 white.
+        alpha: The same shape, 0 transparent to 1 opaque; None for an image without alpha.
+        mode: `trinary`: occupied, free or unknown; alpha counts as a fourth colour channel.
+            `scale`: between the thresholds, occupancies in proportion; transparent is unknown.
+            `raw`: a pixel of 0 to 100 out of 255 is the occupancy, all others are unknown.
+        negate: White is occupied and black free, instead of the reverse.
+        occupied_thresh: Above it a cell is occupied, from 0 to 1.
+        free_thresh: Below it a cell is free, from 0 to 1.
+
+    Returns:
+        Shape (height, width), 0 free to 100 occupied, -1 unknown.
+    """
+    if mode == "raw":
+        value = np.floor(shade * 255.0 + 0.5)
+        return np.where(value <= OCCUPIED, value, UNKNOWN).astype(np.int8)
+    if mode == "trinary" and alpha is not None:
+        shade = (3.0 * shade + alpha) / 4.0
+    occupied = shade if negate else 1.0 - shade
+    if mode == "trinary":
+        between = np.full(shade.shape, float(UNKNOWN))
+    else:
+        span = max(occupied_thresh - free_thresh, np.finfo(float).tiny)
+        between = np.rint(np.clip((occupied - free_thresh) / span, 0.0, 1.0) * OCCUPIED)
+    is_occupied, is_free = occupied > occupied_thresh, occupied < free_thresh
+    cells = np.select([is_occupied, is_free], [OCCUPIED, FREE], between)
+    if mode == "scale" and alpha is not None:
+        cells = np.where(alpha < 1.0, UNKNOWN, cells)
+    return cells.astype(np.int8)
+
+
+def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """The mean of the colours and the alpha of each pixel, both 0 to 1, top row first."""
+    try:
+        with Image.open(path) as image:
+            if image.mode.startswith("I"):  # 16 bits of grey
+                return np.asarray(image, dtype=np.float64) / 65535.0, None
+            has_alpha = "A" in image.getbands() or "transparency" in image.info
+            pixels = np.asarray(image.convert("RGBA"), dtype=np.float64) / 255.0
+    except FileNotFoundError:
+        raise WorldError(f"its image {path} does not exist") from None
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise WorldError(f"its image {path} cannot be read") from None
+    return pixels[..., :3].mean(axis=-1), pixels[..., 3] if has_alpha else None
+
+
+def _finite(value: object) -> bool:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_number and math.isfinite(value)
+
+
+def _number(entries: dict[str, Any], key: str) -> float:
+    if key not in entries:
+        raise WorldError(f"{key} is missing")
+    if not _finite(entries[key]):
+        raise WorldError(f"{key} must be a finite number, not {entries[key]}")
+    return float(entries[key])
+
+
+def _flag(entries: dict[str, Any], key: str) -> bool:
+    """An integer or a YAML 1.1 boolean, as map_server accepts."""
+    value = entries.get(key)
+    if isinstance(value, int):
+        return bool(value)
+    if isinstance(value, str) and value.lower() in ("yes", "on", "y", "no", "off", "n"):
+        return value.lower() in ("yes", "on", "y")
+    raise WorldError(f"{key} must be 0 or 1, not {value}")
