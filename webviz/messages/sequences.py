@@ -76,15 +76,16 @@ def read_poses(reader: Reader) -> PoseSequence:
 
 def read_stamped_poses(reader: Reader) -> PoseStampedSequence:
     """Read a `geometry_msgs/PoseStamped[]`, without a loop if all frame ids are equal."""
-    start = reader.pos
     count = reader.count()
+    behind_count = reader.pos
     if count == 0:
         return PoseStampedSequence()
-    evenly = _read_evenly_spaced(reader, count)
-    if evenly is not None:
-        return evenly
-    reader.pos = start
-    return _read_one_by_one(reader, reader.count())
+    if count > 1:
+        evenly_spaced = _read_evenly_spaced(reader, count)
+        if evenly_spaced is not None:
+            return evenly_spaced
+    reader.pos = behind_count
+    return _read_one_by_one(reader, count)
 
 
 def _read_evenly_spaced(reader: Reader, count: int) -> PoseStampedSequence | None:

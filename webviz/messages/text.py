@@ -23,11 +23,11 @@ def to_text(message: Any, max_lines: int = 100) -> str:
 
     Args:
         message: What `decode` returned.
-        max_lines: Lines beyond are replaced by a line with "...".
+        max_lines: How many lines at most; a longer text ends with a line "...".
     """
     lines = list(islice(_lines(message, ""), max_lines + 1))
     if len(lines) > max_lines:
-        lines[max_lines:] = ["..."]
+        lines[max_lines - 1 :] = ["..."]
     return "\n".join(lines)
 
 

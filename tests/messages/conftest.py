@@ -1,0 +1,103 @@
+"""rosbags' own encoder and decoder, which ours must agree with, and messages to try both on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from webviz.messages import FrameTransform
+from webviz.messages.classes import VECTORS
+from webviz.messages.definitions import DEFINITIONS
+
+VECTOR_NAMES = {name.rpartition("/")[2] for name in VECTORS}
+
+
+@pytest.fixture(scope="session")
+def rosbags_store() -> Any:
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for type_name, text in DEFINITIONS.items():
+        store.register(get_types_from_msg(text, type_name))
+    return store
+
+
+@pytest.fixture(scope="session")
+def random_message(rosbags_store: Any) -> Callable[[str, Random], Any]:
+    """Makes a message of rosbags', with sequences of 0 to 3 elements and strings of 0 to 9 bytes.
+
+    Hypothesis could draw every field, but needs seconds for a marker; it draws the seed.
+    """
+
+    def of_type(type_name: str, rng: Random) -> Any:
+        values = [
+            0 if name == "structure_needs_at_least_one_member" else value(description, rng)
+            for name, description in rosbags_store.fielddefs[type_name][1]
+        ]
+        return rosbags_store.types[type_name](*values)
+
+    def value(description: Any, rng: Random) -> Any:
+        kind, inner = description
+        if kind == Nodetype.NAME:
+            return of_type(inner, rng)
+        if kind == Nodetype.BASE:
+            return _primitive(inner[0], rng)
+        element, length = inner
+        count = length if kind == Nodetype.ARRAY else rng.randint(0, length or 3)
+        several = [value(element, rng) for _ in range(count)]
+        if element[0] == Nodetype.NAME or element[1][0] == "string":
+            return several
+        return np.array(several, _dtype(element[1][0]))
+
+    return of_type
+
+
+def _dtype(base: str) -> np.dtype:
+    return np.dtype({"byte": "uint8", "char": "uint8"}.get(base, base))
+
+
+def _primitive(base: str, rng: Random) -> Any:
+    if base == "string":
+        return "".join(rng.choices("map/Karte_\u00e4\u4e16", k=rng.randrange(6)))
+    if base == "bool":
+        return rng.random() < 0.5
+    if base.startswith("float"):
+        return rng.choice([0.0, -1.5, rng.randrange(10**6) / 64, float("inf")])
+    if base == "byte":  # rosbags takes it for signed, ROS for unsigned
+        return rng.randrange(128)
+    limits = np.iinfo(_dtype(base))
+    return rng.randint(int(limits.min), int(limits.max))
+
+
+@pytest.fixture(scope="session")
+def plain(rosbags_store: Any) -> Callable[[Any], Any]:
+    """Turns a message, of rosbags or of ours, into lists and dictionaries of one shape."""
+
+    def convert(value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            return value.tolist()
+        if isinstance(value, str | int | float):
+            return value
+        if isinstance(value, FrameTransform):
+            return [*value[:3], list(value.translation), list(value.rotation)]
+        if hasattr(value, "__len__"):
+            return [convert(element) for element in value]
+        if type_name := getattr(value, "__msgtype__", None):
+            names = [name for name, _ in rosbags_store.fielddefs[type_name][1]]
+            names = [name if hasattr(value, name) else f"{name}_" for name in names]
+        else:
+            type_name, names = type(value).__name__, value.__struct_fields__
+        items = {name: convert(getattr(value, name)) for name in names}
+        kind = type_name.rpartition("/")[2]
+        if kind == "Time":  # nanoseconds may exceed a second; they are compared in sum
+            return items["sec"] * 10**9 + items["nanosec"]
+        if kind == "TransformStamped":
+            parent, stamp = items["header"]["frame_id"], items["header"]["stamp"]
+            return [parent, items["child_frame_id"], stamp, *items["transform"].values()]
+        return list(items.values()) if kind in VECTOR_NAMES else items
+
+    return convert

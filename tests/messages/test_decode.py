@@ -1,0 +1,207 @@
+"""Decoded messages equal what independent implementations make of the same bytes."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+from webviz.messages import decode, message_class, peek_header
+from webviz.messages.classes import WRITTEN, attribute
+from webviz.messages.definitions import DEFINITIONS
+from webviz.messages.typestore import constants, fields
+
+BAGS = Path(__file__).parents[2] / "../shared/data/bags"
+ALL_TYPES = sorted({*get_typestore(Stores.ROS2_JAZZY).fielddefs, *DEFINITIONS})
+BUSY_TYPES = [
+    "geometry_msgs/msg/PoseArray",
+    "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "map_msgs/msg/OccupancyGridUpdate",
+    "nav_msgs/msg/OccupancyGrid",
+    "nav_msgs/msg/Odometry",
+    "nav_msgs/msg/Path",
+    "rosgraph_msgs/msg/Clock",
+    "sensor_msgs/msg/JointState",
+    "sensor_msgs/msg/LaserScan",
+    "sensor_msgs/msg/PointCloud2",
+    "std_msgs/msg/String",
+    "tf2_msgs/msg/TFMessage",
+    "visualization_msgs/msg/MarkerArray",
+]
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+@pytest.mark.parametrize("little_endian", [True, False], ids=["little", "big"])
+@pytest.mark.parametrize("type_name", BUSY_TYPES)
+@settings(deadline=None)
+@given(seed=SEEDS)
+def test_a_busy_type_is_decoded_as_rosbags_decodes_it(
+    type_name, little_endian, seed, rosbags_store, random_message, plain
+):
+    message = random_message(type_name, Random(seed))
+    cdr = bytes(rosbags_store.serialize_cdr(message, type_name, little_endian=little_endian))
+    assert plain(decode(type_name, cdr)) == plain(message)
+
+
+@pytest.mark.parametrize("type_name", ALL_TYPES)
+def test_every_known_type_is_decoded_as_rosbags_decodes_it(
+    type_name, rosbags_store, random_message, plain
+):
+    for seed in range(10):
+        message = random_message(type_name, Random(seed))
+        cdr = bytes(rosbags_store.serialize_cdr(message, type_name))
+        assert plain(decode(type_name, cdr)) == plain(message)
+
+
+@pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")  # ROS's own imports
+@pytest.mark.parametrize("type_name", [name for name in ALL_TYPES if name not in DEFINITIONS])
+def test_what_ros_itself_serialised_is_decoded(type_name, rosbags_store, random_message, plain):
+    serialization = pytest.importorskip("rclpy.serialization")
+    package, _, name = type_name.split("/")
+    try:
+        ros_class = getattr(import_module(f"{package}.msg"), name)
+    except ImportError:
+        pytest.skip(f"{package} is not installed")
+    for seed in range(10):
+        message = random_message(type_name, Random(seed))
+        cdr = bytes(rosbags_store.serialize_cdr(message, type_name))
+        ros_message = serialization.deserialize_message(cdr, ros_class)
+        from_ros = serialization.serialize_message(ros_message)
+        assert plain(decode(type_name, from_ros)) == plain(message)
+
+
+@pytest.mark.parametrize(
+    ("bag", "topic"),
+    [("nav2_turtlebot.mcap", "/tf"), ("macfirst_floor_take_2", "/scan")],
+)
+def test_messages_of_real_robots_are_decoded_as_rosbags_decodes_them(
+    bag, topic, rosbags_store, plain
+):
+    if not (BAGS / bag).exists():
+        pytest.skip(f"the recorded bag {bag} is not on this machine")
+    compared: dict[str, int] = {}
+    with AnyReader([BAGS / bag], default_typestore=rosbags_store) as reader:
+        for connection, _, cdr in reader.messages():
+            name = connection.msgtype
+            if name in ALL_TYPES and compared.setdefault(connection.topic, 0) < 20:
+                compared[connection.topic] += 1
+                expected = plain(rosbags_store.deserialize_cdr(cdr, name))
+                np.testing.assert_equal(plain(decode(name, cdr)), expected)
+    assert compared[topic] == 20
+
+
+@pytest.mark.parametrize("type_name", WRITTEN)
+def test_a_class_written_by_hand_has_the_fields_and_constants_of_its_definition(type_name):
+    written = message_class(type_name)
+    assert list(written.__struct_fields__) == [attribute(f.name) for f in fields(type_name)]
+    for name, value in constants(type_name).items():
+        assert getattr(written, name) == value
+
+
+@pytest.mark.parametrize("type_name", ALL_TYPES)
+def test_default_messages_have_the_types_that_decoding_gives(
+    type_name, rosbags_store, random_message
+):
+    message = random_message(type_name, Random(1))
+    decoded = decode(type_name, bytes(rosbags_store.serialize_cdr(message, type_name)))
+    default = message_class(type_name)()
+    for name in default.__struct_fields__:
+        ours, theirs = getattr(default, name), getattr(decoded, name)
+        assert type(ours) is type(theirs), name
+        if isinstance(ours, np.ndarray):
+            assert (ours.dtype, ours.shape[1:]) == (theirs.dtype, theirs.shape[1:])
+
+
+def test_the_default_rotation_is_the_identity():
+    assert message_class("geometry_msgs/msg/PoseStamped")().pose.orientation.w == 1.0
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 500])
+@pytest.mark.parametrize("frame_id", ["", "map", "odom", "base_footprint"])
+def test_poses_of_one_frame_are_views_of_the_received_bytes(count, frame_id, rosbags_store, plain):
+    path = _path(rosbags_store, [frame_id] * count)
+    cdr = bytes(rosbags_store.serialize_cdr(path, "nav_msgs/msg/Path"))
+    poses = decode("nav_msgs/msg/Path", cdr).poses
+    assert plain(poses) == plain(path.poses)
+    assert poses.positions.shape == (count, 3)
+    assert poses.orientations.shape == (count, 4)
+    assert poses.frame_ids == [frame_id] * count
+    assert not poses.positions.flags.writeable
+    if count > 1:
+        assert np.shares_memory(poses.positions, np.frombuffer(cdr, np.uint8))
+
+
+@pytest.mark.parametrize(
+    "frame_ids", [["map", "odom"], ["map", "map", "mop"], ["a", "abcdefgh", "a"], ["map", ""]]
+)
+def test_poses_of_different_frames_keep_theirs(frame_ids, rosbags_store, plain):
+    path = _path(rosbags_store, frame_ids)
+    cdr = bytes(rosbags_store.serialize_cdr(path, "nav_msgs/msg/Path"))
+    poses = decode("nav_msgs/msg/Path", cdr).poses
+    assert poses.frame_ids == frame_ids
+    assert plain(poses) == plain(path.poses)
+
+
+def _path(store, frame_ids):
+    types = {name.rpartition("/")[2]: kind for name, kind in store.types.items()}
+    poses = [
+        types["PoseStamped"](
+            types["Header"](types["Time"](number, 10**9 - 1), frame_id),
+            types["Pose"](
+                types["Point"](number, 0.5, -1.0), types["Quaternion"](0.0, 0.6, 0.0, 0.8)
+            ),
+        )
+        for number, frame_id in enumerate(frame_ids)
+    ]
+    return types["Path"](types["Header"](types["Time"](1, 2), "map"), poses)
+
+
+def test_large_arrays_are_read_only_views_of_the_received_bytes(rosbags_store, random_message):
+    for name, attribute_name in [("LaserScan", "ranges"), ("PointCloud2", "data")]:
+        message = random_message(f"sensor_msgs/msg/{name}", Random(3))
+        setattr(message, attribute_name, np.ones(1000, getattr(message, attribute_name).dtype))
+        cdr = bytes(rosbags_store.serialize_cdr(message, f"sensor_msgs/msg/{name}"))
+        array = getattr(decode(f"sensor_msgs/msg/{name}", cdr), attribute_name)
+        assert np.shares_memory(array, np.frombuffer(cdr, np.uint8))
+        assert not array.flags.writeable
+
+
+@pytest.mark.parametrize("little_endian", [True, False], ids=["little", "big"])
+@pytest.mark.parametrize("type_name", ALL_TYPES)
+def test_peeking_gives_the_header_that_decoding_gives(
+    type_name, little_endian, rosbags_store, random_message
+):
+    message = random_message(type_name, Random(7))
+    cdr = rosbags_store.serialize_cdr(message, type_name, little_endian=little_endian)
+    first = fields(type_name)[0]
+    if (first.base, first.size) == ("std_msgs/msg/Header", None):
+        header = getattr(decode(type_name, cdr), first.name)
+        assert peek_header(type_name, cdr) == (header.frame_id, header.stamp_ns)
+    else:
+        assert peek_header(type_name, cdr) is None
+
+
+def test_the_two_part_type_names_of_ros_1_and_bags_are_understood():
+    cdr = b"\x00\x01\x00\x00\x03\x00\x00\x00hi\x00"
+    assert decode("std_msgs/String", cdr).data == decode("std_msgs/msg/String", cdr).data == "hi"
+
+
+def test_stamps_keep_every_nanosecond():
+    cdr = b"\x00\x01\x00\x00" + (1_700_000_000).to_bytes(4, "little") + b"\x01\x00\x00\x00"
+    assert decode("rosgraph_msgs/msg/Clock", cdr).clock.ns == 1_700_000_000_000_000_001
+
+
+@pytest.mark.parametrize("kind", [bytes, bytearray, memoryview])
+def test_bytes_may_come_in_any_kind_of_buffer_and_arrays_are_read_only(kind):
+    cdr = bytes.fromhex("00010000 00000000 00000000 02000000 0000803f 00000040")
+    message = decode("std_msgs/msg/Float32MultiArray", kind(cdr))
+    assert message.data.tolist() == [1.0, 2.0]
+    assert not message.data.flags.writeable
