@@ -1,0 +1,1 @@
+"""The displays that come with webviz, one file each."""
