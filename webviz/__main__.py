@@ -1,0 +1,7 @@
+"""`python -m webviz` is `webviz`."""
+
+import sys
+
+from webviz.cli import main
+
+sys.exit(main())
