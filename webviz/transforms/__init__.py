@@ -12,18 +12,25 @@ from webviz.transforms.errors import (
     TimeoutException,
     TransformException,
 )
+from webviz.transforms.explain import Explanation, explain
+from webviz.transforms.filter import MessageFilter
+from webviz.transforms.many_frames import FramesIn
 
 __all__ = [
     "BackwardExtrapolationException",
     "ConnectivityException",
+    "Explanation",
     "ExtrapolationException",
     "ForwardExtrapolationException",
+    "FramesIn",
     "InvalidArgumentException",
     "LookupException",
+    "MessageFilter",
     "NoDataForExtrapolationException",
     "Rejection",
     "TimeoutException",
     "Transform",
     "TransformBuffer",
     "TransformException",
+    "explain",
 ]

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import isnan
+
+import numpy as np
+from numpy.typing import NDArray
 
 from webviz.transforms.cache import Cache, StaticCache, TimeCache
 from webviz.transforms.errors import (
@@ -15,6 +18,8 @@ from webviz.transforms.errors import (
     format_stamp,
 )
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
+from webviz.transforms.many_frames import FramesIn, poses_in
+from webviz.transforms.many_stamps import lookup_many
 from webviz.transforms.publishers import Publishers
 from webviz.transforms.tree import FrameTree
 
@@ -171,6 +176,42 @@ class TransformBuffer:
         """
         pose, stamp_ns = self._pose(target, source, stamp_ns)
         return _transform(pose, stamp_ns)
+
+    def lookup_many(
+        self, target: str, source: str, stamps_ns: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """`lookup` at many times at once: a scan per beam, a trail.
+
+        Args:
+            target: frame to express the poses in.
+            source: frame whose poses are asked for.
+            stamps_ns: int64 (N,) in any order.
+
+        Returns:
+            Translations float64 (N, 3) in metres, rotations float64 (N, 4) as (x, y, z, w), and
+            bool (N,): whether `lookup` would succeed. Where it would not, the poses are NaN.
+        """
+        count = len(stamps_ns)
+        if target == source:
+            rotations = np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))
+            return np.zeros((count, 3)), rotations, np.ones(count, bool)
+        if self._fault(target) or self._fault(source):
+            return np.full((count, 3), np.nan), np.full((count, 4), np.nan), np.zeros(count, bool)
+        return lookup_many(self._tree, target, source, stamps_ns)
+
+    def poses_in(
+        self, target: str, frames: Iterable[str] | None = None, stamp_ns: int = 0
+    ) -> FramesIn:
+        """`lookup(target, frame, stamp_ns)` for many frames in one pass.
+
+        Args:
+            target: frame to express the poses in.
+            frames: frames whose poses are asked for; by default all of `frames()`.
+            stamp_ns: one time for all; 0 means for each its latest common time with the target.
+        """
+        names = self.frames() if frames is None else list(frames)
+        valid = set() if self._fault(target) else {n for n in names if not self._fault(n)}
+        return poses_in(self._tree, target, names, valid, stamp_ns)
 
     def lookup_full(
         self, target: str, target_stamp_ns: int, source: str, source_stamp_ns: int, fixed: str

@@ -20,6 +20,9 @@ MAX_SAMPLES = 65_536
 Sample = tuple[Pose, str]
 """A pose and the parent frame it is given in."""
 
+Bracket = tuple[Pose, Pose, float, str]
+"""The poses before and after a time, the ratio between them, and their parent frame."""
+
 
 class StaticCache:
     """The one pose of a frame that holds at any time."""
@@ -48,6 +51,13 @@ class StaticCache:
     def at(self, stamp_ns: int) -> Sample | None:
         """The sample, whatever the time."""
         return self.sample
+
+    def bracket(self, stamp_ns: int) -> Bracket | None:
+        """The sample, whatever the time."""
+        if self.sample is None:
+            return None
+        pose, parent = self.sample
+        return pose, pose, 0.0, parent
 
     def clear(self) -> None:
         """Static transforms outlive a cleared buffer."""
@@ -154,6 +164,29 @@ class TimeCache:
         start = stamps[i - 1]
         ratio = float(stamp_ns - start) / float(stamps[i] - start)
         return interpolate(before[0], after[0], ratio), parent
+
+    def bracket(self, stamp_ns: int) -> Bracket | None:
+        """What `at` would interpolate at a time; the same pose twice where it would not."""
+        stamps = self.stamps
+        if not stamps:
+            return None
+        newest = stamps[-1]
+        oldest = stamps[0]
+        if stamp_ns == newest or stamp_ns == 0:
+            pose, parent = self.samples[-1]
+            return pose, pose, 0.0, parent
+        if stamp_ns == oldest:
+            pose, parent = self.samples[0]
+            return pose, pose, 0.0, parent
+        if not oldest < stamp_ns < newest:
+            return None
+        i = bisect_right(stamps, stamp_ns)
+        pose, parent = self.samples[i - 1]
+        after, other = self.samples[i]
+        if parent != other:
+            return pose, pose, 0.0, parent
+        start = stamps[i - 1]
+        return pose, after, float(stamp_ns - start) / float(stamps[i] - start), parent
 
     def refusal(self, stamp_ns: int) -> tuple[type[ExtrapolationException], str]:
         """Why `at` gave nothing, as tf2's exception and the beginning of its text."""
