@@ -175,8 +175,9 @@ def replay_live_messages_only(buffer: AsyncMessageBuffer) -> None:
     """Makes a joining browser cost what the scene holds, not what was ever sent.
 
     viser's own loop walks every message number from 0 on its event loop (170 ms per million
-    messages, for everybody). This one walks the messages that still exist, for a browser that joins
-    and for one that was stalled. It also sends a tick in one piece: viser cuts it every 128 messages.
+    messages, for everybody). This one walks the messages that still exist, for a browser that
+    joins and for one that was stalled. It also sends a tick in one piece, which viser cuts after
+    128 messages.
     """
 
     def window_loop(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.nodes import Rgb, U8
+from webviz.nodes import U8, Rgb
 from webviz.scene.adapter import Adapter
 
 Props = dict[str, Any]

@@ -60,7 +60,7 @@ def guarded_serve(
     """
 
     class Connection(websocket.ServerConnection):
-        async def recv(self, decode: bool | None = None) -> Data:
+        async def recv(self, decode: bool | None = None) -> Any:
             while True:
                 data = await super().recv(decode)
                 if _may_pass(data, accepts):
@@ -146,8 +146,7 @@ def _may_pass(data: Data, accepts: Accepts) -> bool:
         message = msgspec.msgpack.decode(data)
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
         return False
-    return (
-        isinstance(message, dict)
-        and message.get("type") in ALLOWED_MESSAGES
-        and (message["type"] != "GuiUpdateMessage" or accepts(message))
-    )
+    kind = message.get("type") if isinstance(message, dict) else None
+    if not isinstance(kind, str) or kind not in ALLOWED_MESSAGES:
+        return False
+    return kind != "GuiUpdateMessage" or accepts(message)

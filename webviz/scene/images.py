@@ -24,9 +24,9 @@ _BLANK = np.zeros((1, 1, 4), np.uint8)
 class ImageDrawn:
     """A picture as viser images, one for each tile, under one frame.
 
-    viser's image is unlit, in exact colours, and shows the old texture until the new one is decoded,
-    so an update never blanks. Its row 0 lies along y = 0 as it is, for it is turned upside down in
-    viser. Sharp cells are the page's work (page.py).
+    viser's image is unlit, in exact colours, and shows the old texture until the new one is
+    decoded, so an update never blanks. Its rows run along y already, for viser hangs images upside
+    down. Sharp cells are the page's work (page.py).
     """
 
     def __init__(self, link: Adapter, name: str) -> None:

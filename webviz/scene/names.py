@@ -10,9 +10,9 @@ ROOT = "/webviz"
 def segment(text: str) -> str:
     """Escapes `text` so that it is one segment of a node path, another one for every other text.
 
-    Letters, digits and spaces stay readable; what remains is percent-encoded as in a URL (RFC 3986),
-    so that a "/" in a frame id does not open a subtree. Empty text becomes "%", which the encoding
-    itself never produces alone.
+    Letters, digits and spaces stay readable; what remains is percent-encoded as in a URL (RFC
+    3986), so that a "/" in a frame id does not open a subtree. Empty text becomes "%", which the
+    encoding itself never produces alone.
     """
     return quote(text, safe=" ", errors="surrogatepass") or "%"
 

@@ -17,8 +17,9 @@ PAGE_SCRIPT = """
   // Colours as they were sent: no film curve (viser's page turns ACES on).
   Object.defineProperty(root.getState().gl, "toneMapping", { get: () => 0, set: () => {} });
 
-  // Pictures: sharp cells; behind lines and meshes in the same plane; never hiding what is blended
-  // later; not a white sheet while the first texture is decoded.
+  // Pictures: sharp cells; behind lines and meshes of the same plane, over pictures added before;
+  // never hiding what is blended later; not a white sheet while the first texture is decoded.
+  let order = -1e6;
   const refs = window.__viserMutable.nodeRefFromName;
   const before = scene.onBeforeRender;
   scene.onBeforeRender = function (...args) {
@@ -35,10 +36,10 @@ PAGE_SCRIPT = """
           texture.needsUpdate = true;
         }
         if (!material.polygonOffset) {
-          object.renderOrder = -1;
+          object.renderOrder = order++;
           material.depthWrite = false;
           material.polygonOffset = true;
-          material.polygonOffsetFactor = 1;
+          material.polygonOffsetFactor = 2;
           material.polygonOffsetUnits = 4;
         }
       });

@@ -156,7 +156,8 @@ class _Group:
         if (position, self.pose.wxyz) != self._sent_pose:
             self._sent_pose = (position, self.pose.wxyz)
             link.set_pose(path, position, self.pose.wxyz)
-        self._handle.visible = self.visible
+        if self.visible != self._handle.visible:
+            self._handle.visible = self.visible
         for key in self.dirty:
             self._send_node(link, key)
         self.dirty.clear()

@@ -1,0 +1,252 @@
+"""A server, a scene and a real browser for tests of what people see."""
+
+from __future__ import annotations
+
+import base64
+import io
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import msgspec
+import numpy as np
+import PIL.Image
+import playwright.sync_api as playwright
+import pytest
+import viser
+import websockets.sync.client
+import zstandard
+
+from webviz.scene import Scene, open_server
+
+Point = tuple[float, float, float]
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
+FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = open_server(port=0)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def scene(server: viser.ViserServer) -> Scene:
+    return Scene(server)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[playwright.Browser]:
+    """One headless Chromium for all tests."""
+    executable = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if executable is None:
+        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is on PATH")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def view(browser: playwright.Browser, scene: Scene) -> Iterator[View]:
+    """A tab of 320 x 240 pixels that looks down on the origin from 10 m."""
+    with browser.new_context(viewport={"width": 320, "height": 240}) as context:
+        view = View(context.new_page(), scene)
+        view.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
+        yield view
+        assert view.errors == []
+
+
+class View:
+    """One browser tab with the scene."""
+
+    def __init__(self, page: playwright.Page, scene: Scene) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        self._scene = scene
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.goto(f"http://127.0.0.1:{scene.link.server.get_port()}/?fixedDpr=1")
+        page.wait_for_function("window.__viserMutable?.scene?.webviz")
+        page.wait_for_function("!document.body.innerText.includes('Connecting')")
+        self.wait_for(lambda: len(scene.link.server.get_clients()) > 0)
+
+    def look(self, position: Point, at: Point) -> None:
+        """Puts the camera at `position`."""
+        for client in self._scene.link.server.get_clients().values():
+            with client.atomic():
+                client.camera.position = position
+                client.camera.look_at = at
+        self.show()
+
+    def show(self) -> None:
+        """Sends what was changed and waits until it is drawn."""
+        self._scene.flush()
+        # The driver must keep running while the browser answers, so wait in slices of its time.
+        self.wait_for(self._acknowledged)
+        self.frames(3)
+
+    def frames(self, count: int) -> None:
+        """Lets the page draw some frames."""
+        self.evaluate(
+            """async (count) => {
+              for (let i = 0; i < count; i++) {
+                window.__viserMutable.requestRender();
+                await new Promise(requestAnimationFrame);
+              }
+            }""",
+            count,
+        )
+
+    def pixels(self) -> np.ndarray:
+        """The canvas as drawn last: uint8 (height, width, 3)."""
+        url = self.evaluate("() => window.__viserMutable.canvas.toDataURL('image/png')")
+        png = base64.b64decode(url.split(",")[1])
+        return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGB"))
+
+    def pixel_of(self, point: Point) -> tuple[int, int]:
+        """Row and column at which a point of the scene (without its origin) is drawn."""
+        column, row = self.evaluate(
+            """(point) => {
+              const {scene, camera, canvas, nodeRefFromName} = window.__viserMutable;
+              const root = nodeRefFromName["/webviz"];
+              root.updateWorldMatrix(true, false);
+              camera.updateMatrixWorld();
+              const p = root.position.clone().set(...point).applyMatrix4(root.matrixWorld);
+              p.project(camera);
+              return [(p.x + 1) / 2 * canvas.width, (1 - p.y) / 2 * canvas.height];
+            }""",
+            list(point),
+        )
+        return int(row), int(column)
+
+    def color_at(self, point: Point) -> tuple[int, int, int]:
+        """The colour drawn where a point of the scene is."""
+        red, green, blue = self.pixels()[self.pixel_of(point)].tolist()
+        return red, green, blue
+
+    def nodes(self) -> set[str]:
+        """Names of the scene nodes in the page, below the root."""
+        names = self.evaluate(
+            """() => Object.entries(window.__viserSceneTree.getState())
+              .filter(([name, node]) => node !== undefined).map(([name]) => name)"""
+        )
+        return {name for name in names if name.startswith("/webviz/")}
+
+    def evaluate(self, source: str, argument: Any = None) -> Any:
+        """Calls a JavaScript function in the page."""
+        return self.page.evaluate(source, argument)
+
+    def wait_for(self, condition: Callable[[], bool], timeout: float = 30.0) -> None:
+        """Waits until `condition` holds while the page runs."""
+        for _ in range(int(timeout / 0.02)):
+            if condition():
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError("timed out")
+
+    def _acknowledged(self) -> bool:
+        self._scene.link.acknowledge(timeout=30)
+        return True
+
+
+class Peer:
+    """A program that talks to the server as a browser's websocket does.
+
+    Args:
+        server: whom to call.
+        headers: more headers for the handshake.
+    """
+
+    def __init__(self, server: viser.ViserServer, **headers: str) -> None:
+        self._socket = websockets.sync.client.connect(
+            f"ws://127.0.0.1:{server.get_port()}",
+            subprotocols=[f"viser-v{viser.__version__}"],  # pyright: ignore[reportArgumentType]
+            additional_headers=headers,
+            compression=None,
+            max_size=None,
+            ping_interval=None,
+            close_timeout=0.1,
+            max_queue=1,
+        )
+
+    def send(self, message: dict[str, Any] | bytes) -> None:
+        """Sends a message, or bytes as they are."""
+        data = message if isinstance(message, bytes) else msgspec.msgpack.encode(message)
+        self._socket.send(data)
+
+    def look(self) -> None:
+        """Sends a camera, upon which the server counts this peer as a browser."""
+        self.send(
+            {
+                "type": "ViewerCameraMessage",
+                "wxyz": [1, 0, 0, 0],
+                "position": [1, 1, 1],
+                "fov": 1.0,
+                "near": 0.1,
+                "far": 100.0,
+                "image_height": 240,
+                "image_width": 320,
+                "look_at": [0, 0, 0],
+                "up_direction": [0, 0, 1],
+            }
+        )
+
+    def receive(self, timeout: float = 10.0) -> list[dict[str, Any]]:
+        """The messages of the next websocket frame."""
+        data = self._socket.recv(timeout)
+        assert isinstance(data, bytes)
+        size = int.from_bytes(data[8:16], "little")
+        packed = zstandard.ZstdDecompressor().decompress(
+            data[16 : 16 + size], max_output_size=int.from_bytes(data[:8], "little")
+        )
+        return msgspec.msgpack.decode(packed)["messages"]
+
+    def replay(self) -> list[dict[str, Any]]:
+        """All messages that a joining browser is sent first."""
+        messages: list[dict[str, Any]] = []
+        while not any(message["type"] == "ReplayDoneMessage" for message in messages):
+            messages += self.receive()
+        return messages
+
+    def close(self) -> None:
+        self._socket.close()
+
+
+@pytest.fixture
+def call(server: viser.ViserServer) -> Iterator[Callable[..., Peer]]:
+    """Connects a `Peer`; headers as keyword arguments."""
+    peers: list[Peer] = []
+
+    def call(**headers: str) -> Peer:
+        peers.append(Peer(server, **headers))
+        return peers[-1]
+
+    yield call
+    for peer in peers:
+        peer.close()
+
+
+@pytest.fixture
+def wait_until() -> Callable[[Callable[[], bool]], None]:
+    """Waits until a condition holds, for what another thread is about to do."""
+
+    def wait_until(condition: Callable[[], bool]) -> None:
+        deadline = time.monotonic() + 10
+        while not condition():
+            assert time.monotonic() < deadline, "waited 10 s in vain"
+            time.sleep(0.005)
+
+    return wait_until

@@ -1,0 +1,175 @@
+"""What we use of viser's private parts is there and does what we need."""
+
+from __future__ import annotations
+
+import gc
+import hashlib
+import inspect
+import time
+import weakref
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from viser import _messages as wire
+from viser.infra._async_message_buffer import AsyncMessageBuffer
+from viser.infra._messages import wire_field_names
+
+from webviz.scene import Scene
+from webviz.scene.adapter import MAX_TOMBSTONES
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0)
+
+
+def test_viser_has_the_loop_that_we_replace() -> None:
+    """If this fails, viser changed: compare `_windows` in adapter.py with its new loop."""
+    source = inspect.getsource(AsyncMessageBuffer._window_loop)
+    assert hashlib.sha256(source.encode()).hexdigest().startswith("622c10d1a9e84168")
+
+
+@pytest.mark.parametrize(
+    ("message", "fields"),
+    [
+        (wire.SetPositionMessage, ("name", "position", "owner")),
+        (wire.SetOrientationMessage, ("name", "wxyz", "owner")),
+        (wire.SceneNodeUpdateMessage, ("name", "updates", "owner")),
+        (wire.RunJavascriptMessage, ("source",)),
+        (wire.LocalStorageGetItemRequestMessage, ("key", "request_uuid")),
+        (wire.LocalStorageGetItemResponseMessage, ("value", "error", "request_uuid")),
+    ],
+)
+def test_messages_that_we_queue_have_the_fields_that_we_fill(
+    message: type[Any], fields: tuple[str, ...]
+) -> None:
+    assert wire_field_names(message) == fields
+
+
+@pytest.mark.parametrize(
+    ("props", "names"),
+    [
+        (wire.PointCloudProps, {"points", "colors", "point_size", "point_shape"}),
+        (wire.LineSegmentsProps, {"points", "colors", "thickness", "thickness_units"}),
+        (wire.ArrowProps, {"points", "colors", "shaft_radius", "head_radius", "head_length"}),
+        (
+            wire.BatchedAxesProps,
+            {"batched_positions", "batched_wxyzs", "axes_length", "axes_radius"},
+        ),
+        (wire.MeshProps, {"vertices", "faces", "color", "opacity"}),
+        (wire.LabelProps, {"text", "font_scene_height"}),
+        (wire.ImageProps, {"_data", "_format", "render_width", "render_height"}),
+    ],
+)
+def test_nodes_have_the_properties_that_we_update(props: type[Any], names: set[str]) -> None:
+    assert names <= set(inspect.signature(props).parameters)
+
+
+def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    for x in range(1000):
+        scene.link.set_pose("/webviz/a", (float(x), 0.0, 0.0), IDENTITY)
+    moves = [m for m in call().replay() if m["type"] == "SetPositionMessage"]
+    assert [m["position"] for m in moves if m["name"] == "/webviz/a"] == [[999.0, 0.0, 0.0]]
+
+
+def pretend_that_were_sent(scene: Scene, messages: int) -> None:
+    """Lets message numbers go on from far above, as after so many messages."""
+    with scene.link._buffer.buffer_lock:
+        scene.link._buffer.message_counter += messages
+
+
+def test_joining_does_not_depend_on_how_much_was_ever_sent(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    """Walking the numbers one by one would take minutes."""
+    before = len(call().replay())
+    pretend_that_were_sent(scene, 10**9)
+    scene.link.set_pose("/webviz/a", (1.0, 0.0, 0.0), IDENTITY)
+    assert len(call().replay()) == before + 2
+
+
+def test_a_connected_browser_goes_on_after_a_gap_in_the_numbers(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    peer = call()
+    peer.replay()
+    pretend_that_were_sent(scene, 10**9)
+    scene.link.set_position("/webviz/a", (1.0, 0.0, 0.0))
+    assert [m["type"] for m in peer.receive()] == ["SetPositionMessage"]
+
+
+def test_the_replay_comes_in_windows_and_in_order(scene: Scene, call: Callable[..., Any]) -> None:
+    for index in range(300):
+        scene.link.set_position(f"/webviz/{index}", (0.0, 0.0, 0.0))
+    peer = call()
+    names = []
+    while "/webviz/299" not in names:
+        window = peer.receive()
+        assert len(window) <= scene.link._buffer.max_window_size + 1
+        names += [m["name"] for m in window if m["type"] == "SetPositionMessage"]
+    assert names[-300:] == [f"/webviz/{index}" for index in range(300)]
+
+
+def test_what_is_queued_atomically_arrives_in_one_frame(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    peer = call()
+    peer.replay()
+    with scene.link.atomic():
+        for index in range(500):
+            scene.link.set_position(f"/webviz/{index}", (0.0, 0.0, 0.0))
+    assert len(peer.receive()) == 500
+
+
+def test_a_browser_that_does_not_read_costs_no_memory(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    call()  # reads nothing
+    scene.link.update("/webviz/a", {"points": np.zeros(1)})
+    live = scene.link.live_messages
+    clouds = []
+    for _ in range(100):
+        cloud = np.zeros((100_000, 3), np.float32)
+        clouds.append(weakref.ref(cloud))
+        scene.link.update("/webviz/a", {"points": cloud})
+        scene.link.flush()
+        del cloud
+    gc.collect()
+    assert scene.link.live_messages == live
+    assert sum(cloud() is not None for cloud in clouds) < 20
+
+
+def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
+    scene: Scene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    """Each removal waits for the slowest browser; the memory for that has a bound."""
+    call()  # reads nothing
+    cursors = scene.link._buffer.generator_cursors
+    blob = np.zeros(20_000_000, np.uint8)
+    while not cursors or min(cursors.values()) == scene.link.queued_messages - 1:
+        scene.link.update("/webviz/a", {"points": blob})
+        scene.link.flush()
+        time.sleep(0.2)  # long enough to be sent, if anybody reads
+    for index in range(MAX_TOMBSTONES + 1000):
+        scene.link._queue(wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
+        scene.link.count_removals(1)
+    wait_until(lambda: not cursors)
+    scene.link.count_removals(1000)
+    wait_until(lambda: scene.link.live_messages < 200)
+
+
+def test_nobody_has_to_acknowledge_in_an_empty_room(scene: Scene) -> None:
+    scene.link.acknowledge(timeout=0.0)
+
+
+def test_acknowledgement_waits_for_every_browser_and_leaves_nothing_behind(
+    scene: Scene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    peer = call()
+    peer.look()
+    wait_until(lambda: len(scene.link.server.get_clients()) == 1)
+    live = scene.link.live_messages
+    with pytest.raises(TimeoutError, match=r"did not answer within 0\.1 s"):
+        scene.link.acknowledge(timeout=0.1)
+    assert scene.link.live_messages == live
