@@ -15,6 +15,7 @@ import numpy as np
 from webviz.messages.errors import MessageError
 
 ENCAPSULATION_SIZE = 4
+_BOOL = np.dtype(np.bool_)
 _ORDERS = {0: ">", 1: "<"}
 _NATIVE = "<" if sys.byteorder == "little" else ">"
 _UINT32 = {order: Struct(order + "I").unpack_from for order in "<>"}
@@ -97,12 +98,13 @@ class Reader:
         """
         if count == 0:  # padding belongs to the first element, so there is none
             return np.frombuffer(b"", dtype)
-        self.align(dtype.itemsize)
-        length = count * dtype.itemsize
-        if length > self.size - self.pos:
+        itemsize = dtype.itemsize
+        start = self.pos + ((ENCAPSULATION_SIZE - self.pos) & (itemsize - 1))
+        end = start + count * itemsize
+        if end > self.size:
             raise CdrError(f"{count} elements of {dtype} are more than what is left")
-        start, self.pos = self.pos, self.pos + length
-        if dtype == np.bool_:  # any other byte than 0 or 1 in a bool array is undefined behaviour
+        self.pos = end
+        if dtype is _BOOL:  # any other byte than 0 or 1 in a bool array is undefined behaviour
             array = np.frombuffer(self.data, np.uint8, count, start) != 0
         elif self.order == _NATIVE:
             return np.frombuffer(self.data, dtype, count, start)
