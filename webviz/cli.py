@@ -136,8 +136,8 @@ def _announce(options: argparse.Namespace, port: int) -> None:
     if not local:
         names = ", ".join(options.allow_host) or "the address given with --host only"
         print(
-            f"webviz: everybody who reaches {options.host}:{port} can watch and change this viewer, "
-            f"addressed as: {names}."
+            f"webviz: whoever reaches {options.host}:{port} can watch and change this viewer; "
+            f"browsers must address it as: {names}."
         )
     sys.stdout.flush()
 
@@ -152,7 +152,7 @@ def _config(options: argparse.Namespace) -> Config:
     return config
 
 
-def _ros_source(ros: Sequence[str]):  # noqa: ANN202 - its type needs rclpy
+def _ros_source(ros: Sequence[str]):
     try:
         from webviz.ros.node import RosSource
     except ImportError as error:

@@ -15,7 +15,15 @@ import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from webviz.display import Color, Display, default_name, display_types, make, to_values
+from webviz.display import (
+    Color,
+    Display,
+    broken_display_types,
+    default_name,
+    display_types,
+    make,
+    to_values,
+)
 
 VERSION = 1
 MAX_BYTES = 16 << 20
@@ -195,6 +203,8 @@ def _display(entry: Any, index: int) -> Display | Unreadable:
         return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
     types = display_types()
     cls = types.get(entry["type"])
+    if entry["type"] in broken_display_types():
+        return Unreadable(entry, f"{place}: {broken_display_types()[entry['type']]}")
     if cls is None:
         hint = nearest(entry["type"], types)
         return Unreadable(entry, f"{place}: no display type `{entry['type']}` here, {hint}")

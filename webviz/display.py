@@ -247,8 +247,23 @@ def _difference(values: dict[str, Any], defaults: dict[str, Any]) -> dict[str, A
     return result
 
 
-@functools.cache
 def display_types() -> dict[str, type[Display]]:
     """Every installed display class by the name it has in config files."""
+    return _installed()[0]
+
+
+def broken_display_types() -> dict[str, str]:
+    """Installed display types that cannot be loaded, with the reason."""
+    return _installed()[1]
+
+
+@functools.cache
+def _installed() -> tuple[dict[str, type[Display]], dict[str, str]]:
+    types, broken = {}, {}
     points = importlib.metadata.entry_points(group=ENTRY_POINT_GROUP)
-    return {point.name: point.load() for point in sorted(points, key=lambda p: p.name)}
+    for point in sorted(points, key=lambda p: p.name):
+        try:
+            types[point.name] = point.load()
+        except Exception as error:  # somebody else's module may raise anything
+            broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
+    return types, broken

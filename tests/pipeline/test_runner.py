@@ -1,0 +1,354 @@
+"""What a display may rely on, shown with displays of a few lines."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+import pytest
+
+from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
+from webviz.commands import Reset, SetFixedFrame, SetProperty
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+
+
+class Dot(Display):
+    """A dot where a pose is."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+    size: Annotated[float, Prop(gt=0)] = 0.1
+    count: Annotated[int, Prop(ge=0)] = 1
+    seconds: Annotated[float, Prop(ge=0)] = 0.0
+
+    def keep(self) -> Keep:
+        return Keep(self.count, self.seconds)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        x = sample.message.pose.position.x
+        if x < 0:
+            raise ValueError("negative")
+        ctx.points("dot", [[x, 0, 0]], (255, 0, 0), self.size)
+        ctx.ok("Dot", f"at {x}")
+
+
+class Trail(Display):
+    """A line through all poses that are a metre apart."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+
+    def keep(self) -> Keep:
+        return Keep(0)
+
+    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
+        return not kept or abs(new.pose.position[0] - kept[-1].pose.position[0]) >= 1.0
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        ctx.strip("trail", [sample.pose.position for sample in samples], (0, 255, 0))
+
+
+class Total(Display):
+    """The sum of what two topics say."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+    more: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/more")
+
+    def fold(self, name: str, sample: Sample, state: Any) -> Any:
+        return (state or 0.0) + sample.message.pose.position.x
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("sum", [[sample.message, 0, 0]], (0, 0, 255), 0.1)
+
+
+class Marker(Display):
+    """A dot on a frame, hidden without a transform."""
+
+    frame: str = "base"
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        ctx.follow(self.frame).points("dot", [[0, 0, 0]], (255, 255, 255), 0.1)
+
+
+class Slow(Display):
+    """Draws what a slow computation gives."""
+
+    value: Annotated[int, Prop()] = 1
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        result = ctx.background(("slow", self.value), _compute, self.value)
+        if result is None:
+            ctx.warn("Slow", "computing")
+        else:
+            ctx.points("slow", [[result, 0, 0]], (1, 1, 1), 0.1)
+
+
+GATE = threading.Event()
+
+
+def _compute(value: int) -> int:
+    GATE.wait(5)
+    return 10 * value
+
+
+def at(bench: Any) -> list[float]:
+    """The x of every visible dot in the fixed frame."""
+    found = []
+    for name, node in bench.scene.visible().items():
+        group = name.rpartition(":")[0]
+        found.append(bench.scene.poses[group].position[0] + float(node.xyz[0][0]))
+    return sorted(found)
+
+
+def test_a_message_is_drawn_with_the_transform_at_its_stamp(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T - SECOND, 0.0)
+    b.transform("map", "base", T, 10.0)
+    b.pose("/pose", "base", T - SECOND // 2, 1.0)
+    b.turn()
+    assert at(b) == [6.0]
+
+
+def test_a_message_waits_for_its_transform(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T - SECOND, 0.0)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    assert at(b) == []
+    b.transform("map", "base", T + SECOND, 4.0)
+    b.turn()
+    assert at(b) == [3.0]
+
+
+def test_a_newer_message_that_waits_does_not_displace_one_that_is_ready(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T - SECOND)
+    b.transform("map", "base", T)
+    b.pose("/pose", "base", T, 1.0)
+    b.pose("/pose", "base", T + SECOND, 2.0)
+    b.turn()
+    assert at(b) == [1.0]
+
+
+def test_a_new_value_of_a_property_shows_without_a_new_message(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T)
+    b.turn()
+    b.viewer.enqueue(SetProperty("display1", "size", 0.7))
+    b.turn()
+    (node,) = b.scene.visible().values()
+    assert node.size == 0.7
+
+
+def test_a_refused_value_changes_nothing(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.viewer.enqueue(SetProperty("display1", "size", -1))
+    b.viewer.enqueue(SetProperty("display1", "nonsense", 1))
+    b.viewer.enqueue(SetProperty("display9", "size", 1))
+    b.turn()
+    assert b.viewer.state(_frames(b)).rows[0].display.size == 0.1
+
+
+def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot", count=3))
+    b.transform("map", "odom", 0, 100.0, static=True)
+    b.transform("odom", "base", T, 1.0)
+    b.pose("/pose", "base", T, 1.0)
+    b.pose("/pose", "map", T, 5.0)
+    b.turn()
+    assert at(b) == [5.0, 102.0]
+    drawn = b.scene.upserts
+    b.viewer.enqueue(SetFixedFrame("odom"))
+    b.turn()
+    assert at(b) == [-95.0, 2.0]
+    assert b.scene.upserts > drawn
+
+
+def test_history_is_bounded_by_count(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot", count=2))
+    b.transform("map", "base", T, static=True)
+    for x in range(5):
+        b.pose("/pose", "base", T, float(x))
+    b.turn()
+    assert at(b) == [3.0, 4.0]
+
+
+def test_history_is_bounded_by_age(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot", count=0, seconds=2.0))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.source.now += 1 * SECOND
+    b.pose("/pose", "base", T, 2.0)
+    b.turn()
+    assert at(b) == [1.0, 2.0]
+    b.source.now += round(1.5 * SECOND)
+    b.turn()
+    assert at(b) == [2.0]
+
+
+def test_a_display_chooses_which_messages_count(bench: Callable[..., Any]) -> None:
+    b = bench(Trail(name="Trail"))
+    for n, x in enumerate((0.0, 0.4, 1.2, 1.5, 2.3)):
+        b.transform("map", "base", T + n, x)
+        b.pose("/pose", "base", T + n)
+    b.turn()
+    (node,) = b.scene.visible().values()
+    assert [round(float(x), 3) for x in node.segments[:, 1, 0]] == [1.2, 2.3]
+
+
+def test_inputs_can_fold_into_one(bench: Callable[..., Any]) -> None:
+    b = bench(Total(name="Total"))
+    b.transform("map", "base", T, static=True)
+    for topic, x in (("/pose", 1.0), ("/more", 10.0), ("/pose", 2.0)):
+        b.pose(topic, "base", T, x)
+    b.turn()
+    assert at(b) == [13.0]
+
+
+def test_what_follows_a_frame_is_hidden_without_a_transform_and_the_status_says_why(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Marker(name="Marker"))
+    b.transform("map", "other", T, static=True)
+    b.turn()
+    level, text = b.statuses()["Transform"]
+    assert at(b) == []
+    assert level == "ERROR"
+    assert "base" in text
+    b.transform("map", "base", T, 3.0)
+    b.turn()
+    assert at(b) == [3.0]
+    assert b.statuses() == {}
+
+
+def test_a_disabled_display_hears_nothing_and_draws_nothing_but_forgets_nothing(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.viewer.enqueue(SetProperty("display1", "enabled", False))
+    b.turn()
+    assert (at(b), "/pose" in b.source.wanted, b.statuses()) == ([], False, {})
+    b.viewer.enqueue(SetProperty("display1", "enabled", True))
+    b.turn()
+    assert at(b) == [1.0]
+    assert "/pose" in b.source.wanted
+
+
+def test_nothing_is_drawn_while_nobody_watches_and_everything_for_who_joins(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"), Trail(name="Trail"))
+    b.scene.watched = False
+    drawn = b.scene.upserts
+    for n in range(3):
+        b.transform("map", "base", T + n, float(n))
+        b.pose("/pose", "base", T + n)
+        b.turn()
+    assert b.scene.upserts == drawn
+    b.scene.watched = True
+    b.turn()
+    assert len(b.scene.visible()) == 2
+
+
+def test_a_crash_becomes_a_status_and_the_rest_goes_on(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"), Trail(name="Trail"), strict=False)
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.pose("/pose", "base", T, -1.0)
+    b.turn()
+    level, text = b.statuses(0)["Display"]
+    assert (level, text) == ("ERROR", "Dot failed: ValueError: negative")
+    b.pose("/pose", "base", T, 2.0)
+    b.turn()
+    assert "Display" not in b.statuses(0)
+
+
+def test_strict_lets_a_crash_through(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, -1.0)
+    with pytest.raises(ValueError, match="negative"):
+        b.turn()
+
+
+def test_slow_work_is_drawn_when_it_is_done_and_stale_work_never(
+    bench: Callable[..., Any],
+) -> None:
+    GATE.clear()
+    b = bench(Slow(name="Slow"))
+    b.turn()
+    assert b.statuses()["Slow"] == ("WARN", "computing")
+    b.viewer.enqueue(SetProperty("display1", "value", 2))
+    b.turn()
+    GATE.set()
+    deadline = time.monotonic() + 5
+    while not at(b) and time.monotonic() < deadline:
+        b.turn()
+    assert at(b) == [20.0]
+
+
+def test_reset_and_a_jump_back_of_time_forget_what_was(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    for command in (Reset(), None):
+        b.transform("map", "base", T, static=True)
+        b.pose("/pose", "base", T, 1.0)
+        b.turn()
+        assert at(b) == [1.0]
+        if command:
+            b.viewer.enqueue(command)
+        else:
+            b.source.now -= 5 * SECOND
+        b.turn()
+        assert at(b) == []
+
+
+def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) -> None:
+    from webviz.sources import Raw
+
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    for junk in (b"", b"\x00\x01\x00\x00abc", b"\xff" * 40):
+        b.source.inbox.put("/pose", Raw(junk, T))
+        b.source.inbox.put("/tf", Raw(junk, T))
+        level, text = b.statuses()["Message"]
+        assert level == "ERROR"
+        assert "PoseStamped" in text
+        assert "/tf" in b.states[-1].statuses
+    b.pose("/pose", "base", T, 2.0)
+    b.transform("map", "base", T)
+    b.turn()
+    assert at(b) == [2.0]
+    assert "Message" not in b.statuses()
+    assert "/tf" not in b.states[-1].statuses
+
+
+def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) -> None:
+    from webviz.sources import Offer, Publisher
+
+    b = bench(Dot(name="Dot"))
+    publisher = Publisher("/test", "geometry_msgs/msg/PoseStamped", "reliable", "transient_local")
+    b.source.known["/pose"] = Offer((publisher,), ("reliable", "transient_local"))
+    b.transform("map", "base", T, static=True)
+    for _ in range(3):
+        b.pose("/pose", "base", T, 1.0)
+    assert b.statuses()["Topic"][1].startswith("1 message,")
+
+
+def _frames(b: Any) -> Any:
+    from webviz.frames import Frames
+
+    return Frames(b.viewer.buffer, "map", b.source.now)
