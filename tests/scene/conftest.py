@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import io
 import shutil
 import time
@@ -61,13 +62,26 @@ def browser() -> Iterator[playwright.Browser]:
 
 
 @pytest.fixture
-def view(browser: playwright.Browser, scene: Scene) -> Iterator[View]:
-    """A tab of 320 x 240 pixels that looks down on the origin from 10 m."""
-    with browser.new_context(viewport={"width": 320, "height": 240}) as context:
-        view = View(context.new_page(), scene)
-        view.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-        yield view
-        assert view.errors == []
+def open_view(browser: playwright.Browser, scene: Scene) -> Iterator[Callable[[], View]]:
+    """Opens a tab of 320 x 240 pixels that looks down on the origin from 10 m."""
+    with contextlib.ExitStack() as stack:
+
+        def open_view() -> View:
+            context = stack.enter_context(
+                browser.new_context(viewport={"width": 320, "height": 240})
+            )
+            view = View(context.new_page(), scene)
+            view.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
+            stack.callback(view.check)
+            return view
+
+        yield open_view
+
+
+@pytest.fixture
+def view(open_view: Callable[[], View]) -> View:
+    """A tab, as from `open_view`."""
+    return open_view()
 
 
 class View:
@@ -82,6 +96,10 @@ class View:
         page.wait_for_function("window.__viserMutable?.scene?.webviz")
         page.wait_for_function("!document.body.innerText.includes('Connecting')")
         self.wait_for(lambda: len(scene.link.server.get_clients()) > 0)
+
+    def check(self) -> None:
+        """Fails if the page had an error that nobody caught."""
+        assert self.errors == []
 
     def look(self, position: Point, at: Point) -> None:
         """Puts the camera at `position`."""

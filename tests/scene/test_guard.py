@@ -5,7 +5,7 @@ from __future__ import annotations
 import http.client
 import socket
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -115,9 +115,9 @@ def test_a_stopped_server_leaves_no_thread_no_port_and_no_word(
 
 
 @pytest.fixture
-def widgets(server: viser.ViserServer) -> Iterator[dict[str, Any]]:
+def widgets(server: viser.ViserServer) -> dict[str, Any]:
     gui = server.gui
-    yield {
+    return {
         "slider": gui.add_slider("slider", 0.0, 1.0, 0.1, 0.5),
         "steps": gui.add_slider("steps", 0, 10, 1, 5),
         "number": gui.add_number("number", 1.5, min=0.0),

@@ -79,7 +79,7 @@ def finite_rows(*arrays: NDArray[np.floating[Any]]) -> NDArray[np.bool_] | None:
     """
     rows = np.ones(len(arrays[0]), dtype=bool)
     for array in arrays:
-        rows &= np.isfinite(array).reshape(len(array), -1).all(axis=1)
+        rows &= np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
     return None if rows.all() else rows
 
 

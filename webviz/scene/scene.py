@@ -114,16 +114,20 @@ class Scene:
         return self._origin
 
     def flush(self) -> None:
-        """Sends everything that changed since the last flush, in one piece."""
+        """Sends everything that changed since the last flush, in one piece.
+
+        Raises:
+            Exception: a node is malformed. It is dropped, a note names it, and what was left goes
+                with the next flush.
+        """
         if not self._dirty and not self._gone:
             return
         with self.link.atomic():
-            for group in self._gone:
-                group.remove(self.link)
-            for group in self._dirty.values():
+            while self._gone:
+                self._gone.pop().remove(self.link)
+            for name, group in tuple(self._dirty.items()):
                 group.send(self.link, self._origin)
-        self._gone.clear()
-        self._dirty.clear()
+                del self._dirty[name]
         self.link.flush()
 
     def _touch(self, name: str) -> _Group:
@@ -158,9 +162,13 @@ class _Group:
             link.set_pose(path, position, self.pose.wxyz)
         if self.visible != self._handle.visible:
             self._handle.visible = self.visible
-        for key in self.dirty:
-            self._send_node(link, key)
-        self.dirty.clear()
+        for key in tuple(self.dirty):
+            del self.dirty[key]
+            try:
+                self._send_node(link, key)
+            except Exception as error:
+                error.add_note(f"while drawing {key!r} of {self._name!r}")
+                raise
 
     def _send_node(self, link: Adapter, key: str) -> None:
         node = self.nodes.get(key)
