@@ -1,0 +1,125 @@
+"""One property and the widget that shows it."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import viser
+
+from webviz.gui.text import plain
+
+SETTLE_S = 0.5
+"""How long a widget keeps what somebody gave it before it shows what the display has."""
+
+TYPING_S = 0.6
+"""A text is taken over when nobody has typed for so long."""
+
+
+class Control:
+    """Keeps a widget and a value of the viewer the same.
+
+    The widget shows what the viewer has. What a browser enters becomes a command; if that is
+    refused, or somebody else changes the value, the widget is set back. While somebody drags or
+    types, the viewer lags behind: the widget is left alone until that has settled.
+
+    Args:
+        widget: an input of viser.
+        edit: called with what a browser entered, in viser's event loop.
+        encode: from the value to what the widget holds.
+        decode: the inverse; ValueError if the text means nothing.
+        wait: seconds without a further edit after which an edit counts.
+    """
+
+    def __init__(
+        self,
+        widget: viser.GuiInputHandle[Any],
+        edit: Callable[[Any], None],
+        encode: Callable[[Any], Any] = lambda value: value,
+        decode: Callable[[Any], Any] = lambda value: value,
+        wait: float = 0.0,
+    ) -> None:
+        self.widget = widget
+        self._edit = edit
+        self._encode = encode
+        self._decode = decode
+        self._wait = wait
+        self._touched = -float("inf")
+        self._timer: asyncio.TimerHandle | None = None
+        self._visible = True
+
+        # A coroutine runs at once in viser's event loop, a function somewhat later in a thread:
+        # by then the frame loop could have set the widget back.
+        @widget.on_update
+        async def _(event: viser.GuiEvent[Any]) -> None:
+            if event.client is not None:
+                self._entered()
+
+    def show(self, value: Any) -> None:
+        """Show the value the viewer has."""
+        shown = self._encode(value)
+        if self.widget.value != shown and time.monotonic() - self._touched > SETTLE_S + self._wait:
+            self.widget.value = shown
+
+    def show_when(self, visible: bool) -> None:
+        """Hide the widget, or show it again."""
+        if visible != self._visible:
+            self._visible = visible
+            self.widget.visible = visible
+
+    def _entered(self) -> None:
+        self._touched = time.monotonic()
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = asyncio.get_running_loop().call_later(
+            self._wait, self._commit, self.widget.value
+        )
+
+    def _commit(self, entered: Any) -> None:
+        try:
+            value = self._decode(entered)
+        except ValueError:
+            return  # means nothing: the widget is set back
+        self._edit(value)
+
+
+class Choice(Control):
+    """A dropdown whose options come and go, such as the known frames.
+
+    Args:
+        gui: viser's GUI.
+        label: of the widget.
+        value: what is chosen at first.
+        edit: called with the value that a browser chose.
+        hint: tooltip.
+    """
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        label: str,
+        value: str,
+        edit: Callable[[Any], None],
+        hint: str | None = None,
+    ) -> None:
+        self._offered: tuple[Sequence[str], str] | None = None
+        self._values = {_option(value): value}
+        self._dropdown = gui.add_dropdown(label, tuple(self._values), hint=hint)
+        super().__init__(self._dropdown, edit, _option, lambda option: self._values[option])
+
+    def offer(self, values: Sequence[str], current: str) -> None:
+        """Offer these values, and the current one even if it is not among them."""
+        if self._offered == (values, current):
+            return
+        self._offered = (values, current)
+        # What was chosen a moment ago stays on offer until the viewer has answered.
+        chosen = self._values[self._dropdown.value]
+        self._values = {_option(value): value for value in (*values, current, chosen)}
+        if self._dropdown.options != tuple(self._values):
+            self._dropdown.options = tuple(self._values)
+
+
+def _option(value: str) -> str:
+    return plain(value) or "(none)"

@@ -1,0 +1,106 @@
+"""The list of displays: a check box and a name each, as in RViz."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import viser
+
+from webviz.commands import Command, SetProperty
+from webviz.gui.control import Control
+from webviz.gui.style import Look, list_style
+from webviz.gui.text import MARKS, plain
+from webviz.state import Row
+from webviz.status import Level
+
+
+class DisplayList:
+    """Rows of a check box and a button that selects the display.
+
+    Args:
+        gui: viser's GUI.
+        enqueue: takes commands, from any thread.
+        select: called with the id of a display when somebody clicks on its name, in a thread of
+            viser's.
+        order: place in the panel.
+    """
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        enqueue: Callable[[Command], None],
+        select: Callable[[str], None],
+        order: float,
+    ) -> None:
+        self._gui = gui
+        self._enqueue = enqueue
+        self._select = select
+        self._rows: dict[str, _Line] = {}
+        self._ids: tuple[str, ...] = ()
+        self._look: list[Look] = []
+        self._folder = gui.add_folder("Displays", order=order)
+        with self._folder:
+            self._style = gui.add_html("", order=-1)
+
+    def update(self, rows: Sequence[Row], selected: str | None) -> None:
+        """Show these displays."""
+        if (ids := tuple(row.id for row in rows)) != self._ids:
+            self._ids = ids
+            self._arrange(rows)
+        look = []
+        for row in rows:
+            level = row.level
+            self._rows[row.id].update(row, level)
+            look.append(Look(row.id == selected, level))
+        if look != self._look:
+            self._look = look
+            self._style.content = list_style(look)
+
+    def _arrange(self, rows: Sequence[Row]) -> None:
+        for gone in self._rows.keys() - set(self._ids):
+            self._rows.pop(gone).remove()
+        with self._folder:
+            for row in rows:
+                if row.id not in self._rows:
+                    self._rows[row.id] = _Line(self._gui, row, self._enqueue, self._select)
+        for index, id_ in enumerate(self._ids):
+            self._rows[id_].place(index)
+
+
+class _Line:
+    """Check box and name of one display."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        row: Row,
+        enqueue: Callable[[Command], None],
+        select: Callable[[str], None],
+    ) -> None:
+        enabled = row.display is not None and row.display.enabled
+        self._box = gui.add_checkbox("", enabled, disabled=row.display is None)
+        self._control = Control(
+            self._box, lambda value: enqueue(SetProperty(row.id, "enabled", value))
+        )
+        self._button = gui.add_button(_label(row, row.level))
+        self._button.on_click(lambda _: select(row.id))
+        self._shown = (row.name, row.level)
+
+    def update(self, row: Row, level: Level) -> None:
+        if row.display is not None:
+            self._control.show(row.display.enabled)
+        if self._shown != (row.name, level):
+            self._shown = (row.name, level)
+            self._button.label = _label(row, level)
+
+    def place(self, index: int) -> None:
+        self._box.order = 2.0 * index
+        self._button.order = 2.0 * index + 1.0
+
+    def remove(self) -> None:
+        self._box.remove()
+        self._button.remove()
+
+
+def _label(row: Row, level: Level) -> str:
+    return f"{MARKS[level]} {plain(row.name)}".strip()
