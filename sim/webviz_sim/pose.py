@@ -23,9 +23,7 @@ class Pose(NamedTuple):
     def inverse(self) -> "Pose":
         """The parent, seen from this frame."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
-        return Pose(
-            -cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap(-self.yaw)
-        )
+        return Pose(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap(-self.yaw))
 
     def towards(self, other: "Pose", fraction: float) -> "Pose":
         """The pose a fraction of the way to another, turning the short way round."""

@@ -42,7 +42,7 @@ class Robot:
     random: np.random.Generator
     drift: float = 0.0
     """Standard deviation of the odometry's error, as a fraction of the motion of one step."""
-    odometry: Pose = Pose()
+    odometry: Pose = field(default_factory=Pose)
     """base_link in the odom frame, as the wheels tell it."""
     linear: float = 0.0
     angular: float = 0.0

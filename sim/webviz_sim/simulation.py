@@ -27,7 +27,7 @@ class Settings:
     """Whether the robot tours the world when nobody commands it."""
     tour_speed: float = 0.35
     """How fast it follows a path, in m/s."""
-    command_timeout: float = 0.5
+    cmd_vel_timeout: float = 0.5
     """How long a velocity command holds, in seconds."""
     odom_drift: float = 0.0
     """See `Robot.drift`."""
@@ -79,7 +79,7 @@ class Simulation:
         return self._follower.remaining() if self._follower else np.empty((0, 2))
 
     def command(self, linear: float, angular: float) -> None:
-        """Takes over: velocities in m/s and rad/s, which hold for `command_timeout`."""
+        """Takes over: velocities in m/s and rad/s, which hold for `cmd_vel_timeout`."""
         self._command = linear, angular
         self._commanded_at = self.time
         self._follower = None
@@ -111,7 +111,7 @@ class Simulation:
 
     def _velocity(self, seconds: float) -> tuple[float, float]:
         since = self.time - self._commanded_at
-        if since < self.settings.command_timeout:
+        if since < self.settings.cmd_vel_timeout:
             return self._command
         if since < RESUME_AFTER:
             return 0.0, 0.0

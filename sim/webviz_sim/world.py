@@ -200,9 +200,8 @@ def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | 
     return pixels[..., :3].mean(axis=-1), pixels[..., 3] if has_alpha else None
 
 
-def _finite(value: object) -> bool:
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    return is_number and math.isfinite(value)
+def _finite(value: Any) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)
 
 
 def _number(entries: dict[str, Any], key: str) -> float:

