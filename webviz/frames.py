@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.nodes import Pose
-from webviz.transforms import Transform, TransformBuffer, TransformException
+from webviz.transforms import Transform, TransformBuffer, TransformException, explain
 from webviz.transforms.geometry import compose as compose_tuples
 
 
@@ -67,8 +67,6 @@ class Frames:
 
     def why_not(self, frame: str, stamp_ns: int = 0) -> str:
         """Why a frame has no pose, and what to do; a sentence."""
-        from webviz.transforms import explain
-
         return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns).sentence
 
     def all(self) -> FramePoses:

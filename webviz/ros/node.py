@@ -73,7 +73,8 @@ class RosSource:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these; takes effect within 50 ms."""
-        self._wanted = dict(subscriptions)
+        if subscriptions != self._wanted:
+            self._wanted = dict(subscriptions)
 
     def offers(self) -> Mapping[str, Offer]:
         """What is known of every topic of the graph."""

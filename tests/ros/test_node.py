@@ -1,0 +1,210 @@
+"""The ROS node against real publishers over DDS."""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Int32, String
+
+from webviz.display import Topic
+from webviz.messages import decode
+from webviz.ros.node import RosSource
+from webviz.sources import Subscription
+
+STRING = "std_msgs/msg/String"
+DOMAIN = random.SystemRandom().randrange(110, 160)
+
+
+@pytest.fixture(autouse=True)
+def only_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+
+
+@pytest.fixture
+def talker(only_this_machine: None) -> Iterator[Node]:
+    context = Context()
+    rclpy.init(context=context, domain_id=DOMAIN)
+    node = Node("talker", context=context)
+    yield node
+    node.destroy_node()
+    context.try_shutdown()
+
+
+@pytest.fixture
+def listen(only_this_machine: None) -> Iterator[Callable[..., RosSource]]:
+    sources: list[RosSource] = []
+
+    def make(*args: str) -> RosSource:
+        sources.append(RosSource(args, domain_id=DOMAIN))
+        return sources[-1]
+
+    yield make
+    for source in sources:
+        source.close()
+
+
+def qos(reliability: str, durability: str) -> QoSProfile:
+    return QoSProfile(
+        depth=5,
+        reliability=ReliabilityPolicy[reliability.upper()],
+        durability=DurabilityPolicy[durability.upper()],
+    )
+
+
+def want(source: RosSource, name: str = "/words", **choices: Any) -> None:
+    source.want({name: Subscription(STRING, Topic(name, **choices))})
+
+
+def until(condition: Callable[[], Any], what: str, seconds: float = 15.0) -> Any:
+    """Wait for something that DDS does in its own time."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        if result := condition():
+            return result
+        time.sleep(0.02)
+    raise AssertionError(f"not within {seconds} s: {what}")
+
+
+def heard(source: RosSource, topic: str = "/words") -> list[str]:
+    return [decode(STRING, raw.cdr).data for raw in source.inbox.drain().get(topic, ())]
+
+
+def requested(source: RosSource, topic: str = "/words") -> tuple[str, str] | None:
+    offer = source.offers().get(topic)
+    return offer.requested if offer and offer.publishers else None
+
+
+@pytest.mark.parametrize("reliability", ["reliable", "best_effort"])
+@pytest.mark.parametrize("durability", ["volatile", "transient_local"])
+def test_auto_asks_for_what_the_publisher_offers(
+    talker: Node, listen: Callable[..., RosSource], reliability: str, durability: str
+) -> None:
+    publisher = talker.create_publisher(String, "/words", qos(reliability, durability))
+    source = listen()
+    want(source)
+    until(lambda: requested(source) == (reliability, durability), "the subscription adapts")
+    until(lambda: publisher.get_subscription_count(), "the publisher is matched")
+
+    def heard_it() -> bool:
+        publisher.publish(String(data="hello"))
+        return "hello" in heard(source)
+
+    until(heard_it, "a message arrives")
+
+
+def test_a_latched_message_from_before_arrives(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    publisher = talker.create_publisher(String, "/words", qos("reliable", "transient_local"))
+    publisher.publish(String(data="long ago"))
+    source = listen()
+    want(source)
+    until(lambda: "long ago" in heard(source), "the latched message arrives")
+
+
+def test_publishers_of_both_durabilities_are_all_heard(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    latched = talker.create_publisher(String, "/words", qos("reliable", "transient_local"))
+    volatile = talker.create_publisher(String, "/words", qos("reliable", "volatile"))
+    latched.publish(String(data="latched"))
+    source = listen()
+    want(source)
+    words: set[str] = set()
+
+    def both() -> bool:
+        volatile.publish(String(data="volatile"))
+        words.update(heard(source))
+        return words == {"latched", "volatile"}
+
+    until(both, "both are heard")
+
+
+def test_an_explicit_choice_is_obeyed_though_it_connects_to_nobody(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
+    source = listen()
+    want(source, reliability="reliable")
+    until(lambda: requested(source) == ("reliable", "volatile"), "the choice is obeyed")
+    publisher.publish(String(data="lost"))
+    time.sleep(0.3)
+    assert heard(source) == []
+
+
+def test_a_topic_of_another_type_is_not_subscribed_but_told(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    talker.create_publisher(Int32, "/words", 5)
+    source = listen()
+    want(source)
+    offer = until(
+        lambda: o if (o := source.offers().get("/words")) and o.publishers else None, "an offer"
+    )
+    assert [p.type for p in offer.publishers] == ["std_msgs/msg/Int32"]
+    assert offer.publishers[0].node == "/talker"
+    until(lambda: talker.count_subscribers("/words") == 0, "nobody subscribes")
+
+
+def test_what_is_no_longer_wanted_is_unsubscribed(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    publisher = talker.create_publisher(String, "/words", 5)
+    source = listen()
+    want(source)
+    until(lambda: publisher.get_subscription_count() == 1, "subscribed")
+    source.want({})
+    until(lambda: publisher.get_subscription_count() == 0, "unsubscribed")
+
+
+def test_a_type_nobody_knows_is_a_problem_in_words(listen: Callable[..., RosSource]) -> None:
+    source = listen()
+    source.want({"/x": Subscription("no_such_msgs/msg/Thing", Topic("/x"))})
+    offer = until(
+        lambda: o if (o := source.offers().get("/x")) and o.problem else None, "the problem"
+    )
+    assert "no_such_msgs/msg/Thing" in offer.problem
+
+
+def test_names_are_resolved_and_remapped(listen: Callable[..., RosSource]) -> None:
+    source = listen("--ros-args", "-r", "/scan:=/front/scan", "-r", "__ns:=/robot")
+    assert source.resolve("/scan") == "/front/scan"
+    assert source.resolve("odom") == "/robot/odom"
+    for wrong in ("", "/a b", "9lives", "/a//b"):
+        with pytest.raises(ValueError, match="is no topic name: "):
+            source.resolve(wrong)
+
+
+def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., RosSource]) -> None:
+    source = listen("--ros-args", "-p", "use_sim_time:=true")
+    assert source.now_ns() == 0
+    publisher = talker.create_publisher(Clock, "/clock", 1)
+    clock = Clock()
+    clock.clock.sec = 42
+
+    def ticked() -> bool:
+        publisher.publish(clock)
+        return source.now_ns() == 42_000_000_000
+
+    until(ticked, "the time of /clock")
+
+
+def test_close_leaves_no_thread_and_no_node(talker: Node, listen: Callable[..., RosSource]) -> None:
+    source = RosSource(domain_id=DOMAIN)
+    until(lambda: "webviz" in talker.get_node_names(), "the node is seen")
+    source.close()
+    assert not [t for t in threading.enumerate() if t.name == "webviz-ros"]
+    until(lambda: "webviz" not in talker.get_node_names(), "the node is gone")
