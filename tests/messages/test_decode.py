@@ -140,7 +140,14 @@ def test_poses_of_one_frame_are_views_of_the_received_bytes(count, frame_id, ros
 
 
 @pytest.mark.parametrize(
-    "frame_ids", [["map", "odom"], ["map", "map", "mop"], ["a", "abcdefgh", "a"], ["map", ""]]
+    "frame_ids",
+    [
+        ["map", "odom"],
+        ["map", "map", "mop"],
+        ["a", "abcdefgh", "a"],
+        ["map", ""],
+        ["map", "map\0and something behind the NUL"],
+    ],
 )
 def test_poses_of_different_frames_keep_theirs(frame_ids, rosbags_store, plain):
     path = _path(rosbags_store, frame_ids)
@@ -171,6 +178,17 @@ def test_large_arrays_are_read_only_views_of_the_received_bytes(rosbags_store, r
         cdr = bytes(rosbags_store.serialize_cdr(message, f"sensor_msgs/msg/{name}"))
         array = getattr(decode(f"sensor_msgs/msg/{name}", cdr), attribute_name)
         assert np.shares_memory(array, np.frombuffer(cdr, np.uint8))
+        assert not array.flags.writeable
+
+
+def test_arrays_in_the_other_byte_order_are_native_and_read_only_too(rosbags_store, plain):
+    path = _path(rosbags_store, ["map", "map"])
+    cdr = bytes(rosbags_store.serialize_cdr(path, "nav_msgs/msg/Path", little_endian=False))
+    poses = decode("nav_msgs/msg/Path", cdr).poses
+    data = decode("std_msgs/msg/Float32MultiArray", bytes.fromhex(f"{0:024x}000000013f800000")).data
+    assert data.tolist() == [1.0]
+    for array in (poses.positions, poses.stamps_ns, data):
+        assert array.dtype.isnative
         assert not array.flags.writeable
 
 
