@@ -2,5 +2,6 @@
 
 from webviz.scene.scene import Scene
 from webviz.scene.server import CannotListen, PortInUse, open_server, set_background
+from webviz.scene.view import set_view
 
-__all__ = ["CannotListen", "PortInUse", "Scene", "open_server", "set_background"]
+__all__ = ["CannotListen", "PortInUse", "Scene", "open_server", "set_background", "set_view"]

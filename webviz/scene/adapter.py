@@ -91,6 +91,11 @@ class Adapter:
         (self._socket if client is None else client._websock_connection).queue_message(message)
 
     @property
+    def watchers(self) -> int:
+        """Browsers that are connected, also while they still load."""
+        return len(self._socket._live_connections)
+
+    @property
     def queued_messages(self) -> int:
         """Messages ever queued for everybody."""
         return self._buffer.message_counter

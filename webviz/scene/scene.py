@@ -55,6 +55,10 @@ class Scene:
         keep_shaders(server.scene, ROOT)
         self.link.run_javascript(PAGE_SCRIPT)
 
+    def has_watchers(self) -> bool:
+        """Whether any browser is connected."""
+        return self.link.watchers > 0
+
     def set_pose(self, group: str, pose: Pose) -> None:
         """Places a group in the fixed frame; a new group stands at the identity.
 
