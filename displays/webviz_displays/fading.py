@@ -1,0 +1,62 @@
+"""Frames that are no longer published grow old: first grey, then faint, then gone."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz_displays.colors import BACKGROUND
+
+F64 = NDArray[np.float64]
+U8 = NDArray[np.uint8]
+
+GREY = 178.5
+"""RViz's 0.7 of white."""
+
+
+class Ages:
+    """How long ago the transform of each frame last changed, in ROS time.
+
+    A stamp alone does not tell: a bag played without its clock has stamps of another day, yet its
+    frames move. So a frame is as old as its first stamp seen, and young again with each new stamp.
+    """
+
+    def __init__(self) -> None:
+        self._stamps_ns = np.zeros(0, np.int64)
+        self._changed_ns = np.zeros(0, np.int64)
+
+    def update(self, stamps_ns: NDArray[np.int64], now_ns: int) -> F64:
+        """Ages in seconds, float64 (N,); 0 for frames reached by static transforms only.
+
+        Args:
+            stamps_ns: int64 (N,), the newest stamp of each frame, 0 for static ones. Frames keep
+                their places from call to call; new ones are appended.
+            now_ns: ROS time.
+        """
+        known = len(self._stamps_ns)
+        same = stamps_ns[:known] == self._stamps_ns
+        self._changed_ns = np.concatenate(
+            (np.where(same, self._changed_ns, now_ns), np.minimum(stamps_ns[known:], now_ns))
+        )
+        self._stamps_ns = stamps_ns
+        return np.where(stamps_ns == 0, 0.0, (now_ns - self._changed_ns) / 1e9)
+
+
+def fade(ages: F64, timeout: float) -> tuple[F64, F64]:
+    """How grey and how opaque frames of these ages are, each 0 to 1, as in RViz.
+
+    Up to a third of the timeout a frame has its colours, up to two thirds it turns grey, then it
+    becomes transparent.
+    """
+    thirds = 3.0 * ages / timeout
+    return np.clip(thirds - 1.0, 0.0, 1.0), np.clip(3.0 - thirds, 0.0, 1.0)
+
+
+def faded(colors: F64, greyness: F64, opacity: F64) -> U8:
+    """Colours (N, M, 3) of N frames, 0 to 255, faded against RViz's background; uint8.
+
+    The browser draws lines and arrows opaque, so a mixture stands in for transparency.
+    """
+    grey, opaque = greyness[:, None, None], opacity[:, None, None]
+    mixed = colors + grey * (GREY - colors)
+    return np.rint(opaque * mixed + (1.0 - opaque) * np.array(BACKGROUND)).astype(np.uint8)

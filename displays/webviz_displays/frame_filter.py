@@ -1,0 +1,65 @@
+"""Which frames the TF display shows, and which is whose parent."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Frames
+
+
+@dataclass(frozen=True, eq=False)
+class FrameFilter:
+    """A user's choice of frames.
+
+    Args:
+        whitelist: only names in which it is found, if there is one.
+        blacklist: no names in which it is found.
+        switches: by name; they decide for the frames they name.
+        default: for the frames without a switch.
+    """
+
+    whitelist: re.Pattern[str] | None
+    blacklist: re.Pattern[str] | None
+    switches: Mapping[str, bool]
+    default: bool
+
+    def select(self, names: Sequence[str]) -> NDArray[np.bool_]:
+        """bool (N,): which of the names are wanted."""
+        return np.array([self._wants(name) for name in names], np.bool_)
+
+    def _wants(self, name: str) -> bool:
+        if self.whitelist and not self.whitelist.search(name):
+            return False
+        if self.blacklist and self.blacklist.search(name):
+            return False
+        return self.switches.get(name, self.default)
+
+
+def compiled(text: str) -> re.Pattern[str] | None:
+    """A regular expression, None if it is empty.
+
+    Raises:
+        ValueError: it is not one; the text says why.
+    """
+    try:
+        return re.compile(text) if text else None
+    except re.error as error:
+        raise ValueError(f"'{text}' is no regular expression ({error}); it is ignored.") from None
+
+
+def parent_indices(frames: Frames, names: Sequence[str]) -> NDArray[np.int64]:
+    """Place in `names` of each name's newest parent, -1 for roots and frames without data."""
+    places = {name: place for place, name in enumerate(names)}
+    caches = frames.buffer.tree.caches
+    parents = np.full(len(names), -1, np.int64)
+    for place, name in enumerate(names):
+        cache = caches.get(name)
+        newest = cache.newest if cache is not None else None
+        if newest is not None:
+            parents[place] = places.get(newest[1], -1)
+    return parents
