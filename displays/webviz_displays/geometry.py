@@ -68,3 +68,13 @@ def transformed(pose: Pose, xyz: ArrayLike) -> F64:
 def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
     """Which points (N, 3) have finite coordinates that a screen can show."""
     return (np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST).all(axis=-1)
+
+
+def origin_near(xyz: ArrayLike) -> tuple[float, float, float]:
+    """A round point within 1 km of the last of `xyz` (N, 3); zero where that is near zero.
+
+    Nodes are float32, which resolves 0.5 m at UTM coordinates. Drawn relative to this point, in a
+    group with this offset, they keep 0.1 mm. It is round so that it stays while data moves.
+    """
+    x, y, z = (np.round(np.asarray(xyz, dtype=np.float64)[-1] / 1000.0) * 1000.0).tolist()
+    return x, y, z

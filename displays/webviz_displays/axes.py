@@ -1,0 +1,26 @@
+"""The Axes display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from webviz import Context, Display, Prop, Sample
+from webviz_displays.frame_names import FIXED_FRAME, frame_of
+
+
+class Axes(Display):
+    """The axes of one frame: x red, y green, z blue."""
+
+    rviz = "rviz_default_plugins/Axes"
+
+    reference_frame: Annotated[
+        str, Prop(widget="frame", help="The frame whose axes are drawn.")
+    ] = FIXED_FRAME
+    length: Annotated[float, Prop(gt=0, unit="m", help="Length of each axis.")] = 1.0
+    radius: Annotated[float, Prop(gt=0, unit="m", help="Radius of each axis.")] = 0.1
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Axes that follow the reference frame."""
+        group = ctx.follow(frame_of(self.reference_frame))
+        group.axes("axes", [(0.0, 0.0, 0.0)], [(1.0, 0.0, 0.0, 0.0)], self.length, self.radius)

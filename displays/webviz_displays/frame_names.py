@@ -1,0 +1,11 @@
+"""Frames as a user names them in a property."""
+
+from __future__ import annotations
+
+FIXED_FRAME = "<Fixed Frame>"
+"""RViz's word for whatever the fixed frame is."""
+
+
+def frame_of(name: str) -> str | None:
+    """The frame id of a property, None for the fixed frame."""
+    return None if name in ("", FIXED_FRAME) else name.removeprefix("/")

@@ -1,0 +1,100 @@
+"""The Grid display."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Color, Context, Display, Prop, Sample
+from webviz_displays.colors import faded_color
+from webviz_displays.frame_names import FIXED_FRAME, frame_of
+
+MOST_LINES = 200_000
+"""More would only stop the browser."""
+
+# Which axes of the frame are the two of the plane and its normal.
+_PLANES = {"XY": (0, 1, 2), "XZ": (0, 2, 1), "YZ": (1, 2, 0)}
+
+
+class Grid(Display):
+    """A grid of lines, to judge distances by."""
+
+    rviz = "rviz_default_plugins/Grid"
+
+    reference_frame: Annotated[
+        str, Prop(widget="frame", help="The frame in which the grid lies.")
+    ] = FIXED_FRAME
+    plane_cell_count: Annotated[int, Prop(ge=1, help="Cells along each side of the plane.")] = 10
+    normal_cell_count: Annotated[
+        int, Prop(ge=0, help="Cells along the normal of the plane; 0 is a flat grid.")
+    ] = 0
+    cell_size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each cell.")] = 1.0
+    line_style: Annotated[
+        Literal["Lines", "Billboards"],
+        Prop(help="Lines are one pixel wide, Billboards have a width in metres."),
+    ] = "Lines"
+    line_width: Annotated[
+        float,
+        Prop(gt=0, unit="m", when=("line_style", "Billboards"), help="Width of the lines."),
+    ] = 0.03
+    color: Annotated[Color, Prop(help="Colour of the lines.")] = (160, 160, 164)
+    alpha: Annotated[
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Lines are opaque in the browser; alpha fades them towards dark grey.",
+        ),
+    ] = 0.5
+    plane: Annotated[
+        Literal["XY", "XZ", "YZ"], Prop(help="The plane of the frame in which the grid lies.")
+    ] = "XY"
+    offset: Annotated[
+        tuple[float, float, float], Prop(unit="m", help="Where the middle of the grid is.")
+    ] = (0.0, 0.0, 0.0)
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """All lines as one node that follows the reference frame."""
+        plane, normal = self.plane_cell_count, self.normal_cell_count
+        count = 2 * (plane + 1) * (normal + 1) + ((plane + 1) ** 2 if normal else 0)
+        if count > MOST_LINES:
+            ctx.error(
+                "Grid",
+                f"{count} lines are more than a browser can show ({MOST_LINES}): "
+                "choose fewer and larger cells.",
+            )
+            return
+        segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
+        color = faded_color(self.color, self.alpha)
+        group = ctx.follow(frame_of(self.reference_frame))
+        if self.line_style == "Lines":
+            group.lines("grid", segments, color)
+        else:
+            group.lines("grid", segments, color, self.line_width, "m")
+        ctx.ok("Grid", f"{count} lines.")
+
+
+@functools.lru_cache(maxsize=4)
+def _unit_grid(plane: int, normal: int, axes: str) -> NDArray[np.float64]:
+    """The segments (N, 2, 3) of a grid with cells of edge 1 around the origin."""
+    across = np.arange(plane + 1) - plane / 2
+    heights = np.arange(normal + 1) - normal / 2
+    place, height = (g.ravel() for g in np.meshgrid(across, heights))
+    end = np.full(len(place), plane / 2)
+    lines = [
+        np.stack([(place, -end, height), (place, end, height)]),
+        np.stack([(-end, place, height), (end, place, height)]),
+    ]
+    if normal:
+        x, y = (g.ravel() for g in np.meshgrid(across, across))
+        top = np.full(len(x), normal / 2)
+        lines.append(np.stack([(x, y, -top), (x, y, top)]))
+    segments = np.concatenate(lines, axis=2).transpose(2, 0, 1)
+    result = np.empty_like(segments)
+    result[..., _PLANES[axes]] = segments
+    return result

@@ -1,0 +1,119 @@
+"""The Odometry display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Annotated
+
+import numpy as np
+
+from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz_displays import covariance
+from webviz_displays.arrows import along_x
+from webviz_displays.colors import faded_color
+from webviz_displays.covariance_meshes import orientation_meshes, position_mesh
+from webviz_displays.geometry import origin_near
+from webviz_displays.odometry_poses import Trail, fault, has_moved, trail
+from webviz_displays.pose_properties import Covariance, PoseShape
+
+MOST_COVARIANCES = 100
+"""RViz's default Keep. Each covariance is a mesh, and all are sent again with each new pose."""
+
+
+class Odometry(Display):
+    """Where a robot believes it was and is, and how sure it is of that."""
+
+    rviz = "rviz_default_plugins/Odometry"
+
+    topic: Annotated[Topic, Input("nav_msgs/msg/Odometry"), Prop(help="Topic of the odometry.")] = (
+        Topic("/odom")
+    )
+    position_tolerance: Annotated[
+        float, Prop(ge=0, unit="m", help="A pose is added if the robot moved at least so far,")
+    ] = 0.1
+    angle_tolerance: Annotated[
+        float, Prop(ge=0, unit="rad", help="or turned at least so much, since the last one.")
+    ] = 0.1
+    keep_count: Annotated[
+        int, Prop(ge=0, rviz="Keep", help="How many of the newest poses stay; 0 is all.")
+    ] = 100
+    shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
+    covariance: Annotated[Covariance, Prop(help="How to draw uncertainty.")] = Covariance()
+
+    def keep(self) -> Keep:
+        """The newest poses that were accepted."""
+        return Keep(count=self.keep_count)
+
+    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
+        """Whether the robot moved by one of the tolerances.
+
+        Of faulty poses in a row the first is let in, to be named in a status.
+        """
+        if not kept:
+            return True
+        last_is_faulty = fault(kept[-1].message)
+        if last_is_faulty or fault(new.message):
+            return not (last_is_faulty and fault(new.message))
+        return has_moved(
+            new.message, kept[-1].message, self.position_tolerance, self.angle_tolerance
+        )
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """All poses as one node, and what is uncertain as a few more."""
+        faults = [fault(sample.message) for sample in samples]
+        good = [s for s, problem in zip(samples, faults, strict=True) if not problem]
+        if good:
+            ctx.ok("Pose", f"Showing {len(good)} pose{'s' if len(good) != 1 else ''}.")
+        if samples and faults[-1]:
+            ctx.error("Pose", faults[-1])
+        if not good:
+            return
+        poses = trail(good)
+        origin = origin_near(poses.positions)
+        group = ctx.follow(None, offset=Pose(origin))
+        poses = replace(poses, positions=poses.positions - origin)
+        self._draw_poses(poses, group)
+        if self.covariance.value:
+            self._draw_covariances(good, poses, group, ctx)
+
+    def _draw_poses(self, poses: Trail, group: Group) -> None:
+        look = self.shape
+        if look.value == "Axes":
+            group.axes("poses", poses.positions, poses.wxyzs, look.axes_length, look.axes_radius)
+            return
+        group.arrows(
+            "poses",
+            along_x(poses.positions, poses.rotations, look.shaft_length + look.head_length),
+            faded_color(look.color, look.alpha),
+            look.shaft_radius,
+            look.head_radius,
+            look.head_length,
+        )
+
+    def _draw_covariances(
+        self, samples: Sequence[Sample], poses: Trail, group: Group, ctx: Context
+    ) -> None:
+        newest = samples[-MOST_COVARIANCES:]
+        given, ok = covariance.read(np.array([s.message.pose.covariance for s in newest]))
+        if not ok.all():
+            ctx.warn(
+                "Covariance",
+                f"{(~ok).sum()} of {len(ok)} covariances are no covariances "
+                "(not finite, or with a negative eigenvalue) and are not drawn.",
+            )
+        elif len(samples) > len(newest):
+            ctx.ok("Covariance", f"Showing the newest {len(newest)} of {len(samples)} covariances.")
+        given = covariance.Covariances(given.matrices[ok], given.is_planar[ok])
+        positions, frames, axes = (
+            values[-MOST_COVARIANCES:][ok]
+            for values in (poses.positions, poses.frames, poses.rotations)
+        )
+        look = self.covariance.orientation
+        if self.covariance.position.value:
+            mesh = position_mesh(self.covariance.position, given, positions, frames)
+            group.add("position covariance", mesh)
+        if look.value:
+            axes = axes if look.frame == "Local" else frames
+            for key, mesh in orientation_meshes(look, given, positions, axes).items():
+                group.add(f"{key} covariance", mesh)

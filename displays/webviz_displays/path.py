@@ -1,0 +1,152 @@
+"""The Path display."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz.messages import Path as PathMessage
+from webviz_displays.arrows import along_x
+from webviz_displays.colors import faded_color
+from webviz_displays.geometry import (
+    is_drawable,
+    matrices,
+    normalized,
+    origin_near,
+    transformed,
+    w_first,
+)
+
+
+class Path(Display):
+    """The line that a planner wants a robot to follow, and the poses on it."""
+
+    rviz = "rviz_default_plugins/Path"
+
+    topic: Annotated[Topic, Input("nav_msgs/msg/Path"), Prop(help="Topic of the paths.")] = Topic(
+        "/path"
+    )
+    line_style: Annotated[
+        Literal["Lines", "Billboards"],
+        Prop(help="Lines are one pixel wide, Billboards have a width in metres."),
+    ] = "Lines"
+    line_width: Annotated[
+        float,
+        Prop(ge=0.001, unit="m", when=("line_style", "Billboards"), help="Width of the line."),
+    ] = 0.03
+    color: Annotated[Color, Prop(help="Colour of the line.")] = (25, 255, 0)
+    alpha: Annotated[
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Lines are opaque in the browser; alpha fades them towards dark grey.",
+        ),
+    ] = 1.0
+    buffer_length: Annotated[int, Prop(ge=1, help="How many of the newest paths to show.")] = 1
+    offset: Annotated[
+        tuple[float, float, float],
+        Prop(unit="m", help="Where the path is drawn relative to where it is, in the fixed frame."),
+    ] = (0.0, 0.0, 0.0)
+    pose_style: Annotated[
+        Literal["None", "Axes", "Arrows"], Prop(help="How to draw each pose of the path.")
+    ] = "None"
+    length: Annotated[
+        float, Prop(gt=0, unit="m", when=("pose_style", "Axes"), help="Length of the axes.")
+    ] = 0.3
+    radius: Annotated[
+        float, Prop(gt=0, unit="m", when=("pose_style", "Axes"), help="Radius of the axes.")
+    ] = 0.03
+    pose_color: Annotated[
+        Color, Prop(when=("pose_style", "Arrows"), help="Colour of the arrows.")
+    ] = (255, 85, 255)
+    shaft_length: Annotated[
+        float,
+        Prop(ge=0, unit="m", when=("pose_style", "Arrows"), help="Length of the arrows' shafts."),
+    ] = 0.1
+    head_length: Annotated[
+        float,
+        Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Length of the arrows' heads."),
+    ] = 0.2
+    shaft_diameter: Annotated[
+        float,
+        Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the shafts."),
+    ] = 0.1
+    head_diameter: Annotated[
+        float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the heads.")
+    ] = 0.3
+
+    def keep(self) -> Keep:
+        """The newest paths."""
+        return Keep(count=self.buffer_length)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """One path, in the frame and at the stamp of its header."""
+        path: PathMessage = sample.message
+        count = len(path.poses)
+        if not count:
+            ctx.warn("Path", "The path is empty.")
+            return
+        bad = ~is_drawable(path.poses.positions)
+        bad |= ~np.isfinite(path.poses.orientations).all(axis=1)
+        if bad.any():
+            index = int(np.flatnonzero(bad)[0])
+            more = f", as {bad.sum() - 1} more" if bad.sum() > 1 else ""
+            ctx.error("Path", f"{_fault(path, index)}{more}: the path is not drawn.")
+            return
+        ctx.ok("Path", f"Showing {count} pose{'s' if count != 1 else ''}.")
+        if count == 1 and self.pose_style == "None":
+            ctx.warn("Path", "The path has one pose only, which makes no line.")
+
+        # Offset is in the fixed frame; the group turns with the frame of the path.
+        origin = origin_near(path.poses.positions)
+        corner = transformed(sample.pose, [origin])[0] + self.offset
+        group = ctx.follow(None, offset=Pose(tuple(corner.tolist()), sample.pose.wxyz))
+        xyz = path.poses.positions - origin
+        color = faded_color(self.color, self.alpha)
+        if self.line_style == "Lines":
+            group.strip("line", xyz, color)
+        else:
+            group.strip("line", xyz, color, self.line_width, "m")
+        if self.pose_style != "None":
+            self._draw_poses(xyz, path.poses.orientations, group, ctx)
+
+    def _draw_poses(
+        self,
+        xyz: NDArray[np.float64],
+        xyzw: NDArray[np.float64],
+        group: Group,
+        ctx: Context,
+    ) -> None:
+        wxyz, ok = normalized(w_first(xyzw))
+        if not ok.all():
+            ctx.warn(
+                "Orientation",
+                f"The orientation of {(~ok).sum()} of {len(ok)} poses is all zeros; "
+                "they are drawn unturned.",
+            )
+        if self.pose_style == "Axes":
+            group.axes("poses", xyz, wxyz, self.length, self.radius)
+        else:
+            group.arrows(
+                "poses",
+                along_x(xyz, matrices(wxyz), self.shaft_length + self.head_length),
+                self.pose_color,
+                self.shaft_diameter / 2,
+                self.head_diameter / 2,
+                self.head_length,
+            )
+
+
+def _fault(path: PathMessage, index: int) -> str:
+    """What is wrong with a pose."""
+    x, y, z = path.poses.positions[index].tolist()
+    qx, qy, qz, qw = path.poses.orientations[index].tolist()
+    return (
+        f"Pose {index} of {len(path.poses)} has position ({x:g}, {y:g}, {z:g}) and orientation "
+        f"({qx:g}, {qy:g}, {qz:g}, {qw:g})"
+    )
