@@ -51,7 +51,7 @@ class DisplayList:
         for row in rows:
             level = row.level
             self._rows[row.id].update(row, level)
-            look.append(Look(row.id == selected, level))
+            look.append(Look(level, _enabled(row) or row.display is None, row.id == selected))
         if look != self._look:
             self._look = look
             self._style.content = list_style(look)
@@ -77,8 +77,7 @@ class _Line:
         enqueue: Callable[[Command], None],
         select: Callable[[str], None],
     ) -> None:
-        enabled = row.display is not None and row.display.enabled
-        self._box = gui.add_checkbox("", enabled, disabled=row.display is None)
+        self._box = gui.add_checkbox("", _enabled(row), disabled=row.display is None)
         self._control = Control(
             self._box, lambda value: enqueue(SetProperty(row.id, "enabled", value))
         )
@@ -87,8 +86,7 @@ class _Line:
         self._shown = (row.name, row.level)
 
     def update(self, row: Row, level: Level) -> None:
-        if row.display is not None:
-            self._control.show(row.display.enabled)
+        self._control.show(_enabled(row))
         if self._shown != (row.name, level):
             self._shown = (row.name, level)
             self._button.label = _label(row, level)
@@ -100,6 +98,10 @@ class _Line:
     def remove(self) -> None:
         self._box.remove()
         self._button.remove()
+
+
+def _enabled(row: Row) -> bool:
+    return row.display is not None and row.display.enabled
 
 
 def _label(row: Row, level: Level) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import viser
 
 from webviz.commands import Command, RemoveDisplay, SetProperty
-from webviz.display import Display
+from webviz.display import Display, Input
 from webviz.gui.control import Choice, Control
 from webviz.gui.controls import add_control
 from webviz.gui.properties import Property, properties_of
@@ -85,7 +85,7 @@ class Editor:
 
     def _add(self, declared: Property, display: Display) -> None:
         if declared.input is not None:
-            self._add_topic(declared, display)
+            self._add_topic(declared, declared.input, display)
         elif declared.children:
             self._add_folder(declared, display, declared.label)
         else:
@@ -94,7 +94,7 @@ class Editor:
             )
             self._controls.append((declared, control))
 
-    def _add_topic(self, declared: Property, display: Display) -> None:
+    def _add_topic(self, declared: Property, wanted: Input, display: Display) -> None:
         """The topics there are, to choose from; any other name and the QoS in a folder."""
         name = next(child for child in declared.children if child.path == f"{declared.path}.name")
         choice = Choice(
@@ -102,9 +102,9 @@ class Editor:
             declared.label,
             name.of(display),
             self._edit(name.path),
-            declared.help or f"A topic of type {declared.input.type}.",
+            f"{declared.help} ({wanted.type})".lstrip(),
         )
-        self._controls.append((replace(name, input=declared.input, when=declared.when), choice))
+        self._controls.append((replace(name, input=wanted, when=declared.when), choice))
         self._add_folder(declared, display, f"{declared.label}: name and QoS", expand=False)
 
     def _add_folder(

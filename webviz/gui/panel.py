@@ -11,6 +11,7 @@ from webviz.display import display_types
 from webviz.gui.control import Choice
 from webviz.gui.display_list import DisplayList
 from webviz.gui.editor import Editor
+from webviz.gui.style import row_style
 from webviz.gui.text import StatusLines
 from webviz.state import State
 
@@ -50,9 +51,10 @@ class Panel:
             reset.on_click(lambda _: enqueue(Reset()))
         self._list = DisplayList(self._gui, enqueue, self._select, order=1)
         types = tuple(display_types())
-        with self._gui.add_folder("Add", order=4, visible=bool(types)):
-            self._type = self._gui.add_dropdown("Type", types or ("",))
-            add = self._gui.add_button("Add", icon=viser.Icon.PLUS, color="gray")
+        with self._gui.add_folder("Add", order=2, visible=bool(types)):
+            self._gui.add_html(row_style())
+            self._type = self._gui.add_dropdown("", types or ("",))
+            add = self._gui.add_button("Add", color="gray")
             add.on_click(lambda _: self._add())
 
     def update(self, state: State) -> None:
@@ -96,5 +98,5 @@ class Panel:
         if row is None:
             return
         if self._editor is None:
-            self._editor = Editor(self._gui, row, state, self._enqueue, order=2)
+            self._editor = Editor(self._gui, row, state, self._enqueue, order=3)
         self._editor.update(row, state)

@@ -24,7 +24,7 @@ class Property:
         label: RViz's name, with the unit.
         help: one sentence, or "".
         type: its type, bounds included.
-        when: path and value of the property that decides whether this one has a meaning.
+        when: paths and values of the properties that decide whether this one has a meaning.
         widget: see `webviz.Prop`.
         input: what it subscribes to, if it is a topic.
         choices: the values it may have, in the order of declaration; () where it is no choice.
@@ -35,7 +35,7 @@ class Property:
     label: str
     help: str
     type: msgspec.inspect.Type
-    when: tuple[str, object] | None
+    when: tuple[tuple[str, object], ...]
     widget: str
     input: Input | None
     choices: tuple[Any, ...]
@@ -47,7 +47,7 @@ class Property:
 
     def applies(self, display: Display) -> bool:
         """Whether it has a meaning as the other properties are."""
-        return self.when is None or value_at(display, self.when[0]) == self.when[1]
+        return all(value_at(display, path) == value for path, value in self.when)
 
 
 def value_at(display: Display, path: str) -> Any:
@@ -71,10 +71,42 @@ def _properties(
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = typing.get_type_hints(cls, include_extras=True)
+    declared = {field.name: _declaration(field.type) for field in info.fields}
     return tuple(
-        _property(field, prefix, inputs.get(field.name), _choices(hints[field.name]))
-        for field in info.fields
+        Property(
+            path=prefix + name,
+            label=_label(name, known.get("rviz", ""), known.get("unit", "")),
+            help=known.get("description", ""),
+            type=type_,
+            when=_conditions(name, prefix, declared),
+            widget=known.get("widget", ""),
+            input=inputs.get(name),
+            choices=_choices(hints[name]),
+            children=_properties(type_.cls, f"{prefix}{name}.", {})
+            if isinstance(type_, msgspec.inspect.StructType)
+            else (),
+        )
+        for name, (type_, known) in declared.items()
     )
+
+
+def _declaration(type_: msgspec.inspect.Type) -> tuple[msgspec.inspect.Type, dict[str, Any]]:
+    """The bare type of a field, and what `webviz.Prop` says of it."""
+    known: dict[str, Any] = {}
+    while isinstance(type_, msgspec.inspect.Metadata):
+        known = {**(type_.extra_json_schema or {}), **(type_.extra or {}), **known}
+        type_ = type_.type
+    return type_, known
+
+
+def _conditions(
+    name: str, prefix: str, declared: dict[str, tuple[Any, dict[str, Any]]]
+) -> tuple[tuple[str, object], ...]:
+    """What must hold for a property: its own condition, and those of the property it names."""
+    when = declared[name][1].get("when")
+    if when is None:
+        return ()
+    return ((prefix + when[0], when[1]), *_conditions(when[0], prefix, declared))
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
@@ -82,30 +114,6 @@ def _choices(hint: Any) -> tuple[Any, ...]:
     while typing.get_origin(hint) is Annotated:
         hint = typing.get_args(hint)[0]
     return typing.get_args(hint) if typing.get_origin(hint) is Literal else ()
-
-
-def _property(
-    field: msgspec.inspect.Field, prefix: str, declared: Input | None, choices: tuple[Any, ...]
-) -> Property:
-    type_, known, help_ = field.type, {}, ""
-    while isinstance(type_, msgspec.inspect.Metadata):
-        help_ = help_ or (type_.extra_json_schema or {}).get("description", "")
-        known = {**(type_.extra or {}), **known}
-        type_ = type_.type
-    path = prefix + field.name
-    when = known.get("when")
-    nested = type_.cls if isinstance(type_, msgspec.inspect.StructType) else None
-    return Property(
-        path=path,
-        label=_label(field.name, known.get("rviz", ""), known.get("unit", "")),
-        help=help_,
-        type=type_,
-        when=(prefix + when[0], when[1]) if when else None,
-        widget=known.get("widget", ""),
-        input=declared,
-        choices=choices,
-        children=_properties(nested, f"{path}.", {}) if nested else (),
-    )
 
 
 def _label(name: str, rviz: str, unit: str) -> str:

@@ -63,7 +63,8 @@ def statuses_html(statuses: Mapping[str, Status]) -> str:
     rows = [_row(key, status) for key, status in lines]
     if more := len(statuses) - len(lines):
         rows.append(f"<div>… and {more} more</div>")
-    return f'<div class="webviz-statuses">{"".join(rows)}</div>'
+    style = "padding:0 0.75em 0.6em;font-size:0.85em;line-height:1.4;overflow-wrap:anywhere"
+    return f'<div class="webviz-statuses" style="{style}">{"".join(rows)}</div>'
 
 
 def _row(key: str, status: Status) -> str:
