@@ -79,9 +79,7 @@ class TF(Display):
         ctx.state.clear()
         ctx.state["fixed"] = ctx.frames.fixed_frame
         ctx.state["ages"] = ages or Ages()
-        ctx.state["filter"] = FrameFilter(
-            whitelist, blacklist, self.frames, self.all_enabled
-        )
+        ctx.state["filter"] = FrameFilter(whitelist, blacklist, self.frames, self.all_enabled)
 
     def tick(self, ctx: Context) -> None:
         """Draw every frame where it is at the latest common time with the fixed frame."""
