@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Frames, Sample
-from webviz.messages import LaserScan
+from webviz import Frames, Sample, messages
 from webviz_displays.geometry import FARTHEST, matrices, w_first
 
 F64 = NDArray[np.float64]
@@ -39,7 +38,7 @@ class Hits:
         return f"{text}; dropped {self.total - len(self.beams)}: {reasons}."
 
 
-def fault(scan: LaserScan) -> str:
+def fault(scan: messages.LaserScan) -> str:
     """Why no beam of a scan has a place, "" if they have; a sentence."""
     if not len(scan.ranges):
         return "The scan has no ranges."
@@ -54,7 +53,7 @@ def fault(scan: LaserScan) -> str:
     return ""
 
 
-def project(scan: LaserScan) -> Hits:
+def project(scan: messages.LaserScan) -> Hits:
     """The points of a scan without `fault`, as seen from where it was at its stamp.
 
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and

@@ -58,9 +58,9 @@ def read(covariances: F64) -> tuple[Covariances, Mask]:
         that are drawn. The others are to be left out.
     """
     matrices = np.reshape(covariances, (-1, 6, 6))
-    finite = np.isfinite(matrices).all(axis=(1, 2))
+    finite = np.all(np.isfinite(matrices), axis=(1, 2))
     matrices = np.where(finite[:, None, None], matrices, 0.0)
-    is_planar = (matrices[:, (2, 3, 4), (2, 3, 4)] <= 0).all(axis=1)
+    is_planar = np.all(matrices[:, (2, 3, 4), (2, 3, 4)] <= 0, axis=1)
     flat_ok = _is_semidefinite(matrices[:, :2, :2]) & (matrices[:, 5, 5] >= 0)
     full_ok = _is_semidefinite(matrices[:, :3, :3]) & _is_semidefinite(matrices[:, 3:, 3:])
     return Covariances(matrices, is_planar), finite & np.where(is_planar, flat_ok, full_ok)

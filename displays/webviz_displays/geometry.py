@@ -67,7 +67,7 @@ def transformed(pose: Pose, xyz: ArrayLike) -> F64:
 
 def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
     """Which points (N, 3) have finite coordinates that a screen can show."""
-    return (np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST).all(axis=-1)
+    return np.all(np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST, axis=-1)
 
 
 def origin_near(xyz: ArrayLike) -> tuple[float, float, float]:

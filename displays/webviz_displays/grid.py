@@ -95,6 +95,6 @@ def _unit_grid(plane: int, normal: int, axes: str) -> NDArray[np.float64]:
         top = np.full(len(x), normal / 2)
         lines.append(np.stack([(x, y, -top), (x, y, top)]))
     segments = np.concatenate(lines, axis=2).transpose(2, 0, 1)
-    result = np.empty_like(segments)
+    result = np.empty(segments.shape)
     result[..., _PLANES[axes]] = segments
     return result

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz.messages import LaserScan as Scan
+from webviz import messages
 from webviz_displays import beams
 from webviz_displays.colors import bounds, faded, fractions, rainbow, ramp
 from webviz_displays.geometry import transformed
@@ -148,7 +148,7 @@ class LaserScan(Display):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One scan, in the frame of the laser at the stamp."""
-        scan: Scan = sample.message
+        scan: messages.LaserScan = sample.message
         if problem := beams.fault(scan):
             ctx.error("Points", problem)
             return
@@ -173,7 +173,7 @@ class LaserScan(Display):
 
     def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""
-        scan: Scan = sample.message
+        scan: messages.LaserScan = sample.message
         duration = (hits.total - 1) * scan.time_increment
         if not np.isfinite(duration):
             ctx.warn("Scan Time", f"time_increment is {scan.time_increment}; it is taken as 0.")
@@ -195,7 +195,9 @@ class LaserScan(Display):
             )
         return xyz
 
-    def _colors(self, scan: Scan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context) -> U8:
+    def _colors(
+        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+    ) -> U8:
         """A colour for each point (N, 3)."""
         if self.color_transformer == "FlatColor":
             return np.tile(np.array(self.color, dtype=np.uint8), (len(xyz), 1))
@@ -216,7 +218,9 @@ class LaserScan(Display):
             return ramp(where, self.min_color, self.max_color)
         return rainbow(1.0 - where if self.invert_rainbow else where)
 
-    def _channel(self, scan: Scan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context) -> F64:
+    def _channel(
+        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+    ) -> F64:
         """The numbers (N,) that are coloured."""
         if self.channel_name in ("x", "y", "z"):
             return transformed(sample.pose, xyz)[:, "xyz".index(self.channel_name)]

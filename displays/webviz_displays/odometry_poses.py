@@ -9,8 +9,7 @@ from math import atan2, dist, isfinite, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Sample
-from webviz.messages import Odometry, Quaternion
+from webviz import Sample, messages
 from webviz_displays.geometry import FARTHEST, matrices, multiply, normalized
 
 F64 = NDArray[np.float64]
@@ -36,7 +35,7 @@ class Trail:
     frames: F64
 
 
-def fault(message: Odometry) -> str:
+def fault(message: messages.Odometry) -> str:
     """Why a pose cannot be drawn, "" if it can; a sentence."""
     p, q = message.pose.pose.position, message.pose.pose.orientation
     if not all(map(isfinite, (p.x, p.y, p.z, q.x, q.y, q.z, q.w))):
@@ -57,7 +56,9 @@ def fault(message: Odometry) -> str:
     return ""
 
 
-def has_moved(new: Odometry, last: Odometry, distance: float, angle: float) -> bool:
+def has_moved(
+    new: messages.Odometry, last: messages.Odometry, distance: float, angle: float
+) -> bool:
     """Whether a pose is at least so far (m) or so much turned (rad) from the last one."""
     a, b = new.pose.pose, last.pose.pose
     p, q = a.position, b.position
@@ -84,7 +85,7 @@ def _row(sample: Sample) -> tuple[float, ...]:
     return (p.x, p.y, p.z, q.w, q.x, q.y, q.z, *sample.pose.position, *sample.pose.wxyz)
 
 
-def _angle(p: Quaternion, q: Quaternion) -> float:
+def _angle(p: messages.Quaternion, q: messages.Quaternion) -> float:
     """The angle between two rotations: 2 atan2(|imaginary part|, |real part|) of conj(q) p."""
     w = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w
     x = q.w * p.x - q.x * p.w - q.y * p.z + q.z * p.y

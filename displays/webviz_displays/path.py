@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
-from webviz.messages import Path as PathMessage
+from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic, messages
 from webviz_displays.arrows import along_x
 from webviz_displays.colors import faded_color
 from webviz_displays.geometry import (
@@ -86,7 +85,7 @@ class Path(Display):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One path, in the frame and at the stamp of its header."""
-        path: PathMessage = sample.message
+        path: messages.Path = sample.message
         count = len(path.poses)
         if not count:
             ctx.warn("Path", "The path is empty.")
@@ -142,7 +141,7 @@ class Path(Display):
             )
 
 
-def _fault(path: PathMessage, index: int) -> str:
+def _fault(path: messages.Path, index: int) -> str:
     """What is wrong with a pose."""
     x, y, z = path.poses.positions[index].tolist()
     qx, qy, qz, qw = path.poses.orientations[index].tolist()

@@ -1,0 +1,178 @@
+"""A display at work without ROS and browser: messages in, nodes and statuses out."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from webviz import Display, Frames, Pose, Status
+from webviz.messages.definitions import DEFINITIONS
+from webviz.nodes import Node
+from webviz.pipeline.background import Workers
+from webviz.pipeline.runner import Runner, Services
+from webviz.sources import Offer, Publisher, Raw
+from webviz.transforms import TransformBuffer
+
+SECOND = 1_000_000_000
+START = 100 * SECOND
+"""ROS time at which every bench begins."""
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+for _name, _text in DEFINITIONS.items():
+    STORE.register(get_types_from_msg(_text, _name))
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+
+class RecordingScene:
+    """Remembers what is drawn; `webviz.scene.Scene` would send it to browsers."""
+
+    def __init__(self) -> None:
+        self.poses: dict[str, Pose] = {}
+        self.hidden: set[str] = set()
+        self.groups: dict[str, dict[str, Node]] = {}
+
+    def set_pose(self, group: str, pose: Pose) -> None:
+        self.poses[group] = pose
+
+    def set_visible(self, group: str, visible: bool) -> None:
+        (self.hidden.discard if visible else self.hidden.add)(group)
+
+    def upsert(self, group: str, key: str, node: Node) -> None:
+        self.groups.setdefault(group, {})[key] = node
+
+    def remove(self, group: str, key: str) -> None:
+        self.groups.get(group, {}).pop(key, None)
+
+    def remove_group(self, group: str) -> None:
+        self.poses.pop(group, None)
+        self.hidden.discard(group)
+        self.groups.pop(group, None)
+
+
+class Bench:
+    """One display, its transforms and its scene.
+
+    Args:
+        display: any display; what it raises is raised.
+        fixed_frame: frame id that everything is drawn in.
+    """
+
+    def __init__(self, display: Display, workers: Workers, fixed_frame: str = "map") -> None:
+        self.display = display
+        self.fixed_frame = fixed_frame
+        self.buffer = TransformBuffer()
+        self.scene = RecordingScene()
+        self.now_ns = START
+        services = Services(self.scene, workers, lambda topic: topic, strict=True)
+        self.runner = Runner("display", display, services)
+        self._batches: dict[str, list[Raw]] = {}
+        self._offers: dict[str, Offer] = {}
+
+    def transform(
+        self,
+        parent: str,
+        child: str,
+        xyz: Vector = (0.0, 0.0, 0.0),
+        xyzw: Quaternion = (0.0, 0.0, 0.0, 1.0),
+        *,
+        stamp_ns: int | None = None,
+    ) -> None:
+        """Publish a transform: static, unless it has a stamp."""
+        self.buffer.set_transform(parent, child, stamp_ns or 0, xyz, xyzw, stamp_ns is None)
+
+    def send(self, type_name: str, values: Mapping[str, Any], topic: str = "") -> None:
+        """Publish a message on a topic (the display's only one), as real CDR bytes.
+
+        Args:
+            type_name: such as "sensor_msgs/msg/LaserScan".
+            values: nested mappings; fields left out are zero or empty.
+            topic: full name.
+        """
+        topic = topic or next(iter(self.runner.topics().values()))
+        cdr = bytes(STORE.serialize_cdr(message(type_name, values), type_name))
+        publisher = Publisher("/test", type_name, "reliable", "volatile")
+        self._offers[topic] = Offer((publisher,), ("reliable", "volatile"))
+        self._batches.setdefault(topic, []).append(Raw(cdr, self.now_ns))
+
+    def set(self, path: str, value: Any) -> None:
+        """Change a property, and draw."""
+        self.runner.set(path, value)
+        self.turn()
+
+    def turn(self, seconds: float = 0.0) -> None:
+        """One tick of the frame loop, after some time."""
+        self.now_ns += round(seconds * SECOND)
+        batches, self._batches = self._batches, {}
+        frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
+        self.runner.take(batches, frames, self._offers)
+        self.runner.draw(frames)
+
+    def nodes(self) -> dict[str, Node]:
+        """What can be seen, by key; keys used in several groups get a number."""
+        return {key: node for key, (_, node) in self._visible()}
+
+    def poses(self) -> dict[str, Pose]:
+        """Where in the fixed frame each of `nodes` is."""
+        return {key: pose for key, (pose, _) in self._visible()}
+
+    def statuses(self) -> dict[str, tuple[str, str]]:
+        """Level and sentence by key."""
+        return {key: (status.level.name, status.text) for key, status in self._statuses().items()}
+
+    def _statuses(self) -> dict[str, Status]:
+        frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
+        return self.runner.statuses(self._offers, frames, lambda topic: 0)
+
+    def _visible(self) -> Iterator[tuple[str, tuple[Pose, Node]]]:
+        numbers: dict[str, Iterator[int]] = {}
+        for group, nodes in self.scene.groups.items():
+            if group in self.scene.hidden:
+                continue
+            for key, node in nodes.items():
+                number = next(numbers.setdefault(key, itertools.count()))
+                pose = self.scene.poses.get(group, Pose())
+                yield (f"{key} {number}" if number else key), (pose, node)
+
+
+def message(type_name: str, values: Mapping[str, Any]) -> Any:
+    """A rosbags message from nested mappings."""
+    fields = STORE.fielddefs[type_name][1]
+    assert values.keys() <= {name for name, _ in fields}, f"{type_name} has no such field"
+    return STORE.types[type_name](
+        **{name: _value(description, values.get(name)) for name, description in fields}
+    )
+
+
+def _value(description: Any, value: Any) -> Any:
+    kind, detail = description
+    if kind == Nodetype.NAME:
+        return message(detail, value or {})
+    if kind == Nodetype.BASE:
+        return ("" if detail[0] == "string" else 0) if value is None else value
+    element, length = detail
+    if element[0] == Nodetype.NAME or element[1][0] == "string":
+        return [_value(element, item) for item in value or ()]
+    dtype = {"byte": "uint8", "char": "uint8"}.get(element[1][0], element[1][0])
+    return np.asarray(np.zeros(length or 0) if value is None else value, dtype)
+
+
+def header(frame: str, stamp_ns: int = START) -> dict[str, Any]:
+    """A std_msgs/Header for `Bench.send`."""
+    sec, nanosec = divmod(stamp_ns, SECOND)
+    return {"frame_id": frame, "stamp": {"sec": sec, "nanosec": nanosec}}
+
+
+@pytest.fixture
+def bench() -> Iterator[Callable[..., Bench]]:
+    """Makes a `Bench` of a display."""
+    workers = Workers(lambda: None)
+    yield lambda display, **options: Bench(display, workers, **options)
+    workers.close()
