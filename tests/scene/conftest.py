@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import contextlib
 import io
 import shutil
 import time
@@ -61,49 +60,47 @@ def browser() -> Iterator[playwright.Browser]:
         browser.close()
 
 
-@pytest.fixture
-def open_view(browser: playwright.Browser, scene: Scene) -> Iterator[Callable[[], View]]:
-    """Opens a tab of 320 x 240 pixels that looks down on the origin from 10 m."""
-    with contextlib.ExitStack() as stack:
-
-        def open_view() -> View:
-            context = stack.enter_context(
-                browser.new_context(viewport={"width": 320, "height": 240})
-            )
-            view = View(context.new_page(), scene)
-            view.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-            stack.callback(view.check)
-            return view
-
-        yield open_view
+@pytest.fixture(scope="module")
+def tab(browser: playwright.Browser) -> Iterator[View]:
+    """One tab for the tests of a module: opening it takes seconds."""
+    server = open_server(port=0)
+    view = View(browser, Scene(server))
+    yield view
+    view.close()
+    server.stop()
 
 
 @pytest.fixture
-def view(open_view: Callable[[], View]) -> View:
-    """A tab, as from `open_view`."""
-    return open_view()
+def view(tab: View) -> Iterator[View]:
+    """A tab with an empty scene that looks down on the origin from 10 m."""
+    tab.scene.clear()
+    tab.scene.set_origin((0.0, 0.0, 0.0))
+    tab.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
+    yield tab
+    assert tab.errors == []
 
 
 class View:
-    """One browser tab with the scene."""
+    """One browser tab of 320 x 240 pixels with the scene."""
 
-    def __init__(self, page: playwright.Page, scene: Scene) -> None:
-        self.page = page
+    def __init__(self, browser: playwright.Browser, scene: Scene) -> None:
+        self.scene = scene
         self.errors: list[str] = []
-        self._scene = scene
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.goto(f"http://127.0.0.1:{scene.link.server.get_port()}/?fixedDpr=1")
-        page.wait_for_function("window.__viserMutable?.scene?.webviz")
-        page.wait_for_function("!document.body.innerText.includes('Connecting')")
-        self.wait_for(lambda: len(scene.link.server.get_clients()) > 0)
+        others = set(scene.link.server.get_clients())
+        self._context = browser.new_context(viewport={"width": 320, "height": 240})
+        self._page = self._context.new_page()
+        self._page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self._page.goto(f"http://127.0.0.1:{scene.link.server.get_port()}/?fixedDpr=1")
+        self._page.wait_for_function("window.__viserMutable?.scene?.webviz")
+        self.wait_for(lambda: set(scene.link.server.get_clients()) > others)
 
-    def check(self) -> None:
-        """Fails if the page had an error that nobody caught."""
-        assert self.errors == []
+    def close(self) -> None:
+        """Closes the tab."""
+        self._context.close()
 
     def look(self, position: Point, at: Point) -> None:
         """Puts the camera at `position`."""
-        for client in self._scene.link.server.get_clients().values():
+        for client in self.scene.link.server.get_clients().values():
             with client.atomic():
                 client.camera.position = position
                 client.camera.look_at = at
@@ -111,7 +108,7 @@ class View:
 
     def show(self) -> None:
         """Sends what was changed and waits until it is drawn."""
-        self._scene.flush()
+        self.scene.flush()
         # The driver must keep running while the browser answers, so wait in slices of its time.
         self.wait_for(self._acknowledged)
         self.frames(3)
@@ -165,18 +162,18 @@ class View:
 
     def evaluate(self, source: str, argument: Any = None) -> Any:
         """Calls a JavaScript function in the page."""
-        return self.page.evaluate(source, argument)
+        return self._page.evaluate(source, argument)
 
     def wait_for(self, condition: Callable[[], bool], timeout: float = 30.0) -> None:
         """Waits until `condition` holds while the page runs."""
         for _ in range(int(timeout / 0.02)):
             if condition():
                 return
-            self.page.wait_for_timeout(20)
+            self._page.wait_for_timeout(20)
         raise AssertionError("timed out")
 
     def _acknowledged(self) -> bool:
-        self._scene.link.acknowledge(timeout=30)
+        self.scene.link.acknowledge(timeout=30)
         return True
 
 

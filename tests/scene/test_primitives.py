@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -23,7 +22,7 @@ from webviz.nodes import (
     Pose,
     Rgb,
 )
-from webviz.scene import Scene, set_background
+from webviz.scene import set_background
 from webviz.scene.server import BACKGROUND
 
 COLOR = (200, 100, 50)
@@ -45,16 +44,14 @@ def glb(size: float, color: Rgb) -> bytes:
     """A square of one colour as binary glTF, unlit."""
     corners, faces = square(size)
     data = corners.tobytes() + faces.tobytes()
-    linear = [*((c / 255) ** 2.2 for c in color), 1.0]
+    linear = [*(((c / 255 + 0.055) / 1.055) ** 2.4 for c in color), 1.0]
     content = {
         "asset": {"version": "2.0"},
         "extensionsUsed": ["KHR_materials_unlit"],
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "meshes": [
-            {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}
-        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
         "materials": [
             {
                 "pbrMetallicRoughness": {"baseColorFactor": linear},
@@ -89,15 +86,6 @@ def glb(size: float, color: Rgb) -> bytes:
     )
 
 
-def checker() -> np.ndarray:
-    """4 x 4 cells of COLOR; (0, 0) red, the last of row 0 green, of column 0 blue; one clear."""
-    rgba = np.full((4, 4, 4), 255, np.uint8)
-    rgba[..., :3] = COLOR
-    rgba[0, 0, :3], rgba[0, 3, :3], rgba[3, 0, :3] = RED, GREEN, BLUE
-    rgba[3, 3] = 0
-    return rgba
-
-
 # Each covers the origin; then how far its colour may be off (light on a surface that faces up).
 COLORED: dict[str, tuple[Node, int]] = {
     "points of one colour": (Points(floats((0, 0, 0), (1, 0, 0)), COLOR, 0.5), 0),
@@ -110,149 +98,62 @@ COLORED: dict[str, tuple[Node, int]] = {
     "lines in metres": (Lines(floats(((-1, 0, 0), (1, 0, 0))), COLOR, 0.4, "m"), 0),
     "lines of many colours": (
         Lines(floats(((-1, 0, 0), (1, 0, 0))), np.array([[COLOR, COLOR]], np.uint8), 8.0),
-        0,
+        2,
     ),
     "arrows": (Arrows(floats(((-1, 0, 0), (1, 0, 0))), COLOR, 0.3, 0.5, 0.3), 12),
     "mesh": (Mesh(*square(1.0), COLOR), 12),
-    "glb": (Glb(glb(1.0, COLOR)), 2),
+    "glb": (Glb(glb(1.0, COLOR)), 1),
     "image": (Image(np.full((4, 4, 4), (*COLOR, 255), np.uint8), 1.0, 1.0), 0),
 }
 
 
 @pytest.mark.parametrize(("node", "tolerance"), COLORED.values(), ids=COLORED)
 def test_a_node_has_its_colour_where_its_group_stands(
-    node: Node, tolerance: int, scene: Scene, view: Any
+    node: Node, tolerance: int, view: Any
 ) -> None:
     place = (1.0, 0.5, 0.0)
     corner = (0.5, 0.0, 0.0)
-    scene.set_pose("base_link", Pose(corner if isinstance(node, Image) else place))
-    scene.upsert("base_link", "it", node)
+    view.scene.set_pose("base_link", Pose(corner if isinstance(node, Image) else place))
+    view.scene.upsert("base_link", "it", node)
     view.show()
     view.wait_for(lambda: view.frames(1) or view.color_at(place) != BACKGROUND)
     assert np.abs(np.subtract(view.color_at(place), COLOR)).max() <= tolerance
     assert view.color_at((-2.0, -1.0, 0.0)) == BACKGROUND
 
 
-def test_axes_are_red_green_blue_along_x_y_z(scene: Scene, view: Any) -> None:
+def test_axes_are_red_green_blue_along_x_y_z(view: Any) -> None:
     turned = floats((np.sqrt(0.5), 0, 0, np.sqrt(0.5)))  # x along y
-    scene.upsert("base_link", "axes", Axes(floats((0, 0, 0)), turned, 1.0, 0.2))
+    view.scene.upsert("base_link", "axes", Axes(floats((0, 0, 0)), turned, 1.0, 0.2))
     view.show()
     assert np.argmax(view.color_at((0.0, 0.5, 0.0))) == 0
     assert np.argmax(view.color_at((-0.5, 0.0, 0.0))) == 1
     assert np.argmax(view.color_at((0.0, 0.0, 1.0))) == 2
 
 
-def test_a_text_is_centred_and_its_capitals_have_the_height_asked_for(
-    scene: Scene, view: Any
-) -> None:
-    scene.upsert("base_link", "name", Labels(floats((0, 0, 0)), ("HHH",), 1.0))
+def test_a_text_is_centred_and_its_capitals_have_the_height_asked_for(view: Any) -> None:
+    view.scene.upsert("base_link", "name", Labels(floats((0, 0, 0)), ("HHH",), 2.0))
     view.show()
     view.wait_for(lambda: view.frames(1) or (view.pixels() < 20).any())
     rows, columns = np.nonzero((view.pixels() < 20).all(axis=2))
-    top, _ = view.pixel_of((0.0, 0.5, 0.0))
-    bottom, middle = view.pixel_of((0.0, -0.5, 0.0))
-    assert np.ptp(rows) == pytest.approx(bottom - top, abs=2)
+    top, _ = view.pixel_of((0.0, 1.0, 0.0))
+    bottom, middle = view.pixel_of((0.0, -1.0, 0.0))
+    assert np.ptp(rows) == pytest.approx(bottom - top, rel=0.1)  # fonts differ
     assert np.mean(columns) == pytest.approx(middle, abs=2)
 
 
-def test_labels_follow_their_texts_in_number_and_place(scene: Scene, view: Any) -> None:
-    scene.upsert("tf", "names", Labels(floats((0, 0, 0), (1, 0, 0), (2, 0, 0)), tuple("abc"), 0.5))
+XYZ = floats((0, 0, 0), (1, 0, 0), (2, 0, 0))
+
+
+def test_labels_follow_their_texts_in_number_and_place(view: Any) -> None:
+    view.scene.upsert(
+        "tf", "names", Labels(floats((0, 0, 0), (1, 0, 0), (2, 0, 0)), tuple("abc"), 0.5)
+    )
     view.show()
     assert len(view.nodes() & {f"/webviz/tf/names/{i}" for i in range(9)}) == 3
-    scene.upsert("tf", "names", Labels(floats((0, 1, 0)), ("d",), 0.5))
+    view.scene.upsert("tf", "names", Labels(floats((0, 1, 0)), ("d",), 0.5))
     view.show()
     assert len(view.nodes() & {f"/webviz/tf/names/{i}" for i in range(9)}) == 1
     assert view.color_at((2.0, 0.0, 0.0)) == BACKGROUND
-
-
-def test_cell_0_0_of_a_picture_is_at_its_origin_with_columns_along_x_and_rows_along_y(
-    scene: Scene, view: Any
-) -> None:
-    scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
-    scene.set_pose("map", Pose((-1.0, -2.0, 0.0)))
-    view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((-0.5, -1.5, 0.0)) == RED)
-    assert view.color_at((2.5, -1.5, 0.0)) == GREEN
-    assert view.color_at((-0.5, 1.5, 0.0)) == BLUE
-    assert view.color_at((2.5, 1.5, 0.0)) == BACKGROUND
-    assert view.color_at((1.0, 0.0, 0.0)) == COLOR
-
-
-def test_the_cells_of_a_picture_are_sharp(scene: Scene, view: Any) -> None:
-    scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
-    view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.5, 0.5, 0.0)) == RED)
-    row, left = view.pixel_of((0.2, 0.5, 0.0))
-    _, right = view.pixel_of((1.8, 0.5, 0.0))
-    colors = {tuple(color) for color in view.pixels()[row, left:right].tolist()}
-    assert colors == {RED, COLOR}
-
-
-def test_a_picture_of_several_tiles_is_seamless(scene: Scene, view: Any) -> None:
-    rgba = np.full((8, 2100, 4), (*COLOR, 255), np.uint8)
-    scene.set_pose("map", Pose((-3.0, -1.0, 0.0)))
-    scene.upsert("map", "grid", Image(rgba, 6.0, 2.0))
-    view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((2.9, 0.0, 0.0)) == COLOR)
-    row, left = view.pixel_of((-2.9, 0.0, 0.0))
-    _, right = view.pixel_of((2.9, 0.0, 0.0))
-    assert (view.pixels()[row, left:right] == COLOR).all()
-
-
-def test_a_picture_that_changes_never_blanks(scene: Scene, view: Any) -> None:
-    cells = np.full((64, 64, 4), (0, 0, 255, 255), np.uint8)
-    scene.set_pose("map", Pose((-1.0, -1.0, 0.0)))
-    scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
-    view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 0.0, 0.0)) == BLUE)
-    row, column = view.pixel_of((0.0, 0.0, 0.0))
-    view.evaluate(
-        """([column, row]) => {
-          const {canvas, scene} = window.__viserMutable;
-          const gl = canvas.getContext("webgl2");
-          const pixel = new Uint8Array(4);
-          window.seen = [];
-          scene.onAfterRender = () => {
-            gl.readPixels(column, canvas.height - 1 - row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-            window.seen.push([...pixel].slice(0, 3));
-          };
-        }""",
-        [column, row],
-    )
-    for green in range(10, 210, 10):
-        cells = cells.copy()
-        cells[..., 1] = green
-        scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
-        view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 0.0, 0.0)) == (0, 200, 255))
-    seen = view.evaluate("() => window.seen")
-    assert len(seen) > 20
-    assert {(red, blue) for red, _, blue in seen} == {(0, 255)}
-
-
-def test_lines_in_the_plane_of_a_picture_are_drawn_over_it(scene: Scene, view: Any) -> None:
-    scene.upsert("grid", "line", Lines(floats(((-3, 0, 0), (3, 0, 0))), GREEN, 3.0))
-    scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
-    scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
-    view.look((4.0, -6.0, 2.0), (0.0, 0.0, 0.0))
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 1.0, 0.0)) == RED)
-    along = [view.color_at((x, 0.0, 0.0)) for x in np.linspace(-2.5, 2.5, 9).tolist()]
-    assert along == [GREEN] * 9
-
-
-def test_of_two_pictures_in_one_plane_the_later_one_is_on_top_from_everywhere(
-    scene: Scene, view: Any
-) -> None:
-    for name, color, corner in (("map", RED, -2.0), ("costmap", BLUE, -1.0)):
-        scene.set_pose(name, Pose((corner, corner, 0.0)))
-        cells = np.full((8, 8, 4), (*color, 255), np.uint8)
-        scene.upsert(name, "grid", Image(cells, 2.0, 2.0))
-        scene.flush()
-    for position in ((0.0, -0.01, 10.0), (6.0, 6.0, 3.0), (-6.0, -6.0, 3.0)):
-        view.look(position, (0.0, 0.0, 0.0))
-        view.wait_for(lambda: view.frames(1) or view.color_at((0.5, 0.5, 0.0)) == BLUE)
-        assert view.color_at((-0.5, -0.5, 0.0)) == BLUE
-        assert view.color_at((-1.5, -1.5, 0.0)) == RED
 
 
 @pytest.mark.parametrize(
@@ -269,10 +170,8 @@ def test_of_two_pictures_in_one_plane_the_later_one_is_on_top_from_everywhere(
     ],
     ids=lambda node: type(node).__name__,
 )
-def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(
-    node: Node, scene: Scene, view: Any
-) -> None:
-    scene.upsert("base_link", "it", node)
+def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(node: Node, view: Any) -> None:
+    view.scene.upsert("base_link", "it", node)
     view.show()
     assert np.abs(np.subtract(view.color_at((0.0, 0.0, 0.0)), COLOR)).max() <= 12
 
@@ -294,102 +193,44 @@ EMPTY = np.zeros((0, 2, 3), np.float32)
     ],
     ids=lambda node: type(node).__name__,
 )
-def test_nothing_can_be_drawn_too(node: Node, scene: Scene, view: Any) -> None:
-    scene.upsert("base_link", "it", node)
+def test_nothing_can_be_drawn_too(node: Node, view: Any) -> None:
+    view.scene.upsert("base_link", "it", node)
     view.show()
     assert (view.pixels() == BACKGROUND).all()
 
 
-def test_a_mesh_is_seen_from_below_and_never_black(scene: Scene, view: Any) -> None:
-    scene.upsert("base_link", "it", Mesh(*square(1.0), COLOR))
+def test_a_mesh_is_seen_from_below_and_never_black(view: Any) -> None:
+    view.scene.upsert("base_link", "it", Mesh(*square(1.0), COLOR))
     view.look((0.0, -0.01, -10.0), (0.0, 0.0, 0.0))
     red, green, blue = view.color_at((0.0, 0.0, 0.0))
     assert 100 < red <= 200
     assert blue < green < red
 
 
-def test_the_opacity_of_a_mesh_shows_what_is_behind(scene: Scene, view: Any) -> None:
-    scene.upsert("base_link", "it", Mesh(*square(1.0), (255, 255, 255), opacity=0.5))
+def test_the_opacity_of_a_mesh_shows_what_is_behind(view: Any) -> None:
+    view.scene.upsert("base_link", "it", Mesh(*square(1.0), (255, 255, 255), opacity=0.5))
     view.show()
     assert 100 < view.color_at((0.0, 0.0, 0.0))[0] < 220
 
 
-def test_a_hidden_group_is_not_drawn(scene: Scene, view: Any) -> None:
-    scene.upsert("base_link", "it", Points(floats((0, 0, 0)), COLOR, 0.5))
+def test_a_hidden_group_is_not_drawn(view: Any) -> None:
+    view.scene.upsert("base_link", "it", Points(floats((0, 0, 0)), COLOR, 0.5))
     view.show()
-    scene.set_visible("base_link", False)
+    view.scene.set_visible("base_link", False)
     view.show()
     assert (view.pixels() == BACKGROUND).all()
 
 
-def test_far_from_home_the_scene_looks_the_same_at_its_origin(scene: Scene, view: Any) -> None:
-    scene.set_origin((500_000.0, 4_000_000.0, 0.0))
-    scene.set_pose("utm", Pose((500_001.0, 4_000_000.5, 0.0)))
-    scene.upsert("utm", "it", Points(floats((0, 0, 0)), COLOR, 0.2))
+def test_far_from_home_the_scene_looks_the_same_at_its_origin(view: Any) -> None:
+    view.scene.set_origin((500_000.0, 4_000_000.0, 0.0))
+    view.scene.set_pose("utm", Pose((500_001.0, 4_000_000.5, 0.0)))
+    view.scene.upsert("utm", "it", Points(floats((0, 0, 0)), COLOR, 0.2))
     view.show()
     assert view.color_at((1.0, 0.5, 0.0)) == COLOR
 
 
-def test_the_background_can_be_changed(scene: Scene, view: Any) -> None:
-    set_background(scene.link.server, (10, 20, 30))
+def test_the_background_can_be_changed(view: Any) -> None:
+    set_background(view.scene.link.server, (10, 20, 30))
     view.wait_for(lambda: view.frames(1) or (view.pixels() == (10, 20, 30)).all())
-
-
-EVERYTHING: dict[str, Callable[[int], Node]] = {
-    "points": lambda n: Points(floats((0, 0, n)), np.full((1, 3), n, np.uint8), 0.1),
-    "lines": lambda n: Lines(floats(((0, 0, 0), (1, 0, n))), (n, 0, 0)),
-    "arrows": lambda n: Arrows(floats(((0, 0, 0), (1, 0, n))), (n, 0, 0), 0.1, 0.2, 0.3),
-    "axes": lambda n: Axes(floats((0, 0, n)), floats((1, 0, 0, 0)), 1.0, 0.1),
-    "labels": lambda n: Labels(floats((0, 0, n)), (f"{n % 10}",), 0.1),
-    "mesh": lambda n: Mesh(square(1.0 + n)[0], square(1.0)[1], (n, 0, 0)),
-    "image": lambda n: Image(np.full((4, 4, 4), n, np.uint8), 1.0, 1.0),
-}
-
-
-def resources(view: Any) -> dict[str, int]:
-    return view.evaluate(
-        """() => {
-          const info = window.__viserTestpoints.rendererInfo;
-          return {...info.memory, programs: info.programs.length};
-        }"""
-    )
-
-
-def test_200_updates_take_no_more_of_the_graphics_card_than_ten(scene: Scene, view: Any) -> None:
-    counts = []
-    for n in range(200):
-        for key, make in EVERYTHING.items():
-            scene.upsert("base_link", key, make(n))
-        view.show()
-        if n in (9, 199):
-            view.frames(5)
-            counts.append(resources(view))
-    assert counts[1] == counts[0]
-
-
-def test_removed_nodes_leave_nothing_in_the_page(scene: Scene, view: Any) -> None:
-    view.show()
-    nodes, before = view.nodes(), resources(view)
-    for n in range(3):
-        for key, make in EVERYTHING.items():
-            scene.upsert("base/link", key, make(n))
-        view.show()
-        assert len(view.nodes()) > len(nodes)
-        scene.remove_group("base/link")
-        view.show()
-        assert view.nodes() == nodes
-    assert resources(view)["geometries"] <= before["geometries"] + 2  # viser's shared shapes
-
-
-def test_a_browser_that_joins_late_sees_the_same(
-    scene: Scene, view: Any, open_view: Callable[[], Any]
-) -> None:
-    for key, make in EVERYTHING.items():
-        scene.upsert("base_link", key, make(1))
-        scene.upsert("base_link", key, make(40))
-    scene.set_pose("base_link", Pose((0.5, 0.0, 0.0)))
-    view.show()
-    other = open_view()
-    other.wait_for(
-        lambda: other.frames(2) or bool((other.pixels() == view.pixels()).mean() > 0.999)
-    )
+    set_background(view.scene.link.server, BACKGROUND)
+    view.wait_for(lambda: view.frames(1) or (view.pixels() == BACKGROUND).all())

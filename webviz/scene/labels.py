@@ -8,7 +8,8 @@ from viser import LabelHandle
 from webviz.nodes import Labels
 from webviz.scene.adapter import Adapter
 
-# A capital letter of a sans-serif face is about 0.72 of its font size (Arial 0.716, Roboto 0.711).
+# Browsers use a system font; capitals of the usual ones are about 0.72 of the font size (Arial
+# 0.716, Roboto 0.711, DejaVu Sans 0.729).
 _CAPITAL = 0.72
 
 

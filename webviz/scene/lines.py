@@ -21,8 +21,11 @@ class LinesDrawn(SingleNode[Lines]):
 
     def props(self, node: Lines) -> tuple[Props, ...]:
         """Segments with their colours, then the look; segments that are not finite are left out."""
+        props = _finite_segments(node)
+        if props["colors"].ndim > 1:  # one colour for all is taken as sRGB
+            props["colors"] = linear(props["colors"])
         return (
-            _finite_segments(node),
+            props,
             {
                 "thickness": float(node.width),
                 "thickness_units": "screen" if node.unit == "px" else "world",
@@ -40,8 +43,9 @@ class ArrowsDrawn(SingleNode[Arrows]):
     def props(self, node: Arrows) -> tuple[Props, ...]:
         """Arrows with their colours, then the look; arrows that are not finite are left out."""
         props = _finite_segments(node)
+        props["colors"] = linear(props["colors"])
         return (
-            props | {"colors": linear(props["colors"])},
+            props,
             {
                 "shaft_radius": float(node.shaft_radius),
                 "head_radius": float(node.head_radius),
@@ -51,7 +55,7 @@ class ArrowsDrawn(SingleNode[Arrows]):
 
 
 def linear(colors: U8) -> U8:
-    """sRGB to linear light (IEC 61966-2-1): viser takes the colours of instances as linear."""
+    """sRGB to linear light (IEC 61966-2-1), which viser takes the colours of vertices to be."""
     return _LINEAR[colors]
 
 

@@ -1,0 +1,76 @@
+"""What stays in a real browser: no more than what is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from webviz.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points, Pose
+
+TRIANGLE = np.eye(3, dtype=np.float32)
+
+
+def floats(*values: Any) -> np.ndarray:
+    return np.array(values, dtype=np.float32)
+
+
+EVERYTHING: dict[str, Callable[[int], Node]] = {
+    "points": lambda n: Points(floats((0, 0, n)), np.full((1, 3), n, np.uint8), 0.1),
+    "lines": lambda n: Lines(floats(((0, 0, 0), (1, 0, n))), (n, 0, 0)),
+    "arrows": lambda n: Arrows(floats(((0, 0, 0), (1, 0, n))), (n, 0, 0), 0.1, 0.2, 0.3),
+    "axes": lambda n: Axes(floats((0, 0, n)), floats((1, 0, 0, 0)), 1.0, 0.1),
+    "labels": lambda n: Labels(floats((0, 0, n)), (f"{n % 10}",), 0.1),
+    "mesh": lambda n: Mesh(TRIANGLE * (1 + n), np.array([[0, 1, 2]], np.uint32), (n, 0, 0)),
+    "image": lambda n: Image(np.full((4, 4, 4), n, np.uint8), 1.0, 1.0),
+}
+
+
+def resources(view: Any) -> dict[str, int]:
+    return view.evaluate(
+        """() => {
+          const info = window.__viserTestpoints.rendererInfo;
+          return {...info.memory, programs: info.programs.length};
+        }"""
+    )
+
+
+def test_200_updates_take_no_more_of_the_graphics_card_than_ten(view: Any) -> None:
+    counts = []
+    for n in range(200):
+        for key, make in EVERYTHING.items():
+            view.scene.upsert("base_link", key, make(n))
+        view.show()
+        if n in (9, 199):
+            view.frames(5)
+            counts.append(resources(view))
+    assert counts[1] == counts[0]
+
+
+def test_removed_nodes_leave_nothing_in_the_page(view: Any) -> None:
+    view.show()
+    nodes, before = view.nodes(), resources(view)
+    for n in range(3):
+        for key, make in EVERYTHING.items():
+            view.scene.upsert("base/link", key, make(n))
+        view.show()
+        assert len(view.nodes()) > len(nodes)
+        view.scene.remove_group("base/link")
+        view.show()
+        assert view.nodes() == nodes
+    assert resources(view)["geometries"] <= before["geometries"] + 2  # viser's shared shapes
+
+
+def test_a_browser_that_joins_late_sees_the_same(view: Any, browser: Any) -> None:
+    for key, make in EVERYTHING.items():
+        view.scene.upsert("base_link", key, make(1))
+        view.scene.upsert("base_link", key, make(40))
+    view.scene.set_pose("base_link", Pose((0.5, 0.0, 0.0)))
+    view.show()
+    other = type(view)(browser, view.scene)
+    other.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
+    other.wait_for(
+        lambda: other.frames(2) or bool((other.pixels() == view.pixels()).mean() > 0.999)
+    )
+    other.close()
