@@ -8,8 +8,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz import messages
+from webviz import Color, Context, Display, Input, Keep, Prop, Sample, Topic, messages
 from webviz_displays import beams
 from webviz_displays.colors import bounds, faded, fractions, rainbow, ramp
 from webviz_displays.geometry import transformed

@@ -12,6 +12,7 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from webviz import Display, Frames, Pose, Status
+from webviz.display import inputs
 from webviz.messages.definitions import DEFINITIONS
 from webviz.nodes import Node
 from webviz.pipeline.background import Workers
@@ -88,15 +89,27 @@ class Bench:
         """Publish a transform: static, unless it has a stamp."""
         self.buffer.set_transform(parent, child, stamp_ns or 0, xyz, xyzw, stamp_ns is None)
 
-    def send(self, type_name: str, values: Mapping[str, Any], topic: str = "") -> None:
-        """Publish a message on a topic (the display's only one), as real CDR bytes.
+    def send(
+        self,
+        type_name: str,
+        values: Mapping[str, Any],
+        *,
+        frame: str | None = None,
+        stamp_ns: int | None = None,
+        topic: str = "",
+    ) -> None:
+        """Publish a message as real CDR bytes.
 
         Args:
             type_name: such as "sensor_msgs/msg/LaserScan".
             values: nested mappings; fields left out are zero or empty.
-            topic: full name.
+            frame: frame id of its header; None leaves the header to `values`.
+            stamp_ns: of its header; None is now.
+            topic: full name; the display's only one if it is not given.
         """
-        topic = topic or next(iter(self.runner.topics().values()))
+        topic = topic or inputs(self.display)[0][2].name
+        if frame is not None:
+            values = {**values, "header": header(frame, stamp_ns or self.now_ns)}
         cdr = bytes(STORE.serialize_cdr(message(type_name, values), type_name))
         publisher = Publisher("/test", type_name, "reliable", "volatile")
         self._offers[topic] = Offer((publisher,), ("reliable", "volatile"))
@@ -164,8 +177,8 @@ def _value(description: Any, value: Any) -> Any:
     return np.asarray(np.zeros(length or 0) if value is None else value, dtype)
 
 
-def header(frame: str, stamp_ns: int = START) -> dict[str, Any]:
-    """A std_msgs/Header for `Bench.send`."""
+def header(frame: str, stamp_ns: int) -> dict[str, Any]:
+    """A std_msgs/Header as nested mappings."""
     sec, nanosec = divmod(stamp_ns, SECOND)
     return {"frame_id": frame, "stamp": {"sec": sec, "nanosec": nanosec}}
 
