@@ -119,8 +119,8 @@ class Map(Display):
         for (corner, image), offset in zip(
             images.items(), self._offsets(grid, outer, list(images)), strict=True
         ):
-            key = f"{corner[0]} {corner[1]}"
-            ctx.follow(frame, when="now", offset=offset, key=key).add("cells", image)
+            key = f"tile {corner[0]} {corner[1]}"
+            ctx.follow(frame, when="now", offset=offset, key=key).add(key, image)
         self._report(folded, grid, ctx)
 
     def _offsets(self, grid: TiledGrid, outer: Pose, corners: list[Corner]) -> list[Pose]:

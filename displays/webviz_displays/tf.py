@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,7 +70,9 @@ class TF(Display):
     all_enabled: Annotated[
         bool, Prop(rviz="Frames/All Enabled", help="Show the frames without a switch of their own.")
     ] = True
-    frames: Annotated[dict[str, bool], Prop(help="Switches of single frames, by name.")] = {}  # noqa: RUF012 - copied by msgspec
+    frames: Annotated[dict[str, bool], Prop(help="Switches of single frames, by name.")] = (
+        msgspec.field(default_factory=dict)
+    )
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Properties or the fixed frame changed: derive everything anew."""
