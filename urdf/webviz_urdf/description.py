@@ -130,8 +130,8 @@ def _root(links: set[str], joints: dict[str, Joint]) -> str:
 def _drop_broken_mimics(joints: dict[str, Joint]) -> list[str]:
     """Free the joints that mimic nothing, or in a circle; one warning each."""
     warnings = []
-    for name, joint in list(joints.items()):
-        seen, leader = {name}, joint
+    for name in joints:
+        seen, leader = {name}, joints[name]
         while leader.mimic is not None:
             if leader.mimic.joint not in joints:
                 reason = f"mimics '{leader.mimic.joint}', which is not a joint"

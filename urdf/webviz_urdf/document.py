@@ -6,7 +6,6 @@ where the line number is still known. The tree that comes out holds only what a 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
@@ -50,6 +49,7 @@ _NUMBERS = {
     "limit": {"lower": (1,), "upper": (1,)},
     "mimic": {"multiplier": (1,), "offset": (1,)},
 }
+_LARGEST = 1e12
 _REQUIRED = {
     "link": ("name",),
     "joint": ("name", "type"),
@@ -61,6 +61,7 @@ _REQUIRED = {
     "sphere": ("radius",),
     "color": ("rgba",),
 }
+_REQUIRED_CHILDREN = {"joint": ("parent", "child")}
 
 
 @dataclass
@@ -125,7 +126,8 @@ def _parse_xml(text: str) -> etree._Element:
     try:
         root = etree.fromstring(text.strip().encode(), parser)
     except etree.XMLSyntaxError as error:
-        raise RobotDescriptionError(f"The robot description is not XML: {error.msg}.") from error
+        reason = " ".join((error.msg or "").split())[:200]
+        raise RobotDescriptionError(f"The robot description is not XML: {reason}.") from error
     except ValueError as error:  # lone surrogates
         raise RobotDescriptionError(f"The robot description is not text: {error}.") from error
     declarations = root.getroottree().docinfo.internalDTD
@@ -171,6 +173,11 @@ def _copy(
             if reason:
                 target.remove(copy)
                 document.missing.append(Missing(link, "", reason, name.localname))
+    for name in _REQUIRED_CHILDREN.get(tag, ()):
+        if target.find(name) is None:
+            raise RobotDescriptionError(
+                f"Line {source.sourceline}: <{tag}> '{target.get('name')}' has no <{name}>."
+            )
 
 
 def _no_geometry(source: etree._Element, copy: etree._Element) -> str:
@@ -203,11 +210,11 @@ def _numbers(
     words = value.split()
     if len(words) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise RobotDescriptionError(f"{where} has {len(words)} numbers, not {wanted}.")
+        raise RobotDescriptionError(f"{where} must be {wanted} number(s), but has {len(words)}.")
     try:
         numbers = [float(word) for word in words]
     except ValueError:
         raise RobotDescriptionError(f"{where} is not a number.") from None
-    if tag != "limit" and not all(map(math.isfinite, numbers)):
-        raise RobotDescriptionError(f"{where} is not finite.")
+    if tag != "limit" and not all(abs(number) <= _LARGEST for number in numbers):
+        raise RobotDescriptionError(f"{where} is not finite, or beyond anything a robot has.")
     return " ".join(map(repr, numbers))

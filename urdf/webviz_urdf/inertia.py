@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
-from webviz.nodes import Mesh, Pose, Rgb
+from webviz.nodes import Mesh, Rgb
 from webviz_urdf import primitives
+from webviz_urdf.glb import Part
+from webviz_urdf.kinematics import rotation_matrix
 from webviz_urdf.robot import Inertial, Link
 
 _RED: Rgb = (255, 0, 0)
@@ -38,29 +41,33 @@ def inertia_box(link: Link) -> Mesh | None:
     inertial = link.inertial
     if inertial is None or inertial.mass <= 0.0:
         return None
-    moments, axes = np.linalg.eigh(inertial.inertia)
+    moments, axes = _principal(inertial.inertia)
     squares = 6.0 * (moments.sum() - 2.0 * moments) / inertial.mass
-    if moments[0] <= 0.0 or squares.min() < -_TOLERANCE * squares.max():
+    # A box of 10¹² m comes from a mass that is a typing error.
+    if moments.min() <= 0.0 or squares.max() > 1e24 or squares.min() < -_TOLERANCE * squares.max():
         return None
-    if np.linalg.det(axes) < 0.0:
-        axes[:, 0] *= -1.0
     size = np.sqrt(np.maximum(squares, 0.0))
     return _placed(primitives.box(*size.tolist()), axes, inertial)
 
 
-def _placed(part: primitives.Part, axes: np.ndarray, inertial: Inertial) -> Mesh:
+def _principal(
+    inertia: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Principal moments (3,) and, as columns of (3, 3), right-handed principal axes.
+
+    Where the products of inertia are only noise the given axes are kept: equal moments, as of a
+    cube, have no principal axes of their own and would turn the box at random.
+    """
+    products = inertia - np.diag(np.diag(inertia))
+    if np.abs(products).max() <= _TOLERANCE * np.abs(inertia).max():
+        return np.diag(inertia), np.eye(3)
+    moments, axes = np.linalg.eigh(inertia)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 0] *= -1.0
+    return moments, axes
+
+
+def _placed(part: Part, axes: NDArray[np.float64], inertial: Inertial) -> Mesh:
     """`part`, given along the columns of `axes`, moved to the centre of mass."""
     turned = part.vertices @ (rotation_matrix(inertial.com) @ axes).T + inertial.com.position
     return Mesh(turned.astype(np.float32), part.faces, _RED)
-
-
-def rotation_matrix(pose: Pose) -> np.ndarray:
-    """float64 (3, 3): columns are the pose's axes in the outer frame."""
-    w, x, y, z = pose.wxyz
-    return np.array(
-        (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        )
-    )

@@ -6,6 +6,9 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from webviz.nodes import Pose
 
 if TYPE_CHECKING:
@@ -51,12 +54,16 @@ def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
     return math.cos(angle / 2.0), s * axis[0], s * axis[1], s * axis[2]
 
 
-def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """URDF's rpy: roll about x, then pitch about y, then yaw about z, all about fixed axes."""
-    about_x = from_axis_angle((1.0, 0.0, 0.0), roll)
-    about_y = from_axis_angle((0.0, 1.0, 0.0), pitch)
-    about_z = from_axis_angle((0.0, 0.0, 1.0), yaw)
-    return multiply(about_z, multiply(about_y, about_x))
+def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
+    """float64 (3, 3): columns are the pose's axes in the outer frame."""
+    w, x, y, z = pose.wxyz
+    return np.array(
+        (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+        )
+    )
 
 
 def joint_position(name: str, joints: Mapping[str, Joint], positions: Mapping[str, float]) -> float:

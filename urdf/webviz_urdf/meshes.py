@@ -186,9 +186,9 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
     material = visual.material
     if isinstance(material, PBRMaterial):
         factor, image = material.baseColorFactor, material.baseColorTexture
-    elif isinstance(material, SimpleMaterial):
+    elif isinstance(material, SimpleMaterial) and material.kwargs:
         factor, image = material.diffuse, material.image
-    else:
+    else:  # trimesh's stand-in for a file that has texture coordinates but no material
         return None, uvs
     r, g, b, a = (1.0,) * 4 if factor is None else (float(v) / 255.0 for v in factor)
     if image is not None and uvs is not None:
