@@ -57,10 +57,14 @@ class Input:
         type: the message type, such as "sensor_msgs/msg/LaserScan". Messages with a header wait
             for the transform at their stamp.
         latched: subscribe transient local, whatever the publishers known so far offer.
+        suffix: an input without a topic name listens to the first input's topic with this suffix.
+        optional: nothing is amiss while nobody publishes it.
     """
 
     type: str
     latched: bool = False
+    suffix: str = ""
+    optional: bool = False
 
 
 def Prop(

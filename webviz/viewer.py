@@ -55,6 +55,7 @@ class Viewer:
         scene: where to draw.
         show: called with the state whenever a panel should show a new one.
         strict: raise what displays raise, as tests want it.
+        clock: monotonic time in seconds, for rates and ages.
     """
 
     def __init__(
@@ -65,6 +66,7 @@ class Viewer:
         show: Callable[[State], None] = lambda state: None,
         *,
         strict: bool = False,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.settings = config.settings
         self.buffer = TransformBuffer()
@@ -72,7 +74,7 @@ class Viewer:
         self._scene = scene
         self._show = show
         self._workers = Workers(self._wake)
-        self._services = Services(scene, self._workers, source.resolve, strict)
+        self._services = Services(scene, self._workers, source.resolve, strict, clock)
         self._commands: queue.Queue[Command] = queue.Queue(MAX_COMMANDS)
         self._stop = threading.Event()
         self._made = 0

@@ -129,8 +129,16 @@ class Bench:
         self.source = HandFedSource()
         self.scene = RecordingScene()
         self.states: list[State] = []
+        self.clock = 1000.0
         config = Config(Settings(fixed_frame=fixed_frame), list(displays))
-        self.viewer = Viewer(config, self.source, self.scene, self.states.append, strict=strict)
+        self.viewer = Viewer(
+            config,
+            self.source,
+            self.scene,
+            self.states.append,
+            strict=strict,
+            clock=lambda: self.clock,
+        )
         self.turn()
 
     def publish(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:

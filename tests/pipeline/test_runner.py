@@ -352,3 +352,24 @@ def _frames(b: Any) -> Any:
     from webviz.frames import Frames
 
     return Frames(b.viewer.buffer, "map", b.source.now)
+
+
+class WithUpdates(Dot):
+    """A dot that further messages may move."""
+
+    updates: Annotated[
+        Topic, Input("geometry_msgs/msg/PoseStamped", suffix="_updates", optional=True)
+    ] = Topic()
+
+
+def test_an_optional_input_follows_the_first_ones_topic_and_may_be_silent(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(WithUpdates(name="Dot", topic=Topic("/goal")))
+    assert set(b.source.wanted) >= {"/goal", "/goal_updates"}
+    b.transform("map", "base", T, static=True)
+    b.pose("/goal", "base", T, 1.0)
+    assert {level for level, _ in b.statuses().values()} == {"OK"}
+    b.viewer.enqueue(SetProperty("display1", "topic.name", "/other"))
+    b.turn()
+    assert {"/other", "/other_updates"} <= set(b.source.wanted)

@@ -109,7 +109,9 @@ class Intake:
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float
     ) -> dict[str, Status]:
         """What there is to say about the topic, its messages and their transforms."""
-        result = {"Topic": self._topic_status(offers, clock)}
+        result = {}
+        if self._received or not self.spec.optional:
+            result["Topic"] = self._topic_status(offers, clock)
         if self._fault:
             result["Message"] = Status(Level.ERROR, self._fault)
         elif dropped:

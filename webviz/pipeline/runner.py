@@ -33,12 +33,14 @@ class Services:
         workers: for slow work.
         resolve: the full name of a topic; raises ValueError.
         strict: raise what a display raises, as tests want it.
+        clock: monotonic time in seconds, for rates and ages.
     """
 
     scene: Scene
     workers: Workers
     resolve: Callable[[str], str]
     strict: bool = False
+    clock: Callable[[], float] = time.monotonic
 
 
 class Runner:
@@ -117,7 +119,7 @@ class Runner:
         """Let the messages of this tick in; cheap, also when nobody watches."""
         if not self.display.enabled:
             return
-        clock = time.monotonic()
+        clock = self._services.clock()
         primary = next(iter(self._intakes), "")
         for name, intake in self._intakes.items():
             raws = batches.get(intake.name, ())
@@ -160,7 +162,7 @@ class Runner:
         if not self.display.enabled:
             return {}
         result: dict[str, Status] = {}
-        clock = time.monotonic()
+        clock = self._services.clock()
         for name, intake in self._intakes.items():
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
@@ -178,11 +180,13 @@ class Runner:
     # Inside
 
     def _make_intakes(self) -> dict[str, Intake]:
-        result = {}
+        result: dict[str, Intake] = {}
         for name, spec, topic in inputs(self.display):
             full, problem = "", ""
+            first = next(iter(result.values()), None)
+            wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
             try:
-                full = self._services.resolve(topic.name) if topic.name else ""
+                full = self._services.resolve(wish) if wish else ""
                 problem = "" if full else "No topic is chosen."
             except ValueError as error:
                 problem = str(error)

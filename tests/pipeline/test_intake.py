@@ -1,0 +1,152 @@
+"""The sentences below a display: what is wrong with a topic, and that they go away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import pytest
+
+from webviz import Context, Display, Input, Sample, Topic
+from webviz.sources import Offer, Publisher, Raw
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+POSE = "geometry_msgs/msg/PoseStamped"
+
+
+class Dot(Display):
+    """A dot where a pose is."""
+
+    topic: Annotated[Topic, Input(POSE)] = Topic("/pose")
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("dot", [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
+
+
+def offer(
+    type_name: str = POSE,
+    reliability: Any = "reliable",
+    durability: Any = "volatile",
+    requested: Any = ("reliable", "volatile"),
+) -> Offer:
+    return Offer((Publisher("/talker", type_name, reliability, durability),), requested)
+
+
+def test_nobody_publishes(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    assert b.statuses()["Topic"] == ("WARN", "Nobody publishes /pose.")
+
+
+def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.source.known["/goal_pose"] = offer()
+    text = "Nobody publishes /pose. geometry_msgs/msg/PoseStamped is published on /goal_pose."
+    assert b.statuses()["Topic"] == ("WARN", text)
+
+
+def test_another_type_names_both(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.source.known["/pose"] = offer("nav_msgs/msg/Odometry")
+    level, text = b.statuses()["Topic"]
+    assert level == "ERROR"
+    assert "carries nav_msgs/msg/Odometry" in text
+    assert f"shows {POSE}" in text
+
+
+@pytest.mark.parametrize("name", ["", "a b"])
+def test_a_topic_that_is_none(bench: Callable[..., Any], name: str) -> None:
+    b = bench(Dot(name="Dot", topic=Topic(name)))
+    level, text = b.statuses()["Topic"]
+    assert level == "ERROR"
+    assert text in ("No topic is chosen.", "'a b' is no topic name: it has a space")
+
+
+def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot", topic=Topic("/pose", reliability="reliable")))
+    b.source.known["/pose"] = offer(reliability="best_effort")
+    level, text = b.statuses()["Topic"]
+    assert level == "ERROR"
+    assert "asks for reliable, volatile" in text
+    assert "offers best effort, volatile" in text
+    assert "Set reliability and durability to auto." in text
+
+
+def test_a_problem_of_the_source_is_told(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.source.known["/pose"] = Offer((), None, "cannot subscribe: no such type")
+    assert b.statuses()["Topic"] == ("ERROR", "/pose: cannot subscribe: no such type")
+
+
+def test_no_message_yet_names_the_publisher_and_its_qos(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.source.known["/pose"] = offer()
+    text = "No message yet on /pose from /talker (reliable, volatile)."
+    assert b.statuses()["Topic"] == ("WARN", text)
+
+
+def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    for _ in range(10):
+        b.pose("/pose", "base", T)
+        b.turn()
+        b.clock += 0.1
+    level, text = b.statuses()["Topic"]
+    assert (level, text.startswith("10 messages at 10.0 Hz")) == ("OK", True)
+    b.clock += 5.0
+    level, text = b.statuses()["Topic"]
+    assert (level, text.startswith("No message for 5.1 s on /pose, before at 10.0 Hz")) == (
+        "WARN",
+        True,
+    )
+    b.source.known["/pose"] = Offer(())
+    level, text = b.statuses()["Topic"]
+    assert level == "WARN"
+    assert text == "Nobody publishes /pose any more; the last message came 5.1 s ago."
+
+
+def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T)
+    b.turn()
+    b.clock += 500.0
+    level, text = b.statuses()["Topic"]
+    assert (level, "the newest 500.0 s ago" in text) == ("OK", True)
+
+
+def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_comes(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base_link", T, static=True)
+    b.pose("/pose", "base", T)
+    assert "Transform" not in b.statuses()
+    b.clock += 1.1
+    level, text = b.statuses()["Transform"]
+    assert level == "ERROR"
+    assert "base_link" in text
+    b.transform("map", "base", T, static=True)
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_messages_that_did_not_fit_the_inbox_are_counted(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.turn()
+    for _ in range(1005):
+        b.pose("/pose", "base", T)
+    level, text = b.statuses()["Message"]
+    assert level == "WARN"
+    assert text == "5 messages came faster than they could be read and were dropped."
+
+
+def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    for size in range(200):
+        b.source.inbox.put("/pose", Raw(bytes(size), T))
+    b.turn()
+    assert b.statuses()["Message"][0] == "ERROR"
