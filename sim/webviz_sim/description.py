@@ -56,17 +56,17 @@ def read_joints(urdf: str) -> list[Joint]:
     """The joints of a URDF in document order."""
     joints = []
     for element in ElementTree.fromstring(urdf).iterfind("joint"):
-        origin, axis = element.find("origin"), element.find("axis")
-        joints.append(
-            Joint(
-                element.attrib["name"],
-                element.attrib["type"],
-                *(element.find(tag).attrib["link"] for tag in ("parent", "child")),
-                _vector(origin, "xyz", (0.0, 0.0, 0.0)),
-                from_euler(*_vector(origin, "rpy", (0.0, 0.0, 0.0))),
-                _vector(axis, "xyz", (1.0, 0.0, 0.0)),
-            )
+        origin = element.find("origin")
+        joint = Joint(
+            element.attrib["name"],
+            element.attrib["type"],
+            parent=_link(element, "parent"),
+            child=_link(element, "child"),
+            translation=_vector(origin, "xyz", (0.0, 0.0, 0.0)),
+            rotation=from_euler(*_vector(origin, "rpy", (0.0, 0.0, 0.0))),
+            axis=_vector(element.find("axis"), "xyz", (1.0, 0.0, 0.0)),
         )
+        joints.append(joint)
     return joints
 
 
@@ -87,6 +87,12 @@ def _multiply(a: Quaternion, b: Quaternion) -> Quaternion:
         aw * bz + ax * by - ay * bx + az * bw,
         aw * bw - ax * bx - ay * by - az * bz,
     )
+
+
+def _link(joint: ElementTree.Element, tag: str) -> str:
+    element = joint.find(tag)
+    assert element is not None, f"a URDF joint without {tag}"
+    return element.attrib["link"]
 
 
 def _vector(element: ElementTree.Element | None, key: str, default: Vector) -> Vector:

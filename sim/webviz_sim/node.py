@@ -29,7 +29,7 @@ def main(args: list[str] | None = None) -> int:
         import rclpy
         from rclpy.exceptions import InvalidParameterValueException
         from rclpy.signals import SignalHandlerOptions
-        from rclpy.utilities import remove_ros_args
+        from rclpy.utilities import remove_ros_args, try_shutdown
 
         from webviz_sim.sim_node import SimNode
     except ImportError as error:
@@ -45,7 +45,8 @@ def main(args: list[str] | None = None) -> int:
         # rclpy's own handlers would shut the context down under the node's feet.
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
-        print(f"webviz-sim cannot start ROS: {_one_line(error)}", file=sys.stderr)
+        reason = " ".join(str(error).split()).partition(", at /")[0]
+        print(f"ROS does not start ({type(error).__name__}): {reason}", file=sys.stderr)
         return 1
     node = None
     try:
@@ -55,12 +56,14 @@ def main(args: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except InvalidParameterValueException as error:
-        print(_one_line(error), file=sys.stderr)
+        # The sentence of options.refusal, which rclpy puts between words of its own.
+        sentence = str(error).partition("Reason: ")[2].rpartition(":")[0]
+        print(f"A parameter will not do: {sentence}", file=sys.stderr)
         return 1
     finally:
         if node:
             node.destroy_node()
-        rclpy.try_shutdown()
+        try_shutdown()
     return 0
 
 
@@ -106,7 +109,3 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         usage="webviz-sim [-h] [--ros-args ...]",
     )
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())

@@ -60,7 +60,7 @@ class Robot:
         angular = min(max(angular, -MAX_ANGULAR), MAX_ANGULAR)
         linear *= self._free_fraction(linear, angular, seconds)
         self.pose = drive(self.pose, linear, angular, seconds)
-        slip, skew = 1.0 + self.drift * self.random.standard_normal(2)
+        slip, skew = (1.0 + self.drift * self.random.standard_normal(2)).tolist()
         self.odometry = drive(self.odometry, linear * slip, angular * skew, seconds)
         self.linear, self.angular = linear, angular
         for wheel, side in enumerate((-0.5, 0.5)):
@@ -75,15 +75,12 @@ class Robot:
 
     def _free_fraction(self, linear: float, angular: float, seconds: float) -> float:
         """How much of a step's forward motion is possible: 1, or less where a wall is met."""
-        if linear == 0.0:
-            return 0.0
-        before = self.world.clearance(self.pose, RADIUS)
+        if linear == 0.0 or self.world.clearance(self.pose, RADIUS) < RADIUS:
+            return 1.0  # what somebody put into a wall may leave it
 
         def fits(fraction: float) -> bool:
             pose = drive(self.pose, linear * fraction, angular, seconds)
-            clearance = self.world.clearance(pose, RADIUS)
-            # A robot put into a wall may leave it.
-            return clearance >= RADIUS or clearance > before
+            return self.world.clearance(pose, RADIUS) >= RADIUS
 
         # A step is split so finely that no wall fits between two places looked at.
         pieces = math.ceil(abs(linear) * seconds / (0.5 * self.world.resolution))

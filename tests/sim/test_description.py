@@ -1,0 +1,98 @@
+import math
+
+import numpy as np
+import pytest
+import yourdfpy
+from hypothesis import given
+from hypothesis import strategies as st
+from rosbags.typesys import Stores, get_typestore
+
+from webviz_sim import cdr
+from webviz_sim.description import Transform, demo_description, from_euler, read_joints
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+FRAMES = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
+NUMBERS = st.floats(allow_nan=False)
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory):
+    """The bundled robot, read by somebody else's library, without its meshes."""
+    path = tmp_path_factory.mktemp("urdf") / "robot.urdf"
+    path.write_text(demo_description())
+    return yourdfpy.URDF.load(str(path), load_meshes=False, build_scene_graph=True)
+
+
+def matrix(quaternion):
+    x, y, z, w = quaternion
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, -2.5, 100.0])
+def test_joints_move_the_links_as_another_urdf_reader_moves_them(robot, angle):
+    joints = read_joints(demo_description())
+    assert [j.name for j in joints if j.kind == "continuous"] == robot.actuated_joint_names
+    robot.update_cfg([angle] * len(robot.actuated_joint_names))
+    for joint in joints:
+        transform = joint.transform(angle if joint.kind == "continuous" else 0.0)
+        expected = robot.get_transform(transform.child, transform.parent)
+        assert np.allclose(matrix(transform.rotation), expected[:3, :3])
+        assert np.allclose(transform.translation, expected[:3, 3])
+
+
+def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
+    assert robot.validate()
+    assert robot.base_link == "base_link"
+    wheel = robot.get_transform("wheel_left_link")
+    radius = robot.link_map["wheel_left_link"].visuals[0].geometry.cylinder.radius
+    assert wheel[2, 3] == radius
+
+
+@given(st.tuples(*[st.floats(-math.pi, math.pi)] * 3))
+def test_rpy_turns_about_the_fixed_axes_x_then_y_then_z(rpy):
+    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    assert np.allclose(matrix(from_euler(*rpy)), about_z @ about_y @ about_x)
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.integers(0, 2**31 * 10**9 - 1),
+            st.builds(
+                Transform, FRAMES, FRAMES, st.tuples(*[NUMBERS] * 3), st.tuples(*[NUMBERS] * 4)
+            ),
+        ),
+        max_size=4,
+    )
+)
+def test_serialised_transforms_are_read_back_as_they_were(stamped):
+    message = STORE.deserialize_cdr(cdr.tf_message(stamped), "tf2_msgs/msg/TFMessage")
+    assert len(message.transforms) == len(stamped)
+    for read, (stamp, transform) in zip(message.transforms, stamped, strict=True):
+        time, turn, shift = read.header.stamp, read.transform.rotation, read.transform.translation
+        assert time.sec * 10**9 + time.nanosec == stamp
+        assert (read.header.frame_id, read.child_frame_id) == (transform.parent, transform.child)
+        assert (shift.x, shift.y, shift.z) == transform.translation
+        assert (turn.x, turn.y, turn.z, turn.w) == transform.rotation
+
+
+def test_a_serialised_path_is_read_back_with_poses_along_it():
+    points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
+    raw = cdr.path_message(1_500_000_007, points)
+    path = STORE.deserialize_cdr(raw, "nav_msgs/msg/Path")
+    assert path.header.frame_id == "map"
+    assert [[p.pose.position.x, p.pose.position.y] for p in path.poses] == points.tolist()
+    for pose in path.poses:
+        assert (pose.header.stamp.sec, pose.header.stamp.nanosec) == (1, 500_000_007)
+        assert pose.header.frame_id == "map"
+    yaws = [2 * math.atan2(p.pose.orientation.z, p.pose.orientation.w) for p in path.poses]
+    assert yaws == pytest.approx([math.pi / 4, math.atan2(2, 1), math.atan2(1, -1), math.pi])

@@ -1,0 +1,429 @@
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
+
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rosbags.typesys import Stores, get_typestore
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState, LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import Empty
+
+from webviz.ros.types import message_class
+from webviz_sim.options import BUILDING
+from webviz_sim.pose import Pose
+from webviz_sim.raycast import cast_rays
+from webviz_sim.world import load_world
+
+# rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+ROOT = Path(__file__).parents[2]
+STORE = get_typestore(Stores.ROS2_JAZZY)
+LATCHED = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+TOPICS = {
+    "/tf": "tf2_msgs/msg/TFMessage",
+    "/tf_static": "tf2_msgs/msg/TFMessage",
+    "/odom": "nav_msgs/msg/Odometry",
+    "/scan": "sensor_msgs/msg/LaserScan",
+    "/map": "nav_msgs/msg/OccupancyGrid",
+    "/path": "nav_msgs/msg/Path",
+    "/joint_states": "sensor_msgs/msg/JointState",
+    "/robot_description": "std_msgs/msg/String",
+}
+
+
+def environment() -> dict[str, str]:
+    paths = [str(ROOT), *(str(ROOT / folder) for folder in ("displays", "urdf", "sim"))]
+    return os.environ | {
+        "ROS_DOMAIN_ID": str(domain()),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONPATH": os.pathsep.join([*paths, *sys.path[1:]]),
+    }
+
+
+def domain() -> int:
+    return 32 + os.getpid() % 60
+
+
+@pytest.fixture
+def sim():
+    """Starts the simulator in a process of its own and stops it as Ctrl-C does."""
+    started = []
+
+    def start(*parameters):
+        ros_args = [word for parameter in parameters for word in ("-p", parameter)]
+        process = subprocess.Popen(
+            [sys.executable, "-m", "webviz_sim", "--ros-args", *ros_args],
+            env=environment(),
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+        assert process.returncode == 0
+        assert "Traceback" not in errors
+
+
+class Robot(Node):
+    """What somebody sees of the robot from outside."""
+
+    def __init__(self, context):
+        super().__init__("test_viewer", context=context)
+        self.executor_ = SingleThreadedExecutor(context=context)
+        self.executor_.add_node(self)
+        self.received = {}
+
+    def listen(self, topic, kind, qos=10, raw=False):
+        self.received[topic] = []
+        self.create_subscription(kind, topic, self.received[topic].append, qos, raw=raw)
+        return self.received[topic]
+
+    def listen_tf(self):
+        kind = message_class("tf2_msgs/msg/TFMessage")
+        self.listen("/tf", kind, 100, raw=True)
+        self.listen("/tf_static", kind, LATCHED, raw=True)
+
+    def transforms(self, topic="/tf"):
+        """All transforms so far as (stamp in ns, parent, child, transform)."""
+        found = []
+        for raw in self.received[topic]:
+            for t in STORE.deserialize_cdr(bytes(raw), "tf2_msgs/msg/TFMessage").transforms:
+                stamp = nanoseconds(t.header.stamp)
+                found.append((stamp, t.header.frame_id, t.child_frame_id, t.transform))
+        return found
+
+    def pose(self, topic="/odom"):
+        return planar(self.received[topic][-1].pose.pose)
+
+    def spin(self, seconds):
+        end = time.monotonic() + seconds
+        while (rest := end - time.monotonic()) > 0:
+            self.executor_.spin_once(timeout_sec=rest)
+
+    def spin_until(self, condition, seconds=20.0):
+        end = time.monotonic() + seconds
+        while not condition() and time.monotonic() < end:
+            self.executor_.spin_once(timeout_sec=0.05)
+        assert condition()
+
+    def drive(self, kind, twist, seconds):
+        """Sends a velocity at 20 Hz for a while, then 0."""
+        publisher = self.create_publisher(kind, "/cmd_vel", 10)
+        self.spin_until(lambda: publisher.get_subscription_count() > 0)
+        for _ in range(round(20 * seconds)):
+            publisher.publish(twist)
+            self.spin(0.05)
+        publisher.publish(kind())
+        self.spin(0.2)
+
+
+@pytest.fixture
+def robot(monkeypatch):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    context = Context()
+    context.init(domain_id=domain())
+    node = Robot(context)
+    yield node
+    node.executor_.shutdown()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def nanoseconds(stamp):
+    return stamp.sec * 1_000_000_000 + stamp.nanosec
+
+
+def planar(pose):
+    yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
+    return Pose(pose.position.x, pose.position.y, yaw)
+
+
+def twist(linear, angular):
+    message = Twist()
+    message.linear.x, message.angular.z = linear, angular
+    return message
+
+
+def test_it_publishes_what_a_turtlebot_with_nav2_publishes(sim, robot):
+    sim("scan_beams:=180", "seed:=7")
+    robot.listen_tf()
+    odometry = robot.listen("/odom", Odometry)
+    scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
+    joints = robot.listen("/joint_states", JointState)
+    maps = robot.listen("/map", OccupancyGrid, LATCHED)
+    descriptions = robot.listen("/robot_description", String, LATCHED)
+    robot.spin_until(lambda: len(scans) > 30 and maps and descriptions)
+
+    names = dict(robot.get_topic_names_and_types())
+    assert {topic: names.get(topic) for topic in TOPICS} == {t: [k] for t, k in TOPICS.items()}
+    for topic in TOPICS:
+        [info] = robot.get_publishers_info_by_topic(topic)
+        latched = info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        reliable = info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        assert latched == (topic in ("/tf_static", "/map", "/robot_description")), topic
+        assert reliable == (topic != "/scan"), topic
+    assert "/clock" not in names
+
+    span = nanoseconds(scans[-1].header.stamp) - nanoseconds(scans[0].header.stamp)
+    seconds = span * 1e-9
+    assert (len(scans) - 1) / seconds == pytest.approx(10.0, rel=0.1)
+    assert len(odometry) / seconds == pytest.approx(50.0, rel=0.3)
+    assert len(joints) / seconds == pytest.approx(20.0, rel=0.3)
+    assert abs(nanoseconds(odometry[-1].header.stamp) - time.time_ns()) < 5e9
+
+    links = {(parent, child) for _, parent, child, _ in robot.transforms()}
+    wheels = {("base_link", "wheel_left_link"), ("base_link", "wheel_right_link")}
+    assert links == {("map", "odom"), ("odom", "base_link"), *wheels}
+    fixed = {(parent, child) for _, parent, child, _ in robot.transforms("/tf_static")}
+    links = ("base_footprint", "caster_back_link", "base_scan")
+    assert fixed == {("base_link", link) for link in links}
+    assert "package://webviz_urdf/demo/meshes/body.stl" in descriptions[0].data
+    assert joints[-1].name == ["wheel_left_joint", "wheel_right_joint"]
+
+    world = load_world(BUILDING)
+    grid = maps[0]
+    assert (grid.info.height, grid.info.width) == world.cells.shape
+    assert np.array_equal(np.array(grid.data).reshape(world.cells.shape), world.cells)
+    assert grid.header.frame_id == "map"
+
+
+def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robot):
+    sim("scan_noise:=0.0", "odom_drift:=0.05")
+    robot.listen_tf()
+    scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
+    odometry = robot.listen("/odom", Odometry)
+    robot.spin_until(lambda: len(scans) > 30 and abs(robot.pose().x) > 0.5)
+    robot.spin(0.5)
+
+    chosen = scans[-10]
+    stamp = nanoseconds(chosen.header.stamp)
+    moving = robot.transforms()
+    [odom_from_base] = [t for s, _, child, t in moving if child == "base_link" and s == stamp]
+    assert stamp in {nanoseconds(message.header.stamp) for message in odometry}
+    dated_ahead = stamp + 200_000_000
+    [map_from_odom] = [t for s, _, child, t in moving if child == "odom" and s == dated_ahead]
+    [base_from_scan] = [
+        t for _, _, child, t in robot.transforms("/tf_static") if child == "base_scan"
+    ]
+
+    def as_pose(transform):
+        rotation, shift = transform.rotation, transform.translation
+        return Pose(shift.x, shift.y, 2.0 * math.atan2(rotation.z, rotation.w))
+
+    scanner = as_pose(map_from_odom) @ as_pose(odom_from_base) @ as_pose(base_from_scan)
+    world = load_world(BUILDING)
+    x, y, yaw = world.to_grid(scanner)
+    angles = yaw + chosen.angle_min + chosen.angle_increment * np.arange(len(chosen.ranges))
+    count = len(angles)
+    expected, _ = cast_rays(world.occupied, np.full(count, x), np.full(count, y), angles, 200.0)
+    ranges = np.array(chosen.ranges)
+    agree = np.isclose(ranges, expected * world.resolution, atol=0.01)
+    assert agree.mean() > 0.95  # rounding turns a few beams past an edge
+
+
+def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
+    sim("tour:=false", "start_pose:=[0.0, 0.0, 0.0]")
+    robot.listen("/odom", Odometry)
+    robot.spin_until(lambda: robot.received["/odom"])
+    assert robot.pose() == pytest.approx(Pose())
+    robot.drive(Twist, twist(0.3, 0.0), 2.0)
+    moved = robot.pose()
+    assert moved.x == pytest.approx(0.6, abs=0.1)
+    assert moved.y == pytest.approx(0.0, abs=1e-6)
+    robot.spin(0.5)
+    assert robot.pose() == moved
+    robot.drive(Twist, twist(0.0, 0.5), 2.0)
+    assert robot.pose()[:2] == pytest.approx(moved[:2])
+    assert robot.pose().yaw == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_stale_command_stops_it(sim, robot):
+    sim("tour:=false", "stamped_cmd_vel:=true", "start_pose:=[0.0, 0.0, 0.0]")
+    odometry = robot.listen("/odom", Odometry)
+    publisher = robot.create_publisher(TwistStamped, "/cmd_vel", 10)
+    robot.spin_until(lambda: odometry and publisher.get_subscription_count() > 0)
+    publisher.publish(TwistStamped(twist=twist(0.4, 0.0)))
+    robot.spin_until(lambda: odometry[-1].twist.twist.linear.x > 0)
+    robot.spin_until(lambda: odometry[-1].twist.twist.linear.x == 0)
+    assert robot.pose().x == pytest.approx(0.4 * 0.5, abs=0.02)
+
+
+def test_resetting_the_odometry_moves_odom_and_not_the_robot(sim, robot):
+    sim("tour:=false", "start_pose:=[1.0, 0.0, 0.0]")
+    robot.listen_tf()
+    odometry = robot.listen("/odom", Odometry)
+    robot.spin_until(lambda: odometry)
+    robot.drive(Twist, twist(0.4, 0.0), 1.0)
+    before = robot.pose()
+    client = robot.create_client(Empty, "/reset_odom")
+    robot.spin_until(client.service_is_ready)
+    done = client.call_async(Empty.Request())
+    robot.spin_until(done.done)
+    robot.spin(0.5)
+    assert robot.pose() == pytest.approx(Pose())
+    correction = [t for _, _, child, t in robot.transforms() if child == "odom"][-1]
+    assert correction.translation.x == pytest.approx(1.0 + before.x)
+
+
+def test_an_initial_pose_puts_the_robot_there_in_the_map(sim, robot):
+    sim("tour:=false")
+    robot.listen_tf()
+    odometry = robot.listen("/odom", Odometry)
+    publisher = robot.create_publisher(PoseWithCovarianceStamped, "/initialpose", 10)
+    robot.spin_until(lambda: odometry and publisher.get_subscription_count() > 0)
+    message = PoseWithCovarianceStamped()
+    message.header.frame_id = "map"
+    message.pose.pose.position.x, message.pose.pose.position.y = -4.5, 1.5
+    publisher.publish(message)
+
+    def corrected():
+        found = [t for _, _, child, t in robot.transforms() if child == "odom"]
+        return found and found[-1].translation.x == pytest.approx(-4.5)
+
+    robot.spin_until(corrected)
+    assert robot.pose() == pytest.approx(Pose())
+
+
+def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(sim, robot):
+    process = sim("tour:=false", "tour_speed:=0.6", "start_pose:=[0.0, 0.0, 0.0]")
+    odometry = robot.listen("/odom", Odometry)
+    kind = message_class("nav_msgs/msg/Path")
+    paths = robot.listen("/path", kind)
+    publisher = robot.create_publisher(PoseStamped, "/goal_pose", 10)
+    robot.spin_until(lambda: odometry and publisher.get_subscription_count() > 0)
+    goal = PoseStamped()
+    goal.pose.position.x = 1.2
+    goal.header.frame_id = "nowhere"
+    publisher.publish(goal)
+    goal.header.frame_id = "map"
+    publisher.publish(goal)
+    robot.spin_until(lambda: paths)
+    last = paths[0].poses[-1].pose.position
+    assert (last.x, last.y) == pytest.approx((1.2, 0.0))
+    robot.spin_until(lambda: abs(robot.pose().x - 1.2) < 0.15)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert "Ignored a /goal_pose in the frame 'nowhere': send it in map." in errors
+
+
+def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
+    from rcl_interfaces.srv import SetParameters
+    from rclpy.parameter import Parameter
+
+    sim("tour:=false")
+    scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
+    client = robot.create_client(SetParameters, "/sim/set_parameters")
+    robot.spin_until(lambda: client.service_is_ready() and scans)
+
+    def set_parameter(name, value):
+        request = SetParameters.Request(
+            parameters=[Parameter(name, value=value).to_parameter_msg()]
+        )
+        future = client.call_async(request)
+        robot.spin_until(future.done)
+        [result] = future.result().results
+        return result.successful, result.reason
+
+    assert set_parameter("scan_beams", 90) == (True, "")
+    robot.spin_until(lambda: len(scans[-1].ranges) == 90)
+    refused = False, "scan_rate must be between 0.1 and 100, not -1."
+    assert set_parameter("scan_rate", -1.0) == refused
+    assert set_parameter("tour", "often") == (False, "tour must be true or false, not 'often'.")
+    range_min = "scan_range_min must be below scan_range_max, which is 10.0."
+    assert set_parameter("scan_range_min", 20.0) == (False, range_min)
+    assert not set_parameter("seed", 3)[0]
+    robot.spin(0.3)
+    assert len(scans[-1].ranges) == 90
+
+
+def test_a_clock_of_its_own_starts_at_zero_and_stamps_everything(sim, robot):
+    sim("publish_clock:=true", "scan_sweep:=true")
+    clocks = robot.listen("/clock", Clock)
+    scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
+    robot.spin_until(lambda: len(scans) > 5 and clocks)
+    assert nanoseconds(clocks[-1].clock) < 60e9
+    assert nanoseconds(scans[-1].header.stamp) < 60e9
+    assert scans[-1].time_increment == pytest.approx(0.1 / 360)
+    stamps = [nanoseconds(clock.clock) for clock in clocks]
+    assert set(np.diff(stamps)) == {20_000_000}
+
+
+def run(*args, code="from webviz_sim.node import main; raise SystemExit(main())"):
+    return subprocess.run(
+        [sys.executable, "-c", code, *args],
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+def test_sigterm_ends_it_with_status_0(sim, robot):
+    process = sim()
+    odometry = robot.listen("/odom", Odometry)
+    robot.spin_until(lambda: odometry)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=20)
+    assert process.returncode == 0
+
+
+def test_a_params_file_sets_parameters(robot, tmp_path):
+    path = tmp_path / "params.yaml"
+    path.write_text("/sim:\n  ros__parameters:\n    scan_rate: 3\n    scan_beams: 0\n")
+    result = run("--ros-args", "--params-file", str(path))
+    assert result.returncode == 1
+    assert "scan_beams must be between 1 and 20000, not 0." in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("args", "status", "sentence"),
+    [
+        (["--ros-args", "-p", "world:=none.yaml"], 1, "Cannot read the world none.yaml: No such"),
+        (["--ros-args", "-p", "rate:=fast"], 1, "rate must be a number, not 'fast'."),
+        (["--ros-args", "-p", "start_pose:=[1.0]"], 1, "start_pose must be [x, y, yaw] or []"),
+        (["--ros-args", "--nonsense"], 1, "ROS does not start (UnknownROSArgsError)"),
+        (["--nonsense"], 2, "unrecognized arguments: --nonsense"),
+    ],
+)
+def test_wrong_arguments_end_in_one_sentence(args, status, sentence):
+    result = run(*args)
+    assert result.returncode == status
+    assert sentence in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_help_lists_the_parameters():
+    result = run("--help")
+    assert result.returncode == 0
+    assert "stamped_cmd_vel" in result.stdout
+
+
+def test_without_rclpy_it_says_how_to_get_it():
+    code = (
+        "import sys; sys.modules['rclpy'] = None\n"
+        "from webviz_sim.node import main; raise SystemExit(main())"
+    )
+    result = run(code=code)
+    assert result.returncode == 1
+    assert result.stderr.count("\n") == 1
+    assert 'pip install "webviz[ros]"' in result.stderr
