@@ -43,8 +43,8 @@ class Control:
     ) -> None:
         self.widget = widget
         self._edit = edit
-        self._encode = encode
-        self._decode = decode
+        self.encode = encode
+        self.decode = decode
         self._wait = wait
         self._touched = -float("inf")
         self._timer: asyncio.TimerHandle | None = None
@@ -59,9 +59,13 @@ class Control:
 
     def show(self, value: Any) -> None:
         """Show the value the viewer has."""
-        shown = self._encode(value)
-        if self.widget.value != shown and time.monotonic() - self._touched > SETTLE_S + self._wait:
+        shown = self.encode(value)
+        if self.widget.value != shown and not self.settling():
             self.widget.value = shown
+
+    def settling(self) -> bool:
+        """Whether somebody edits the widget just now, or did a moment ago."""
+        return time.monotonic() - self._touched <= SETTLE_S + self._wait
 
     def show_when(self, visible: bool) -> None:
         """Hide the widget, or show it again."""
@@ -79,7 +83,7 @@ class Control:
 
     def _commit(self, entered: Any) -> None:
         try:
-            value = self._decode(entered)
+            value = self.decode(entered)
         except ValueError:
             return  # means nothing: the widget is set back
         self._edit(value)
@@ -104,21 +108,28 @@ class Choice(Control):
         edit: Callable[[Any], None],
         hint: str | None = None,
     ) -> None:
-        self._offered: tuple[Sequence[str], str] | None = None
+        self._offered: tuple[Sequence[str], str, bool] | None = None
         self._values = {_option(value): value}
-        self._dropdown = gui.add_dropdown(label, tuple(self._values), hint=hint)
-        super().__init__(self._dropdown, edit, _option, lambda option: self._values[option])
+        self.dropdown = gui.add_dropdown(label, tuple(self._values), hint=hint)
+        super().__init__(self.dropdown, edit, _option, self._chosen)
 
     def offer(self, values: Sequence[str], current: str) -> None:
         """Offer these values, and the current one even if it is not among them."""
-        if self._offered == (values, current):
+        settling = self.settling()
+        if self._offered == (values, current, settling):
             return
-        self._offered = (values, current)
+        self._offered = (values, current, settling)
         # What was chosen a moment ago stays on offer until the viewer has answered.
-        chosen = self._values[self._dropdown.value]
+        chosen = self._values.get(self.dropdown.value, current) if settling else current
         self._values = {_option(value): value for value in (*values, current, chosen)}
-        if self._dropdown.options != tuple(self._values):
-            self._dropdown.options = tuple(self._values)
+        self.show(current)
+        if self.dropdown.options != tuple(self._values):
+            self.dropdown.options = tuple(self._values)
+
+    def _chosen(self, option: str) -> str:
+        if option not in self._values:
+            raise ValueError(f"{option} is no longer on offer")
+        return self._values[option]
 
 
 def _option(value: str) -> str:

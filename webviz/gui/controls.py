@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import msgspec
@@ -90,52 +90,33 @@ def _add_number(
 
 
 def _add_lines(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) -> Control:
-    """Lists, mappings and what else there may be: an entry per line."""
-    is_mapping = isinstance(declared.type, inspect.DictType)
-    widget = gui.add_text(
-        declared.label, _to_lines(value), multiline=True, hint=declared.help or None
-    )
-    return Control(widget, edit, _to_lines, _mapping if is_mapping else _entries, wait=TYPING_S)
+    """Lists, mappings and tuples: an entry per line, texts as they are, all else as JSON."""
+    type_ = declared.type
+    items = getattr(type_, "value_type", None) or getattr(type_, "item_type", None)
+    dump, load = (_line, str) if isinstance(items, inspect.StrType) else (_dump, json.loads)
+
+    def encode(value: Any) -> str:
+        if isinstance(value, Mapping):
+            return "\n".join(f"{_line(key)}: {dump(item)}" for key, item in value.items())
+        return "\n".join(map(dump, value))
+
+    def decode(text: str) -> Any:
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        if not isinstance(type_, inspect.DictType):
+            return [load(line) for line in lines]
+        entries = [line.rpartition(":") for line in lines]
+        return {key.strip(): load(item.strip()) for key, _, item in entries}
+
+    widget = gui.add_text(declared.label, encode(value), multiline=True, hint=declared.help or None)
+    return Control(widget, edit, encode, decode, wait=TYPING_S)
 
 
-def _to_lines(value: Any) -> str:
-    plain_value = msgspec.to_builtins(value)
-    if isinstance(plain_value, dict):
-        return "\n".join(f"{plain(str(key))}: {_entry(item)}" for key, item in plain_value.items())
-    return "\n".join(_entry(item) for item in plain_value)
-
-
-def _entry(item: Any) -> str:
-    """A text as it is, unless it would be read as something else."""
-    if isinstance(item, str) and item == plain(item).strip() and _parsed(item) == item:
-        return item
-    return json.dumps(item)
+def _dump(item: Any) -> str:
+    return msgspec.json.encode(item).decode()
 
 
 def _line(text: str) -> str:
     return plain(text, MAX_TEXT)
-
-
-def _entries(text: str) -> list[Any]:
-    return [_parsed(line.strip()) for line in text.splitlines() if line.strip()]
-
-
-def _mapping(text: str) -> dict[str, Any]:
-    result = {}
-    for line in text.splitlines():
-        if line.strip():
-            key, separator, item = line.rpartition(":")
-            if not separator:
-                raise ValueError(f"expected `name: value`, got {line!r}")
-            result[key.strip()] = _parsed(item.strip())
-    return result
-
-
-def _parsed(text: str) -> Any:
-    try:
-        return json.loads(text)
-    except ValueError:
-        return text
 
 
 def _first(*bounds: float | None) -> float | None:

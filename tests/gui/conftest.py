@@ -1,0 +1,197 @@
+"""A server, a panel, a stand-in for the frame loop, and real browsers that show the panel."""
+
+from __future__ import annotations
+
+import queue
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+import msgspec
+import playwright.sync_api as playwright
+import pytest
+import viser
+
+from webviz.commands import Command, SetProperty
+from webviz.display import Color, Display, Input, Prop, Topic, set_property
+from webviz.gui import Panel
+from webviz.scene import open_server
+from webviz.state import Row, State
+from webviz.status import Status
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
+FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+
+
+class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    length: Annotated[float, Prop(gt=0, unit="m")] = 0.3
+
+
+class Everything(Display):
+    """A display with one property of each kind."""
+
+    topic: Annotated[Topic, Input("sensor_msgs/msg/LaserScan")] = Topic("/scan")
+    frame: Annotated[str, Prop(widget="frame")] = "<Fixed Frame>"
+    size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each point.")] = 0.01
+    alpha: Annotated[float, Prop(ge=0, le=1)] = 1.0
+    count: Annotated[int, Prop(ge=1)] = 3
+    style: Literal["Points", "Flat Squares", "Boxes"] = "Points"
+    edge: Annotated[float, Prop(gt=0, when=("style", "Boxes"))] = 0.5
+    color: Color = (255, 25, 0)
+    filled: bool = True
+    channel: str = "intensity"
+    offset: tuple[float, float, float] = (0.0, 0.5, 0.0)
+    prefixes: list[str] = msgspec.field(default_factory=list)
+    shown: dict[str, bool] = msgspec.field(default_factory=dict)
+    arrow: Arrow = Arrow()
+
+
+class Loop:
+    """Does what the frame loop does for the panel.
+
+    Args:
+        server: where the panel appears.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.commands: list[Command] = []
+        self.state = State((), "map", (), {}, {})
+        self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
+        self.panel = Panel(server, self._queue.put)
+
+    def show(self, *rows: Row, **changes: Any) -> None:
+        """Show these displays."""
+        self.state = replace(self.state, rows=rows, **changes)
+        self.panel.update(self.state)
+
+    def drain(self) -> None:
+        """Collect what was enqueued."""
+        while not self._queue.empty():
+            self.commands.append(self._queue.get())
+
+    def turn(self) -> None:
+        """Obey the property changes that are valid, and update the panel."""
+        done = len(self.commands)
+        self.drain()
+        displays = {row.id: row.display for row in self.state.rows}
+        for command in self.commands[done:]:
+            display = displays.get(command.display) if isinstance(command, SetProperty) else None
+            if isinstance(command, SetProperty) and display is not None:
+                try:
+                    set_property(display, command.path, command.value)
+                except msgspec.ValidationError:
+                    continue
+        self.panel.update(self.state)
+
+
+class Tab:
+    """One browser tab that shows the panel."""
+
+    def __init__(self, page: playwright.Page, port: int) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        self.frames_received = 0
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("dialog", lambda dialog: self.errors.append(dialog.message))
+        page.on("websocket", lambda socket: socket.on("framereceived", self._count))
+        page.goto(f"http://127.0.0.1:{port}/?fixedDpr=1")
+        page.get_by_text("Fixed Frame", exact=True).wait_for()
+
+    def field(self, label: str) -> playwright.Locator:
+        """The input with a label on its left."""
+        text = self.page.locator("label", has=self.page.get_by_text(label, exact=True))
+        text = text.or_(self.page.locator(f"label:text-is('{label}')"))
+        return text.locator("xpath=ancestor::div[2]//*[self::input or self::textarea]").first
+
+    def boxes(self) -> playwright.Locator:
+        """The check boxes in the list of displays."""
+        return self.page.locator(":has(> div > .webviz-list) input[type=checkbox]")
+
+    def names(self) -> list[str]:
+        """The texts in the list of displays."""
+        return self.page.locator(":has(> div > .webviz-list) button").all_inner_texts()
+
+    def text(self) -> str:
+        """All that can be read on the page."""
+        return self.page.locator("body").inner_text()
+
+    def wait_for(self, condition: Callable[[], bool], timeout: float = 20.0) -> None:
+        """Wait until a condition holds while the page runs."""
+        for _ in range(int(timeout / 0.02)):
+            if condition():
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError("timed out")
+
+    def _count(self, _: object) -> None:
+        self.frames_received += 1
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = open_server(port=0)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def loop(server: viser.ViserServer) -> Loop:
+    return Loop(server)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[playwright.Browser]:
+    """One headless Chromium for all tests."""
+    executable = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if executable is None:
+        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is on PATH")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_tab(browser: playwright.Browser, server: viser.ViserServer) -> Iterator[Callable[[], Tab]]:
+    """Opens tabs, each in a browser session of its own; in the end none has seen an error."""
+    tabs: list[Tab] = []
+
+    def open_tab() -> Tab:
+        context = browser.new_context(viewport={"width": 700, "height": 900})
+        tabs.append(Tab(context.new_page(), server.get_port()))
+        return tabs[-1]
+
+    yield open_tab
+    errors = [error for tab in tabs for error in tab.errors]
+    for tab in tabs:
+        tab.page.context.close()
+    assert errors == []
+
+
+@pytest.fixture
+def tab(loop: Loop, open_tab: Callable[[], Tab]) -> Tab:
+    return open_tab()
+
+
+@pytest.fixture
+def make_row() -> Callable[..., Row]:
+    """A row with a display of every property; the name is its id unless given."""
+
+    def make_row(
+        id_: str, name: str = "", statuses: Mapping[str, Status] | None = None, **values: Any
+    ) -> Row:
+        display = Everything(name=name or id_, **values)
+        return Row(id_, "Everything", display, display.name, statuses or {})
+
+    return make_row
