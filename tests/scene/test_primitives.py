@@ -40,14 +40,14 @@ def square(size: float) -> tuple[np.ndarray, np.ndarray]:
     return corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.uint32)
 
 
-def glb(size: float, color: Rgb) -> bytes:
-    """A square of one colour as binary glTF, unlit."""
+def glb(size: float, color: Rgb, **extensions: Any) -> bytes:
+    """A square of one colour as binary glTF that does not say whether it is metal."""
     corners, faces = square(size)
     data = corners.tobytes() + faces.tobytes()
     linear = [*(((c / 255 + 0.055) / 1.055) ** 2.4 for c in color), 1.0]
     content = {
         "asset": {"version": "2.0"},
-        "extensionsUsed": ["KHR_materials_unlit"],
+        "extensionsUsed": list(extensions),
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
@@ -55,7 +55,7 @@ def glb(size: float, color: Rgb) -> bytes:
         "materials": [
             {
                 "pbrMetallicRoughness": {"baseColorFactor": linear},
-                "extensions": {"KHR_materials_unlit": {}},
+                "extensions": extensions,
             }
         ],
         "buffers": [{"byteLength": len(data)}],
@@ -102,7 +102,8 @@ COLORED: dict[str, tuple[Node, int]] = {
     ),
     "arrows": (Arrows(floats(((-1, 0, 0), (1, 0, 0))), COLOR, 0.3, 0.5, 0.3), 12),
     "mesh": (Mesh(*square(1.0), COLOR), 12),
-    "glb": (Glb(glb(1.0, COLOR)), 1),
+    "glb": (Glb(glb(1.0, COLOR)), 12),
+    "unlit glb": (Glb(glb(1.0, COLOR, KHR_materials_unlit={})), 1),
     "image": (Image(np.full((4, 4, 4), (*COLOR, 255), np.uint8), 1.0, 1.0), 0),
 }
 
@@ -234,3 +235,18 @@ def test_the_background_can_be_changed(view: Any) -> None:
     view.wait_for(lambda: view.frames(1) or (view.pixels() == (10, 20, 30)).all())
     set_background(view.scene.link.server, BACKGROUND)
     view.wait_for(lambda: view.frames(1) or (view.pixels() == BACKGROUND).all())
+
+
+def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:
+    view.scene.upsert("base_link", "it", Glb(b"solid ascii stl"))
+    with pytest.raises(ValueError, match=r"no binary glTF 2\.0"):
+        view.scene.flush()
+
+
+def test_browsers_begin_with_rvizs_orbit_view(view: Any, browser: Any) -> None:
+    other = type(view)(browser, view.scene)
+    client = max(view.scene.link.server.get_clients().items())[1]
+    other.wait_for(lambda: bool(np.allclose(client.camera.position, (5, 5, 50**0.5), atol=1e-4)))
+    assert client.camera.fov == pytest.approx(np.pi / 4)
+    assert client.camera.look_at == pytest.approx((0, 0, 0), abs=1e-6)
+    other.close()

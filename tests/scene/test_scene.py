@@ -111,7 +111,7 @@ def test_poses_and_data_of_a_tick_arrive_in_one_frame(
     peer = call()
     peer.replay()
     for index in range(200):
-        scene.set_pose(f"link{index}", Pose((1.0, 0.0, 0.0)))
+        scene.set_pose(f"link{index}", Pose((1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)))
         scene.upsert(f"link{index}", "body", Points(XYZ + 1, RED, 0.1))
     scene.flush()
     assert len(peer.receive()) == 600
@@ -157,6 +157,13 @@ def test_an_equal_pose_is_not_sent_again(scene: Scene, sent: Callable[[], int]) 
     scene.set_pose("a", Pose((9.0, 2.0, 3.0)))
     scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
     assert sent() == 0
+
+
+def test_a_group_that_only_turns_sends_only_that(scene: Scene, sent: Callable[[], int]) -> None:
+    scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
+    sent()
+    scene.set_pose("a", Pose((1.0, 2.0, 3.0), (0.0, 1.0, 0.0, 0.0)))
+    assert sent() == 1
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
@@ -270,3 +277,12 @@ def test_a_malformed_node_is_named_once_and_the_rest_is_sent(
     assert caught.value.__notes__ == ["while drawing 'worse' of 'a'"]
     assert sent() > 0
     assert sent() == 0
+
+
+def test_a_text_that_is_no_unicode_is_sent_with_question_marks(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    scene.upsert("tf", "names", Labels(XYZ, ("caf\udce9", "基座"), 0.1))
+    scene.flush()
+    labels = [m for m in call().replay() if m["type"] == "LabelMessage"]
+    assert [m["props"]["text"] for m in labels] == ["caf?", "基座"]

@@ -45,19 +45,13 @@ class Adapter:
             wire.LocalStorageGetItemResponseMessage, self._on_acknowledgement
         )
 
-    def set_pose(
-        self,
-        name: str,
-        position: tuple[float, float, float],
-        wxyz: tuple[float, float, float, float],
-    ) -> None:
+    def set_position(self, name: str, position: tuple[float, float, float]) -> None:
         """Places a node relative to its parent, however small the move."""
         self._queue(wire.SetPositionMessage(name, position))
-        self._queue(wire.SetOrientationMessage(name, wxyz))
 
-    def set_position(self, name: str, position: tuple[float, float, float]) -> None:
-        """Moves a node that never turns."""
-        self._queue(wire.SetPositionMessage(name, position))
+    def set_orientation(self, name: str, wxyz: tuple[float, float, float, float]) -> None:
+        """Turns a node relative to its parent, however little."""
+        self._queue(wire.SetOrientationMessage(name, wxyz))
 
     def update(self, name: str, props: dict[str, Any]) -> None:
         """Assigns several properties in one message; arrays must not change afterwards.

@@ -15,8 +15,8 @@ from webviz.scene.adapter import Adapter
 # 8192 texels that every WebGL 2 browser of the last years has.
 TILE = 1024
 
-# The page recognises pictures by the last segment of their names (see page.py).
-TILE_PREFIX = "tile "
+# The page recognises pictures by this in their names (see page.py); no key has it when escaped.
+TILE_PREFIX = "%tile "
 
 _BLANK = np.zeros((1, 1, 4), np.uint8)
 

@@ -27,7 +27,7 @@ class LabelsDrawn:
         """Sends texts, places and heights that changed; places that are not finite are left out."""
         height = node.height / _CAPITAL
         wanted = [
-            (text, (x, y, z), height)
+            (_encodable(text), (x, y, z), height)
             for text, (x, y, z) in zip(node.texts, node.positions.tolist(), strict=True)
             if np.isfinite((x, y, z)).all()
         ]
@@ -74,3 +74,8 @@ class LabelsDrawn:
             self._link.set_position(name, new[1])
         if old[2] != new[2]:
             self._link.update(name, {"font_scene_height": new[2]})
+
+
+def _encodable(text: str) -> str:
+    """Half a surrogate pair, from text that was no UTF-8, would end every browser's connection."""
+    return text.encode(errors="replace").decode()

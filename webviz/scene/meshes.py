@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import struct
+
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
@@ -46,11 +49,43 @@ class GlbDrawn:
         self._name = name
 
     def draw(self, node: Glb) -> None:
-        """Sends the model."""
+        """Sends the model.
+
+        Raises:
+            ValueError: `node.data` is no binary glTF 2.0.
+        """
         self._handle = self._link.server.scene.add_glb(
-            self._name, node.data, cast_shadow=False, receive_shadow=False
+            self._name, matte(node.data), cast_shadow=False, receive_shadow=False
         )
 
     def remove(self) -> None:
         """Takes the model off the scene."""
         self._handle.remove()
+
+
+def matte(glb: bytes) -> bytes:
+    """Makes every material of a binary glTF a non-metal, as RViz draws meshes.
+
+    A material that does not say is metal by the standard (glTF 2.0, 5.22.3), and metal without
+    surroundings to reflect is black.
+
+    Raises:
+        ValueError: `glb` is no binary glTF 2.0.
+    """
+    if len(glb) < 20 or glb[:8] != b"glTF\x02\0\0\0" or glb[16:20] != b"JSON":
+        raise ValueError("This is no binary glTF 2.0.")
+    end = 20 + int.from_bytes(glb[12:16], "little")
+    content = json.loads(glb[20:end])
+    materials = content.setdefault("materials", [])
+    plain = len(materials)
+    for mesh in content.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            primitive.setdefault("material", plain)
+    materials.append({})
+    for material in materials:
+        material.setdefault("pbrMetallicRoughness", {})["metallicFactor"] = 0.0
+    text = json.dumps(content).encode()
+    text += b" " * (-len(text) % 4)
+    length = 20 + len(text) + len(glb) - end
+    header = struct.pack("<4sIII4s", b"glTF", 2, length, len(text), b"JSON")
+    return header + text + glb[end:]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from webviz.scene.images import TILE_PREFIX
-from webviz.scene.names import ROOT
 
 # Constants of three.js: NoToneMapping = 0, NearestFilter = 1003.
 PAGE_SCRIPT = """
@@ -24,8 +23,7 @@ PAGE_SCRIPT = """
   const before = scene.onBeforeRender;
   scene.onBeforeRender = function (...args) {
     for (const name in refs) {
-      const tail = name.lastIndexOf("/") + 1;
-      if (!name.startsWith("TILE", tail) || !name.startsWith("ROOT/") || !refs[name]) continue;
+      if (!name.includes("/TILE") || !refs[name]) continue;
       refs[name].traverse((object) => {
         const material = object.material;
         if (!object.isMesh || !material || material.side !== 2) return;
@@ -47,4 +45,4 @@ PAGE_SCRIPT = """
     return before.apply(this, args);
   };
 })();
-""".replace("TILE", TILE_PREFIX).replace("ROOT", ROOT)
+""".replace("TILE", TILE_PREFIX)

@@ -37,8 +37,8 @@ def keep_shaders(scene: SceneApi, root: str) -> None:
     shader again (0.4 s without a GPU) unless some other node still uses it. There is one shader for
     a colour per point and one for a colour for all.
     """
-    _add(scene, f"{root}/shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
-    _add(scene, f"{root}/shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))
+    _add(scene, f"{root}/%shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
+    _add(scene, f"{root}/%shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))
 
 
 def _add(scene: SceneApi, name: str, points: np.ndarray, colors: np.ndarray) -> SceneNodeHandle:

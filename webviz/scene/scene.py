@@ -152,7 +152,8 @@ class _Group:
         self.dirty: dict[str, None] = {}
         self._name = name
         self._handle: viser.FrameHandle | None = None
-        self._sent_pose: tuple[Position, tuple[float, float, float, float]] | None = None
+        self._sent_position: Position | None = None
+        self._sent_wxyz: tuple[float, float, float, float] | None = None
         self._drawn: dict[str, tuple[Node, Drawn[Any]]] = {}
 
     def send(self, link: Adapter, origin: Position) -> None:
@@ -161,9 +162,12 @@ class _Group:
             self._handle = link.server.scene.add_frame(path, show_axes=False)
         x, y, z = self.pose.position
         position = (x - origin[0], y - origin[1], z - origin[2])
-        if (position, self.pose.wxyz) != self._sent_pose:
-            self._sent_pose = (position, self.pose.wxyz)
-            link.set_pose(path, position, self.pose.wxyz)
+        if position != self._sent_position:
+            self._sent_position = position
+            link.set_position(path, position)
+        if self.pose.wxyz != self._sent_wxyz:
+            self._sent_wxyz = self.pose.wxyz
+            link.set_orientation(path, self.pose.wxyz)
         if self.visible != self._handle.visible:
             self._handle.visible = self.visible
         for key in tuple(self.dirty):

@@ -15,13 +15,14 @@ import rich
 import viser
 import websockets.asyncio.server as websocket
 
+from webviz.config import View
 from webviz.nodes import Rgb
 from webviz.scene.guard import HostList, guarded_serve
 from webviz.scene.gui_values import accepts_update
+from webviz.scene.view import set_view
 
-# RViz's default background and Orbit view.
 BACKGROUND: Rgb = (48, 48, 48)
-_DISTANCE, _YAW, _PITCH, _FIELD_OF_VIEW = 10.0, math.pi / 4, math.pi / 4, math.pi / 4
+"""RViz's default."""
 
 _opening = threading.Lock()
 
@@ -103,16 +104,8 @@ def _prepare(server: viser.ViserServer) -> None:
     set_background(server, BACKGROUND)
     _light(server.scene)
     server.scene.set_up_direction("+z")
-    camera = server.initial_camera
-    camera.position = (
-        _DISTANCE * math.cos(_YAW) * math.cos(_PITCH),
-        _DISTANCE * math.sin(_YAW) * math.cos(_PITCH),
-        _DISTANCE * math.sin(_PITCH),
-    )
-    camera.look_at = (0.0, 0.0, 0.0)
-    camera.up = (0.0, 0.0, 1.0)
-    camera.fov = _FIELD_OF_VIEW
-    camera.far = 1e5
+    server.initial_camera.far = 1e5
+    set_view(server, View())
 
 
 def _light(scene: viser.SceneApi) -> None:
