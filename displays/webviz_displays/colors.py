@@ -25,10 +25,11 @@ def fractions(values: ArrayLike, low: float, high: float) -> F64:
     NaN counts as `low`, and so does everything if there is nothing between `low` and `high`.
     """
     values = np.asarray(values, dtype=np.float64)
-    if not high > low:
+    half_span = high / 2 - low / 2  # the whole might overflow
+    if not half_span > 0.0:
         return np.zeros(len(values))
     values = np.clip(np.nan_to_num(values, nan=low, posinf=high, neginf=low), low, high)
-    return values / (high - low) - low / (high - low)  # the span alone might overflow
+    return np.clip((values / 2 - low / 2) / half_span, 0.0, 1.0)
 
 
 def bounds(values: ArrayLike, least_span: float = 0.0) -> tuple[float, float]:

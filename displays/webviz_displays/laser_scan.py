@@ -19,6 +19,9 @@ U8 = NDArray[np.uint8]
 LONG_SCAN_S = 1.0
 """A scan that takes longer is probably a wrong time_increment (RViz's limit)."""
 
+_ENDLESS_SCAN_S = 3600.0
+"""What takes longer is no scan, and its stamps may overflow."""
+
 _AXES = ("X", "Y", "Z")
 _LEAST_SPAN = 1e-3
 """Metres; a planar scan differs by rounding only, which is no reason for a rainbow."""
@@ -174,7 +177,7 @@ class LaserScan(Display):
         """The points in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message
         duration = (hits.total - 1) * scan.time_increment
-        if not np.isfinite(duration):
+        if not abs(duration) < _ENDLESS_SCAN_S:
             ctx.warn("Scan Time", f"time_increment is {scan.time_increment}; it is taken as 0.")
             return hits.xyz
         if duration > LONG_SCAN_S:

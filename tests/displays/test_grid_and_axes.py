@@ -1,0 +1,100 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz_displays.axes import Axes
+from webviz_displays.grid import Grid
+
+Benches = Callable[..., Any]
+
+
+def grid(bench: Benches, **properties: Any) -> Any:
+    made = bench(Grid(**properties))
+    made.turn()
+    return made
+
+
+def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
+    made = grid(bench)
+    node = made.nodes()["grid"]
+    assert node.segments.shape == (22, 2, 3)  # 11 lines each way
+    assert node.segments.min(axis=(0, 1)).tolist() == [-5, -5, 0]
+    assert node.segments.max(axis=(0, 1)).tolist() == [5, 5, 0]
+    assert (node.colors, node.width, node.unit) == ((104, 104, 106), 1.0, "px")
+    assert made.statuses()["Grid"][0] == "OK"
+
+
+def test_a_small_grid_line_by_line(bench: Benches) -> None:
+    made = grid(bench, plane_cell_count=1, cell_size=2.0, offset=(10.0, 0.0, 1.0))
+    lines = {tuple(sorted(map(tuple, ends))) for ends in made.nodes()["grid"].segments.tolist()}
+    assert lines == {
+        ((9, -1, 1), (9, 1, 1)),
+        ((11, -1, 1), (11, 1, 1)),
+        ((9, -1, 1), (11, -1, 1)),
+        ((9, 1, 1), (11, 1, 1)),
+    }
+
+
+def test_cells_along_the_normal_make_a_cage(bench: Benches) -> None:
+    segments = grid(bench, plane_cell_count=1, normal_cell_count=2).nodes()["grid"].segments
+    assert len(segments) == 3 * 4 + 4  # three layers, four posts
+    posts = segments[np.abs(segments[:, 0, 2] - segments[:, 1, 2]) > 0]
+    assert np.sort(posts[:, :, 2], axis=1).tolist() == [[-1, 1]] * 4
+    assert sorted(np.unique(segments[..., 2])) == [-1, 0, 1]
+
+
+@pytest.mark.parametrize(("plane", "flat"), [("XY", 2), ("XZ", 1), ("YZ", 0)])
+def test_the_plane_can_be_chosen(bench: Benches, plane: str, flat: int) -> None:
+    segments = grid(bench, plane=plane).nodes()["grid"].segments
+    extent = np.ptp(segments, axis=(0, 1)).tolist()
+    assert extent == [0 if axis == flat else 10 for axis in range(3)]
+
+
+def test_billboards_have_a_width_in_metres(bench: Benches) -> None:
+    node = grid(bench, line_style="Billboards", line_width=0.1).nodes()["grid"]
+    assert (node.width, node.unit) == (0.1, "m")
+
+
+def test_more_lines_than_a_browser_can_show_are_refused(bench: Benches) -> None:
+    made = grid(bench, plane_cell_count=2000, normal_cell_count=1)
+    assert made.nodes() == {}
+    assert made.statuses()["Grid"][0] == "ERROR"
+
+
+@pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])
+def test_it_follows_its_frame_at_the_latest_common_time(
+    bench: Benches, cls: type, key: str
+) -> None:
+    made = bench(cls(reference_frame="robot"))
+    made.turn()
+    assert made.nodes() == {}
+    level, text = made.statuses()["Transform"]
+    assert level == "ERROR"
+    assert "robot" in text
+    made.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=made.now_ns)
+    made.turn()
+    assert made.poses()[key].position == (1, 0, 0)
+    made.transform("map", "robot", (2.0, 0.0, 0.0), stamp_ns=made.now_ns + 1)
+    made.turn()
+    assert made.poses()[key].position == (2, 0, 0)
+    assert "Transform" not in made.statuses()
+
+
+@pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])
+@pytest.mark.parametrize("name", ["<Fixed Frame>", ""])
+def test_by_default_it_stands_in_the_fixed_frame(
+    bench: Benches, cls: type, key: str, name: str
+) -> None:
+    made = bench(cls(reference_frame=name))
+    made.turn()
+    assert made.poses()[key].position == (0, 0, 0)
+
+
+def test_axes_have_a_length_and_a_radius(bench: Benches) -> None:
+    made = bench(Axes(length=2.0, radius=0.25))
+    made.turn()
+    node = made.nodes()["axes"]
+    assert (node.length, node.radius) == (2.0, 0.25)
+    assert node.positions.tolist() == [[0, 0, 0]]

@@ -1,0 +1,284 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.nodes import Lines, Points
+from webviz_displays.laser_scan import LaserScan
+
+SCAN = "sensor_msgs/msg/LaserScan"
+SECOND = 1_000_000_000
+NAN, INF = float("nan"), float("inf")
+
+Benches = Callable[..., Any]
+
+
+def scan(ranges: list[float], **values: Any) -> dict[str, Any]:
+    """Beams to the front, left, back and right."""
+    return {
+        "angle_increment": np.pi / 2,
+        "range_min": 0.1,
+        "range_max": 10.0,
+        "ranges": ranges,
+        **values,
+    }
+
+
+@pytest.fixture
+def lab(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn one scan from a laser at rest, 1 m above the map."""
+
+    def make(values: dict[str, Any], **properties: Any) -> Any:
+        made = bench(LaserScan(**properties))
+        made.transform("map", "laser", (0.0, 0.0, 1.0))
+        made.send(SCAN, values, frame="laser")
+        made.turn()
+        return made
+
+    return make
+
+
+def test_beams_become_points_in_the_frame_of_the_laser(lab: Benches) -> None:
+    bench = lab(scan([1, 2, 3, 4]))
+    node = bench.nodes()["points"]
+    expected = [(1, 0, 0), (0, 2, 0), (-3, 0, 0), (0, -4, 0)]
+    np.testing.assert_allclose(node.xyz, expected, atol=1e-6)
+    assert (node.size, node.shape) == (0.01, "square")
+    assert bench.poses()["points"].position == (0, 0, 1)
+    assert bench.statuses()["Points"] == ("OK", "Showing 4 of 4 points.")
+
+
+def test_a_range_counts_from_range_min_to_just_below_range_max(lab: Benches) -> None:
+    bench = lab(scan([0.5, 0.49, 7.99, 8.0, NAN, INF, -INF], range_min=0.5, range_max=8.0))
+    lengths = np.linalg.norm(bench.nodes()["points"].xyz, axis=1)
+    np.testing.assert_allclose(lengths, [0.5, 7.99], rtol=1e-6)
+    assert bench.statuses()["Points"] == (
+        "OK",
+        "Showing 2 of 7 points; dropped 5: 1 NaN, 2 infinite, "
+        "1 nearer than range_min (0.5 m), 1 not nearer than range_max (8 m).",
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "level", "words"),
+    [
+        (scan([]), "ERROR", "no ranges"),
+        (scan([NAN, INF]), "WARN", "Showing 0 of 2"),
+        (scan([0.0]), "WARN", "range_min"),
+        (scan([1.0, 1.0], range_max=0.1), "ERROR", "range_max (0.1 m) is not greater"),
+        (scan([1.0, 1.0], range_min=5.0, range_max=-5.0), "ERROR", "range_max"),
+        (scan([1.0], range_min=NAN), "ERROR", "range_min is nan"),
+        (scan([1.0], range_max=NAN), "ERROR", "range_max is nan"),
+        (scan([1.0, 1.0], angle_increment=NAN), "ERROR", "angle_increment is nan"),
+        (scan([1.0, 1.0], angle_increment=INF), "ERROR", "angle_increment is inf"),
+        (scan([1.0], angle_min=NAN), "ERROR", "angle_min is nan"),
+        (scan([1e30], range_max=INF), "WARN", "Showing 0 of 1"),
+    ],
+)
+def test_a_scan_without_points_says_why(
+    lab: Benches, values: dict[str, Any], level: str, words: str
+) -> None:
+    bench = lab(values)
+    said = bench.statuses()["Points"]
+    assert said[0] == level
+    assert words in said[1]
+    assert not any(len(node.xyz) for node in bench.nodes().values())
+
+
+def test_beams_on_one_line_are_shown_with_a_warning(lab: Benches) -> None:
+    bench = lab(scan([1, 2, 3], angle_increment=0.0))
+    assert len(bench.nodes()["points"].xyz) == 3
+    assert bench.statuses()["Angles"][0] == "WARN"
+
+
+def test_a_scan_without_frame_is_refused_by_name(bench: Benches) -> None:
+    made = bench(LaserScan())
+    made.send(SCAN, scan([1.0]), frame="")
+    made.turn()
+    assert not made.nodes()
+    assert {level for level, _ in made.statuses().values()} & {"WARN", "ERROR"}
+
+
+# Colours
+
+
+def colors(bench: Any) -> list[list[int]]:
+    return bench.nodes()["points"].colors.tolist()
+
+
+RED, GREEN, MAGENTA = [255, 0, 0], [0, 255, 0], [255, 0, 255]
+
+
+def test_intensities_are_a_rainbow_from_red_to_magenta(lab: Benches) -> None:
+    assert colors(lab(scan([1, 1, 1], intensities=[10, 14, 20]))) == [RED, GREEN, MAGENTA]
+
+
+def test_colours_belong_to_the_points_that_are_left(lab: Benches) -> None:
+    assert colors(lab(scan([1, NAN, 1], intensities=[10, 14, 20]))) == [RED, MAGENTA]
+
+
+def test_equal_intensities_are_red(lab: Benches) -> None:
+    assert colors(lab(scan([1, 1], intensities=[7, 7]))) == [RED, RED]
+
+
+def test_bounds_may_be_given(lab: Benches) -> None:
+    bench = lab(
+        scan([1, 1, 1], intensities=[-5, 4, 99]),
+        autocompute_intensity_bounds=False,
+        min_intensity=0.0,
+        max_intensity=10.0,
+    )
+    assert colors(bench) == [RED, GREEN, MAGENTA]
+
+
+def test_two_colours_instead_of_the_rainbow(lab: Benches) -> None:
+    bench = lab(scan([1, 1, 1], intensities=[0, 1, 2]), use_rainbow=False, min_color=(0, 0, 100))
+    assert colors(bench) == [[0, 0, 100], [128, 128, 178], [255, 255, 255]]
+
+
+def test_an_intensity_that_is_nan_has_the_lowest_colour(lab: Benches) -> None:
+    assert colors(lab(scan([1, 1, 1], intensities=[NAN, 14, 20])))[0] == RED
+
+
+def test_without_intensities_colours_show_the_range_and_a_status_says_so(lab: Benches) -> None:
+    bench = lab(scan([1, 1.8, 3]))
+    assert colors(bench) == [RED, GREEN, MAGENTA]
+    assert "coloured by range" in bench.statuses()["Intensity"][1]
+
+
+def test_intensities_of_another_number_are_not_used_and_named(lab: Benches) -> None:
+    bench = lab(scan([1, 1.8, 3], intensities=[1, 2]))
+    assert colors(bench) == [RED, GREEN, MAGENTA]
+    level, text = bench.statuses()["Intensity"]
+    assert level == "WARN"
+    assert "2 intensities for 3 ranges" in text
+
+
+def test_axis_colour_is_of_the_fixed_frame_or_of_the_laser(bench: Benches) -> None:
+    made = bench(LaserScan(color_transformer="AxisColor", axis="Z"))
+    # The laser lies on its side: its y points up.
+    made.transform("map", "laser", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    made.send(SCAN, scan([1, 1, 1, 1]), frame="laser")
+    made.turn()
+    assert colors(made)[1] == MAGENTA
+    assert colors(made)[3] == RED
+    made.set("use_fixed_frame", False)  # all z are 0 there, up to rounding
+    assert colors(made) == [RED] * 4
+    made.set("autocompute_value_bounds", {"value": False, "min_value": -10.0, "max_value": 15.0})
+    assert colors(made) == [GREEN] * 4
+
+
+def test_alpha_fades_points(lab: Benches) -> None:
+    bench = lab(scan([1]), color_transformer="FlatColor", color=(248, 48, 48), alpha=0.5)
+    assert colors(bench) == [[148, 48, 48]]
+
+
+# Styles
+
+
+def test_spheres_are_discs(lab: Benches) -> None:
+    assert lab(scan([1]), style="Spheres", size=0.2).nodes()["points"].shape == "circle"
+
+
+def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
+    node = lab(scan([1, 2]), style="Points", size_pixels=5.0).nodes()["points"]
+    assert isinstance(node, Lines)
+    assert (node.width, node.unit) == (5.0, "px")
+    np.testing.assert_allclose(node.segments.mean(axis=1), [(1, 0, 0), (0, 2, 0)], atol=1e-6)
+    assert np.ptp(node.segments, axis=1).max() < 1e-3
+
+
+def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
+    bench = lab(scan([1]), style="Boxes")
+    assert isinstance(bench.nodes()["points"], Points)
+    assert bench.statuses()["Style"][1].startswith("Boxes are drawn as")
+
+
+# Time
+
+
+def moving(bench: Benches, **properties: Any) -> Any:
+    """A bench whose laser moves along y by 1 m each second."""
+    made = bench(LaserScan(**properties))
+    start = made.now_ns
+    for tenth in range(11):
+        stamp_ns = start + tenth * SECOND // 10
+        made.transform("map", "laser", (0.0, tenth / 10, 0.0), stamp_ns=stamp_ns)
+    return made
+
+
+FIVE_TO_THE_FRONT = scan([2.0] * 5, angle_increment=1e-9, time_increment=0.125)
+
+
+def test_each_beam_is_placed_where_the_laser_was_at_its_time(bench: Benches) -> None:
+    made = moving(bench)
+    stamp_ns = made.now_ns + SECOND // 2
+    made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
+    made.turn()
+    assert made.poses()["points"].position == pytest.approx((0, 0.5, 0))
+    points = made.nodes()["points"].xyz
+    expected = [(2, 0, 0), (2, 0.125, 0), (2, 0.25, 0), (2, 0.375, 0), (2, 0.5, 0)]
+    np.testing.assert_allclose(points, expected, atol=1e-6)
+    made.set("deskew", "As measured")
+    np.testing.assert_allclose(made.nodes()["points"].xyz, [(2, 0, 0)] * 5, atol=1e-6)
+
+
+def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
+    made = bench(LaserScan())
+    for i in range(11):  # it turns by 0.5 rad in 1 s
+        turn = (0.0, 0.0, np.sin(0.025 * i), np.cos(0.025 * i))
+        stamp_ns = made.now_ns + i * SECOND // 10
+        made.transform("map", "laser", (0, 0, 0), turn, stamp_ns=stamp_ns)
+    angles = np.linspace(-0.5, 0.5, 21)
+    apart = 3 / 64  # seconds between beams, exact in float32
+    facing = angles + 0.5 * np.arange(21) * apart  # of each beam in the map
+    ranges = (3 / np.cos(facing)).tolist()
+    values = scan(ranges, angle_min=-0.5, angle_increment=0.05, time_increment=apart)
+    made.send(SCAN, values, frame="laser")
+    made.turn()
+    np.testing.assert_allclose(made.nodes()["points"].xyz[:, 0], 3.0, atol=1e-5)
+    made.set("deskew", "As measured")
+    assert np.ptp(made.nodes()["points"].xyz[:, 0]) > 0.5
+
+
+def test_beams_after_the_newest_transform_are_counted(bench: Benches) -> None:
+    made = moving(bench)
+    stamp_ns = made.now_ns + 3 * SECOND // 4
+    made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
+    made.turn()
+    points = made.nodes()["points"].xyz
+    np.testing.assert_allclose(points[:, 1], [0, 0.125, 0.25, 0.25, 0.25], atol=1e-6)
+    level, text = made.statuses()["De-skew"]
+    assert level == "WARN"
+    assert text.startswith("2 of 5 beams")
+
+
+@pytest.mark.parametrize("time_increment", [NAN, INF, 1e30, -1e30])
+def test_a_time_increment_without_sense_counts_as_zero(
+    bench: Benches, time_increment: float
+) -> None:
+    made = moving(bench)
+    values = {**FIVE_TO_THE_FRONT, "time_increment": time_increment}
+    made.send(SCAN, values, frame="laser")
+    made.turn()
+    np.testing.assert_allclose(made.nodes()["points"].xyz[:, 1], 0, atol=1e-6)
+    assert made.statuses()["Scan Time"][0] == "WARN"
+
+
+def test_a_scan_that_takes_long_is_doubted(lab: Benches) -> None:
+    values = scan([1, 1, 1], time_increment=0.6)
+    assert "takes 1.2 s" in lab(values, deskew="As measured").statuses()["Scan Time"][1]
+
+
+def test_scans_decay_by_the_time_they_arrived(bench: Benches) -> None:
+    made = bench(LaserScan(decay_time=1.0))
+    made.transform("map", "laser")
+    for _ in range(4):
+        made.send(SCAN, scan([1, 2]), frame="laser")
+        made.turn(0.4)
+    assert len(made.nodes()) == 2
+    made.set("decay_time", 0.0)
+    assert len(made.nodes()) == 1
+    made.turn(100.0)
+    assert len(made.nodes()) == 1

@@ -1,0 +1,242 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz_displays.odometry import MOST_COVARIANCES, Odometry
+from webviz_displays.pose_properties import (
+    Covariance,
+    OrientationCovariance,
+    PoseShape,
+    PositionCovariance,
+)
+
+ODOMETRY = "nav_msgs/msg/Odometry"
+NAN, INF = float("nan"), float("inf")
+
+Benches = Callable[..., Any]
+Quaternion = tuple[float, float, float, float]
+
+
+def about_z(angle: float) -> Quaternion:
+    return (0.0, 0.0, float(np.sin(angle / 2)), float(np.cos(angle / 2)))
+
+
+def odometry(
+    x: float = 0.0, y: float = 0.0, turn: Quaternion = (0, 0, 0, 1), **variances: float
+) -> dict[str, Any]:
+    """A pose, and the diagonal of its covariance by name."""
+    names = ("x", "y", "z", "roll", "pitch", "yaw")
+    covariance = np.diag([variances.get(name, 0.0) for name in names])
+    pose = {
+        "position": {"x": x, "y": y},
+        "orientation": dict(zip("xyzw", turn, strict=True)),
+    }
+    return {"pose": {"pose": pose, "covariance": covariance.ravel()}}
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn odometry in the frame odom, which is 10 m along x and turned left."""
+
+    def make(*messages: dict[str, Any], **properties: Any) -> Any:
+        made = bench(Odometry(**properties))
+        made.transform("map", "odom", (10.0, 0.0, 0.0), about_z(np.pi / 2))
+        for each in messages:
+            made.send(ODOMETRY, each, frame="odom")
+        made.turn()
+        return made
+
+    return make
+
+
+def tails(bench: Any) -> list[list[float]]:
+    return bench.nodes()["poses"].segments[:, 0].round(4).tolist()
+
+
+def test_an_arrow_stands_for_each_pose_in_the_fixed_frame(shown: Benches) -> None:
+    bench = shown(odometry(1), odometry(2, turn=about_z(np.pi / 2)))
+    node = bench.nodes()["poses"]
+    expected = [[(10, 1, 0), (10, 2.3, 0)], [(10, 2, 0), (8.7, 2, 0)]]
+    np.testing.assert_allclose(node.segments, expected, atol=1e-6)
+    assert (node.colors, node.head_length) == ((255, 25, 0), 0.3)
+    assert bench.statuses()["Pose"] == ("OK", "Showing 2 poses.")
+
+
+def test_radii_are_radii(shown: Benches) -> None:
+    shape = PoseShape(shaft_radius=0.2, head_radius=0.4)
+    node = shown(odometry(), shape=shape).nodes()["poses"]
+    assert (node.shaft_radius, node.head_radius) == (0.2, 0.4)
+
+
+def test_axes_are_turned_as_the_robot(shown: Benches) -> None:
+    node = shown(odometry(turn=about_z(np.pi / 2)), shape=PoseShape(value="Axes")).nodes()["poses"]
+    np.testing.assert_allclose(np.abs(node.wxyzs), [(0, 0, 0, 1)], atol=1e-6)
+    assert (node.length, node.radius) == (1.0, 0.1)
+
+
+def test_a_pose_is_added_once_the_robot_moved_or_turned_enough(shown: Benches) -> None:
+    bench = shown(
+        odometry(0.0),
+        odometry(0.25),
+        odometry(0.49),  # not far enough from 0
+        odometry(0.5),
+        odometry(0.75),
+        odometry(0.9, turn=about_z(0.19)),
+        odometry(0.9, turn=about_z(0.21)),
+        position_tolerance=0.5,
+        angle_tolerance=0.2,
+    )
+    assert tails(bench) == [[10, 0, 0], [10, 0.5, 0], [10, 0.9, 0]]
+
+
+def test_the_sign_of_a_quaternion_is_no_turn(shown: Benches) -> None:
+    assert len(tails(shown(odometry(), odometry(turn=(0, 0, 0, -1))))) == 1
+
+
+def test_without_tolerances_every_pose_is_added(shown: Benches) -> None:
+    standing = [odometry()] * 5
+    assert len(tails(shown(*standing, position_tolerance=0.0))) == 5
+
+
+def test_the_newest_poses_stay(shown: Benches) -> None:
+    bench = shown(*map(odometry, range(6)), keep_count=3)
+    assert [y for _, y, _ in tails(bench)] == [3, 4, 5]
+    bench.set("keep_count", 1)
+    assert [y for _, y, _ in tails(bench)] == [5]
+
+
+def test_keep_0_keeps_all(shown: Benches) -> None:
+    assert len(tails(shown(*map(odometry, range(150)), keep_count=0))) == 150
+
+
+def test_a_long_trail_is_one_node(shown: Benches) -> None:
+    off = Covariance(value=False)
+    bench = shown(*map(odometry, range(2000)), keep_count=0, covariance=off)
+    assert {key: len(node.segments) for key, node in bench.nodes().items()} == {"poses": 2000}
+
+
+# Covariance
+
+
+def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
+    bench = shown(odometry(x=0, turn=about_z(np.pi / 2)) | odometry(**{"yaw": 0.01}))
+    assert bench.nodes().keys() == {"poses", "position covariance", "orientation covariance"}
+    wedge = bench.nodes()["orientation covariance"]
+    assert (wedge.color, wedge.opacity) == ((255, 255, 127), 0.5)
+    width = np.tan(0.1)
+    expected = [(10, 0, 1e-3), (10 + width, 1, 1e-3), (10 - width, 1, 1e-3)]
+    np.testing.assert_allclose(wedge.vertices, expected, atol=1e-6)
+
+
+def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(shown: Benches) -> None:
+    # In odom the robot looks along y, and its position along x is uncertain; odom's x is map's y.
+    values = {**odometry(turn=about_z(np.pi / 2)), **{}}
+    values["pose"]["covariance"] = odometry(**{"yaw": 0.01})["pose"]["covariance"]
+    values["pose"]["covariance"][0] = 4.0
+    bench = shown(values)
+    ellipse = bench.nodes()["position covariance"].vertices - (10, 0, 0)
+    assert np.abs(ellipse).max(axis=0) == pytest.approx((0, 2, 1e-3), abs=1e-6)
+    tip = bench.nodes()["orientation covariance"].vertices[1:].mean(axis=0)
+    assert tip == pytest.approx((9, 0, 1e-3), abs=1e-6)
+    bench.set("covariance.orientation.frame", "Fixed")
+    tip = bench.nodes()["orientation covariance"].vertices[1:].mean(axis=0)
+    assert tip == pytest.approx((10, 1, 1e-3), abs=1e-6)
+
+
+def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -> None:
+    look = Covariance(
+        position=PositionCovariance(scale=2.0), orientation=OrientationCovariance(color_style="RGB")
+    )
+    variances = {"x": 0.01, "y": 0.04, "z": 0.09, "roll": 0.01, "pitch": 0.01, "yaw": 0.01}
+    message = odometry()
+    message["pose"]["covariance"] = np.diag(list(variances.values())).ravel()
+    nodes = shown(message, covariance=look).nodes()
+    ellipsoid = nodes["position covariance"]
+    assert (ellipsoid.color, ellipsoid.opacity) == ((204, 51, 204), 0.3)
+    halves = np.abs(ellipsoid.vertices - (10, 0, 0)).max(axis=0)
+    assert halves == pytest.approx((0.4, 0.2, 0.6), rel=1e-5)
+    middles = {key: node.vertices[-1] for key, node in nodes.items() if "orientation" in key}
+    assert middles["orientation x covariance"] == pytest.approx((10, 1, 0), abs=1e-6)
+    assert middles["orientation y covariance"] == pytest.approx((9, 0, 0), abs=1e-6)
+    assert middles["orientation z covariance"] == pytest.approx((10, 0, 1), abs=1e-6)
+    assert nodes["orientation y covariance"].color == (0, 255, 0)
+
+
+def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None:
+    count = MOST_COVARIANCES + 20
+    bench = shown(*map(odometry, range(count)), keep_count=0)
+    assert len(tails(bench)) == count
+    assert len(bench.nodes()["orientation covariance"].faces) == MOST_COVARIANCES
+    assert bench.statuses()["Covariance"][1].endswith(f"{MOST_COVARIANCES} of {count} covariances.")
+
+
+def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None:
+    bad = odometry(1)
+    bad["pose"]["covariance"] = np.full(36, NAN)
+    worse = odometry(2)
+    worse["pose"]["covariance"] = -np.eye(6).ravel()
+    bench = shown(odometry(0), bad, worse)
+    assert len(tails(bench)) == 3
+    assert len(bench.nodes()["orientation covariance"].faces) == 1
+    level, text = bench.statuses()["Covariance"]
+    assert level == "WARN"
+    assert text.startswith("2 of 3")
+
+
+def test_a_huge_covariance_stays_finite(shown: Benches) -> None:
+    message = odometry()
+    message["pose"]["covariance"] = np.diag(np.full(6, 1e300)).ravel()
+    for node in shown(message).nodes().values():
+        for values in vars(node).values():
+            assert not isinstance(values, np.ndarray) or np.isfinite(values).all()
+
+
+# Messages that cannot be shown
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        (odometry(NAN), "not finite: position (nan"),
+        (odometry(INF), "not finite"),
+        (odometry(turn=(0, 0, NAN, 1)), "orientation (0, 0, nan, 1)"),
+        (odometry(1e300), "too far away"),
+        (odometry(turn=(0, 0, 0, 0)), "all zeros"),
+        (odometry(turn=(0, 0, 0, 1.01)), "not normalized: its squares add up to 1.0201"),
+        (odometry(turn=(0, 0, 1e300, 0)), "not normalized"),
+    ],
+)
+def test_a_bad_pose_is_named_and_the_trail_stays(
+    shown: Benches, message: dict[str, Any], words: str
+) -> None:
+    bench = shown(odometry(0), odometry(1), *[message] * 500)
+    assert tails(bench) == [[10, 0, 0], [10, 1, 0]]
+    level, text = bench.statuses()["Pose"]
+    assert level == "ERROR"
+    assert words in text
+    bench.send(ODOMETRY, odometry(1), frame="odom")
+    bench.turn()
+    assert bench.statuses()["Pose"][0] == "OK"
+
+
+def test_a_nearly_normalized_quaternion_is_accepted(shown: Benches) -> None:
+    assert len(tails(shown(odometry(turn=(0, 0, 0, 1.004))))) == 1
+
+
+def test_only_bad_poses_draw_nothing(shown: Benches) -> None:
+    bench = shown(odometry(NAN))
+    assert bench.nodes() == {}
+    assert bench.statuses()["Pose"][0] == "ERROR"
+
+
+def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> None:
+    made = bench(Odometry(), fixed_frame="odom")
+    made.transform("utm", "odom")
+    for x in (448_262.123, 448_262.373):
+        made.send(ODOMETRY, odometry(x, 5_411_932.456), frame="odom")
+    made.turn()
+    xyz = made.nodes()["poses"].segments[:, 0].astype(float) + made.poses()["poses"].position
+    expected = [(448_262.123, 5_411_932.456, 0), (448_262.373, 5_411_932.456, 0)]
+    np.testing.assert_allclose(xyz, expected, atol=1e-4, rtol=0)

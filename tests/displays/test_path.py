@@ -1,0 +1,159 @@
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz import Pose
+from webviz_displays.path import Path
+
+PATH = "nav_msgs/msg/Path"
+NAN, INF = float("nan"), float("inf")
+QUARTER = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
+"""90 degrees about z, xyzw."""
+
+Benches = Callable[..., Any]
+
+
+def path(*positions: tuple[float, ...], turn: tuple[float, ...] = (0, 0, 0, 1)) -> dict[str, Any]:
+    """A path through positions whose poses are all turned the same."""
+    orientation = dict(zip("xyzw", turn, strict=True))
+    return {
+        "poses": [
+            {
+                "pose": {
+                    "position": dict(zip("xyz", position, strict=True)),
+                    "orientation": orientation,
+                }
+            }
+            for position in positions
+        ]
+    }
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn paths in the frame odom, which is 10 m along x and turned left."""
+
+    def make(*paths: dict[str, Any], **properties: Any) -> Any:
+        made = bench(Path(**properties))
+        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
+        for each in paths:
+            made.send(PATH, each, frame="odom")
+        made.turn()
+        return made
+
+    return make
+
+
+def in_map(bench: Any, key: str) -> Any:
+    """Segments of a node in the fixed frame."""
+    pose: Pose = bench.poses()[key]
+    w, x, y, z = pose.wxyz
+    assert (x, y) == (0.0, 0.0)
+    turn = np.array([(w * w - z * z, -2 * w * z, 0), (2 * w * z, w * w - z * z, 0), (0, 0, 1)])
+    return bench.nodes()[key].segments @ turn.T + pose.position
+
+
+def test_poses_are_joined_in_the_frame_of_the_header(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0), (1, 2, 0)))
+    expected = [[(10, 0, 0), (10, 1, 0)], [(10, 1, 0), (8, 1, 0)]]
+    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-6)
+    node = bench.nodes()["line"]
+    assert (node.colors, node.width, node.unit) == ((25, 255, 0), 1.0, "px")
+    assert bench.statuses()["Path"] == ("OK", "Showing 3 poses.")
+
+
+def test_the_offset_is_along_the_axes_of_the_fixed_frame(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0)), offset=(0.0, 0.5, 3.0))
+    expected = [[(10, 0.5, 3), (10, 1.5, 3)]]
+    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-6)
+
+
+def test_billboards_have_a_width_in_metres(shown: Benches) -> None:
+    node = shown(path((0, 0, 0), (1, 0, 0)), line_style="Billboards").nodes()["line"]
+    assert (node.width, node.unit) == (0.03, "m")
+
+
+def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0)))
+    bench.set("color", (248, 48, 48))
+    assert bench.nodes()["line"].colors == (248, 48, 48)
+    bench.set("alpha", 0.5)
+    assert bench.nodes()["line"].colors == (148, 48, 48)
+
+
+def test_the_newest_paths_stay_up_to_the_buffer_length(shown: Benches) -> None:
+    paths = [path((0, 0, i), (1, 0, i)) for i in range(4)]
+    bench = shown(*paths, buffer_length=3)
+    heights = sorted(in_map(bench, key)[0, 0, 2] for key in bench.nodes())
+    assert heights == [1, 2, 3]
+    bench.set("buffer_length", 1)
+    assert [in_map(bench, key)[0, 0, 2] for key in bench.nodes()] == [3]
+
+
+def test_arrows_point_along_x_of_each_pose(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (5, 0, 0), turn=QUARTER), pose_style="Arrows")
+    node = bench.nodes()["poses"]
+    expected = [[(0, 0, 0), (0, 0.3, 0)], [(5, 0, 0), (5, 0.3, 0)]]
+    np.testing.assert_allclose(node.segments, expected, atol=1e-6)
+    assert (node.shaft_radius, node.head_radius, node.head_length) == (0.05, 0.15, 0.2)
+    assert node.colors == (255, 85, 255)
+
+
+def test_axes_are_turned_as_each_pose(shown: Benches) -> None:
+    node = shown(path((1, 2, 3), turn=QUARTER), pose_style="Axes").nodes()["poses"]
+    np.testing.assert_allclose(node.positions, [(1, 2, 3)])
+    np.testing.assert_allclose(node.wxyzs, [(np.sqrt(0.5), 0, 0, np.sqrt(0.5))], atol=1e-6)
+    assert (node.length, node.radius) == (0.3, 0.03)
+
+
+def test_orientations_that_planners_leave_at_zero_are_drawn_unturned_and_named(
+    shown: Benches,
+) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0), turn=(0, 0, 0, 0)), pose_style="Arrows")
+    np.testing.assert_allclose(bench.nodes()["poses"].segments[0, 1], (0.3, 0, 0), atol=1e-6)
+    assert bench.statuses()["Orientation"][0] == "WARN"
+    bench.set("pose_style", "None")
+    assert "Orientation" not in bench.statuses()
+
+
+def test_unnormalized_orientations_are_normalized(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), turn=(0, 0, 0, 7)), pose_style="Arrows")
+    np.testing.assert_allclose(bench.nodes()["poses"].segments[0, 1], (0.3, 0, 0), atol=1e-6)
+
+
+def test_an_empty_path_is_named(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0)), path())
+    assert bench.nodes() == {}
+    assert bench.statuses()["Path"] == ("WARN", "The path is empty.")
+
+
+def test_a_single_pose_is_no_line(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0)))
+    assert bench.statuses()["Path"][0] == "WARN"
+    bench.set("pose_style", "Axes")
+    assert bench.statuses()["Path"] == ("OK", "Showing 1 pose.")
+
+
+@pytest.mark.parametrize("bad", [NAN, INF, -INF, 1e300])
+def test_a_path_with_a_bad_position_is_refused_with_its_index(shown: Benches, bad: float) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0), (2, bad, 0), (bad, 0, 0)))
+    assert bench.nodes() == {}
+    level, text = bench.statuses()["Path"]
+    assert level == "ERROR"
+    assert text.startswith(f"Pose 2 of 4 has position (2, {bad:g}, 0)")
+    assert "1 more" in text
+
+
+def test_a_path_with_a_bad_orientation_is_refused(shown: Benches) -> None:
+    bench = shown(path((0, 0, 0), (1, 0, 0), turn=(0, 0, NAN, 1)))
+    assert bench.nodes() == {}
+    assert bench.statuses()["Path"][1].startswith("Pose 0 of 2")
+
+
+def test_far_from_the_origin_a_path_keeps_its_millimetres(shown: Benches) -> None:
+    east, north = 448_262.123, 5_411_932.456
+    bench = shown(path((east, north, 0), (east + 0.25, north, 0)))
+    expected = [[(10 - north, east, 0), (10 - north, east + 0.25, 0)]]
+    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-4, rtol=0)
