@@ -1,0 +1,336 @@
+"""The Map display: grids and updates to tiles."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from webviz import Image
+from webviz.messages import MapMetaData, OccupancyGrid, OccupancyGridUpdate, Point, Pose, Quaternion
+from webviz_displays.map import Map
+from webviz_displays.palettes import colorize, lookup_table
+from webviz_displays.tiles import TILE, GridFault, tiled, updated
+
+GRID = "nav_msgs/msg/OccupancyGrid"
+UPDATE = "map_msgs/msg/OccupancyGridUpdate"
+
+
+def grid_values(cells, resolution=0.5, origin=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0.0, 1.0)):
+    cells = np.asarray(cells, np.int8)
+    position = dict(zip("xyz", origin, strict=True))
+    orientation = dict(zip("xyzw", xyzw, strict=True))
+    info = {
+        "resolution": resolution,
+        "width": cells.shape[1],
+        "height": cells.shape[0],
+        "origin": {"position": position, "orientation": orientation},
+    }
+    return {"info": info, "data": cells.ravel()}
+
+
+def update_values(x, y, cells):
+    cells = np.asarray(cells, np.int8)
+    return {
+        "x": x,
+        "y": y,
+        "width": cells.shape[1],
+        "height": cells.shape[0],
+        "data": cells.ravel(),
+    }
+
+
+def send_map(at, cells, **options) -> None:
+    at.send(GRID, grid_values(cells, **options), frame="map", topic="/map")
+    at.turn()
+
+
+def send_update(at, x, y, cells) -> None:
+    at.send(UPDATE, update_values(x, y, cells), frame="map", topic="/map_updates")
+    at.turn()
+
+
+def whole_picture(at) -> np.ndarray:
+    """The tiles put together again."""
+    tiles = {tuple(map(int, key.split()[1:])): node for key, node in at.nodes().items()}
+    rows = max(row + tile.rgba.shape[0] for (row, _), tile in tiles.items())
+    columns = max(column + tile.rgba.shape[1] for (_, column), tile in tiles.items())
+    picture = np.zeros((rows, columns, 4), np.uint8)
+    for (row, column), tile in tiles.items():
+        picture[row : row + tile.rgba.shape[0], column : column + tile.rgba.shape[1]] = tile.rgba
+    return picture
+
+
+def corner_of_cell(pose, x, y):
+    """Where a point of a tile lies in the fixed frame; tiles here turn about z only."""
+    w, _, _, z = pose.wxyz
+    yaw = 2 * math.atan2(z, w)
+    px, py, pz = pose.position
+    return (
+        px + x * math.cos(yaw) - y * math.sin(yaw),
+        py + x * math.sin(yaw) + y * math.cos(yaw),
+        pz,
+    )
+
+
+def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(bench) -> None:
+    at = bench(Map(alpha=1.0))
+    cells = [[0, 100, -1], [50, 99, 1]]
+    send_map(at, cells)
+    expected = colorize(np.array(cells, np.int8), lookup_table("map"))
+    assert (whole_picture(at) == expected).all()
+    node = at.nodes()["tile 0 0"]
+    assert isinstance(node, Image)
+    assert (node.width, node.height) == (1.5, 1.0)
+    assert at.statuses()["Map"] == ("OK", "3 x 2 cells of 0.5 m in frame 'map'.")
+
+
+def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> None:
+    at = bench(Map(alpha=1.0))
+    cells = np.random.default_rng(0).integers(-1, 101, (300, 520), np.int8)
+    send_map(at, cells)
+    assert len(at.nodes()) == 6
+    assert all(max(node.rgba.shape[:2]) <= TILE for node in at.nodes().values())
+    assert (whole_picture(at) == colorize(cells, lookup_table("map"))).all()
+
+
+def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(bench) -> None:
+    at = bench(Map())
+    half = math.radians(90) / 2
+    yaw = (0.0, 0.0, math.sin(half), math.cos(half))
+    send_map(at, np.zeros((300, 300)), resolution=0.1, origin=(5.0, 7.0, 1.0), xyzw=yaw)
+    poses = at.poses()
+    # Columns run along the origin's x, which is y of the map; rows along its y, which is -x.
+    assert corner_of_cell(poses["tile 0 0"], 0, 0) == pytest.approx((5.0, 7.0, 1.0))
+    assert poses["tile 0 256"].position == pytest.approx((5.0, 7.0 + 25.6, 1.0))
+    assert poses["tile 256 0"].position == pytest.approx((5.0 - 25.6, 7.0, 1.0))
+    assert corner_of_cell(poses["tile 0 0"], 1.0, 2.0) == pytest.approx((3.0, 8.0, 1.0))
+
+
+def test_a_map_follows_its_frame(bench) -> None:
+    at = bench(Map(), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    send_map(at, [[0]])
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 0.0, 0.0))
+    at.transform("odom", "map", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 10**9)
+    at.turn(1.0)
+    assert at.poses()["tile 0 0"].position == pytest.approx((2.0, 0.0, 0.0))
+
+
+def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench) -> None:
+    at = bench(Map(use_timestamp=True), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    send_map(at, [[0]], origin=(0.0, 3.0, 0.0))
+    at.transform("odom", "map", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 10**9)
+    at.turn(1.0)
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 3.0, 0.0))
+
+
+def test_a_map_in_a_new_fixed_frame_needs_no_new_message(bench) -> None:
+    at = bench(Map())
+    at.transform("odom", "map", (4.0, 0.0, 0.0))
+    send_map(at, [[0]])
+    at.fixed_frame = "odom"
+    at.turn()
+    assert at.poses()["tile 0 0"].position == pytest.approx((4.0, 0.0, 0.0))
+
+
+def test_an_update_changes_its_cells_and_makes_only_its_tiles_anew(bench) -> None:
+    at = bench(Map(alpha=1.0))
+    cells = np.zeros((300, 300), np.int8)
+    send_map(at, cells)
+    before = at.nodes()
+    send_update(at, 250, 10, np.full((5, 10), 100))
+    after = at.nodes()
+    cells[10:15, 250:260] = 100
+    assert (whole_picture(at) == colorize(cells, lookup_table("map"))).all()
+    same = {key for key in after if after[key] is before[key]}
+    assert same == {"tile 256 0", "tile 256 256"}
+    assert at.statuses()["Update"] == ("OK", "1 update since the last whole map.")
+
+
+def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(bench) -> None:
+    at = bench(Map())
+    cells = np.zeros((300, 300), np.int8)
+    send_map(at, cells)
+    before = at.nodes()
+    cells[299, 299] = 100
+    send_map(at, cells)
+    after = at.nodes()
+    assert {key for key in after if after[key] is not before[key]} == {"tile 256 256"}
+
+
+def test_a_smaller_map_leaves_no_tile_of_the_larger_one(bench) -> None:
+    at = bench(Map())
+    send_map(at, np.zeros((300, 300)))
+    send_map(at, np.zeros((2, 2)))
+    assert list(at.nodes()) == ["tile 0 0"]
+
+
+@pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (3, 0), (0, 2)])
+def test_an_update_outside_of_the_map_is_refused_and_said(bench, x, y) -> None:
+    at = bench(Map())
+    send_map(at, np.zeros((3, 4)))
+    before = at.nodes()["tile 0 0"]
+    send_update(at, x, y, [[100, 100], [100, 100]])
+    assert at.nodes()["tile 0 0"] is before
+    level, text = at.statuses()["Update"]
+    assert level == "ERROR"
+    assert f"2 x 2 cells at ({x}, {y}) reaches outside of the map of 4 x 3" in text
+
+
+def test_an_update_with_too_little_data_is_refused_and_said(bench) -> None:
+    at = bench(Map())
+    send_map(at, np.zeros((3, 4)))
+    values = update_values(0, 0, [[100, 100]]) | {"height": 2}
+    at.send(UPDATE, values, frame="map", topic="/map_updates")
+    at.turn()
+    assert at.statuses()["Update"] == (
+        "ERROR",
+        "The update's size is 2 x 2 = 4 cells, but it carries 2.",
+    )
+
+
+def test_an_update_in_another_frame_is_refused_and_said(bench) -> None:
+    at = bench(Map())
+    at.transform("map", "odom")
+    send_map(at, [[0]])
+    at.send(UPDATE, update_values(0, 0, [[100]]), frame="odom", topic="/map_updates")
+    at.turn()
+    assert at.statuses()["Update"][1] == "The update is in frame 'odom', the map in 'map'."
+
+
+def test_an_empty_update_changes_nothing(bench) -> None:
+    at = bench(Map())
+    send_map(at, [[0]])
+    before = at.nodes()["tile 0 0"]
+    send_update(at, 0, 0, np.zeros((0, 0)))
+    assert at.nodes()["tile 0 0"] is before
+
+
+def test_updates_before_the_map_are_ignored(bench) -> None:
+    at = bench(Map())
+    send_update(at, 0, 0, [[100]])
+    assert at.nodes() == {}
+    assert at.statuses()["Map"] == ("WARN", "No map received.")
+    send_map(at, [[0]])
+    assert at.statuses()["Map"][0] == "OK"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"info": {"width": 0, "height": 3}}, "size is 0 x 3"),
+        ({"info": {"width": 2, "height": 2}}, "2 x 2 = 4 cells, but it carries 6"),
+        ({"info": {"width": 2**32 - 1, "height": 2**32 - 1}}, "but it carries 6"),
+        ({"info": {"resolution": 0.0}}, "resolution is 0.0 m"),
+        ({"info": {"resolution": math.nan}}, "resolution is nan m"),
+        ({"info": {"resolution": math.inf}}, "resolution is inf m"),
+        ({"info": {"origin": {"position": {"x": math.nan}}}}, "origin holds a NaN"),
+        ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin holds a NaN or infinity"),
+    ],
+)
+def test_a_map_that_cannot_be_drawn_says_why(bench, change, said) -> None:
+    at = bench(Map())
+    values = grid_values(np.zeros((2, 3)))
+    values["info"] = values["info"] | change["info"]
+    send_map(at, [[0]])
+    at.send(GRID, values, frame="map", topic="/map")
+    at.turn()
+    level, text = at.statuses()["Map"]
+    assert level == "ERROR"
+    assert said in text
+    assert at.nodes() == {}
+
+
+@pytest.mark.parametrize("xyzw", [(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 3.0)])
+def test_an_orientation_of_another_length_is_put_right(bench, xyzw) -> None:
+    at = bench(Map())
+    send_map(at, [[0]], xyzw=xyzw)
+    assert at.poses()["tile 0 0"].wxyz == pytest.approx((1.0, 0.0, 0.0, 0.0))
+
+
+def test_changes_of_the_look_show_without_a_new_message(bench) -> None:
+    at = bench(Map())
+    send_map(at, [[0, 100]])
+    at.set("alpha", 1.0)
+    assert whole_picture(at).tolist() == [[[255, 255, 255, 255], [0, 0, 0, 255]]]
+    at.set("color_scheme", "costmap")
+    assert whole_picture(at).tolist() == [[[0, 0, 0, 0], [255, 0, 255, 255]]]
+    at.set("binary_representation", True)
+    assert whole_picture(at).tolist() == [[[0, 0, 255, 255], [255, 0, 0, 255]]]
+    at.set("binary_threshold", 0)
+    assert whole_picture(at).tolist() == [[[255, 0, 0, 255], [255, 0, 0, 255]]]
+    at.set("draw_behind", True)
+    assert at.poses()["tile 0 0"].position[2] < 0.0
+
+
+def test_an_invisible_map_is_not_called_ok(bench) -> None:
+    at = bench(Map(alpha=0.0))
+    send_map(at, [[0]])
+    assert at.statuses()["Map"][0] == "WARN"
+
+
+def map_message(cells: np.ndarray) -> OccupancyGrid:
+    height, width = cells.shape
+    origin = Pose(Point(1.0, 2.0, 0.0), Quaternion())
+    return OccupancyGrid(
+        info=MapMetaData(resolution=0.1, width=width, height=height, origin=origin),
+        data=cells.ravel(),
+    )
+
+
+def cells_of(width: int, height: int):
+    """Few rows or columns keep the examples small, and still cross the borders of tiles."""
+    return st.integers(0, 2**32 - 1).map(
+        lambda seed: (
+            np.random.default_rng(seed).integers(-128, 128, (height, width)).astype(np.int8)
+        )
+    )
+
+
+@st.composite
+def maps_with_updates(draw):
+    width, height = draw(st.sampled_from([(1, 1), (256, 3), (600, 2), (3, 513), (257, 257)]))
+    cells = draw(cells_of(width, height))
+    updates = []
+    for _ in range(draw(st.integers(0, 4))):
+        x, y = draw(st.integers(0, width - 1)), draw(st.integers(0, height - 1))
+        w, h = draw(st.integers(0, width - x)), draw(st.integers(0, height - y))
+        updates.append((x, y, draw(cells_of(w, h))))
+    return cells, updates
+
+
+@given(maps_with_updates())
+def test_folding_updates_gives_the_tiles_of_the_whole_map_drawn_anew(case) -> None:
+    cells, updates = case
+    grid = tiled(map_message(cells), "map")
+    whole = cells.copy()
+    for x, y, part in updates:
+        height, width = part.shape
+        message = OccupancyGridUpdate(x=x, y=y, width=width, height=height, data=part.ravel())
+        before = {corner: tile.copy() for corner, tile in grid.tiles.items()}
+        older = grid
+        grid = updated(grid, message, "map")
+        assert all((older.tiles[corner] == tile).all() for corner, tile in before.items())
+        whole[y : y + height, x : x + width] = part
+    expected = tiled(map_message(whole), "map")
+    assert grid.tiles.keys() == expected.tiles.keys()
+    for corner, tile in expected.tiles.items():
+        assert (grid.tiles[corner] == tile).all()
+
+
+def test_an_update_that_changes_no_cell_keeps_every_tile() -> None:
+    cells = np.arange(12, dtype=np.int8).reshape(3, 4)
+    grid = tiled(map_message(cells), "map")
+    message = OccupancyGridUpdate(x=1, y=1, width=2, height=2, data=cells[1:3, 1:3].ravel())
+    assert updated(grid, message, "map").tiles[0, 0] is grid.tiles[0, 0]
+
+
+def test_a_refused_update_is_an_error_that_a_caller_can_catch() -> None:
+    grid = tiled(map_message(np.zeros((2, 2), np.int8)), "map")
+    with pytest.raises(GridFault, match="outside"):
+        updated(
+            grid, OccupancyGridUpdate(x=2, y=0, width=1, height=1, data=np.ones(1, np.int8)), "map"
+        )
