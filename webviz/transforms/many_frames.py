@@ -5,12 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from itertools import chain, pairwise
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.transforms.arrays import F64, canonical_many, interpolate_many, slerp_weights
+from webviz.transforms.arrays import (
+    F64,
+    canonical_many,
+    compose_many,
+    interpolate_many,
+    interpolation_table,
+    inverse_many,
+    poses_to_rows,
+)
 from webviz.transforms.errors import TransformException
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose, interpolate, inverse
 from webviz.transforms.tree import FrameTree
@@ -107,15 +115,14 @@ class _Links:
 
     def poses_by_arrays(self) -> F64:
         """The same as an array (7, links): all interpolated at once, then joined level by level."""
-        start, end = _rows(self.starts), _rows(self.ends)
-        weights = slerp_weights(start[3:], end[3:])
-        poses = np.stack(interpolate_many(start, end, np.array(self.ratios), *weights))
+        table = interpolation_table(poses_to_rows(self.starts), poses_to_rows(self.ends))
+        poses = interpolate_many(table, np.array(self.ratios))
         parents, depths = np.array(self.parents), np.array(self.depths)
         by_depth = np.argsort(depths, kind="stable")
         borders = np.searchsorted(depths[by_depth], np.arange(2, depths.max() + 2))
         for low, high in pairwise(borders):
             level = by_depth[low:high]
-            poses[:, level] = compose(poses[:, parents[level]], poses[:, level])
+            poses[:, level] = compose_many(poses[:, parents[level]], poses[:, level])
         return poses
 
 
@@ -153,7 +160,7 @@ def poses_in(
     elif found:
         arrays = links.poses_by_arrays()
         bases, numbers = np.array(pairs).T
-        pose = np.stack(compose(inverse(arrays[:, bases]), arrays[:, numbers]))
+        pose = compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers])
         out[:3, found] = pose[:3]
         out[3:, found] = canonical_many(pose[3:])
     for i in odd:
@@ -167,11 +174,6 @@ def poses_in(
         np.array([stamp or 0 for stamp in stamps], np.int64),
         ~np.isnan(out[6]),
     )
-
-
-def _rows(poses: list[Pose]) -> F64:
-    flat = chain.from_iterable(poses)
-    return np.fromiter(flat, np.float64, 7 * len(poses)).reshape(-1, 7).T.copy()
 
 
 def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> Sequence[int | None]:
@@ -195,6 +197,9 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
     meets: dict[str, tuple[str, int | None] | None] = {frame: (frame, None) for frame in spine}
     stamps: list[int | None] = []
     for asked in frames:
+        if asked == target:
+            stamps.append(tree.latest_common_time(target, target))
+            continue
         climbed: list[tuple[str, int]] = []
         frame = asked
         while frame not in meets:
@@ -212,8 +217,6 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
             meet = meets[frame] = (meet[0], _older(meet[1], stamp))
         below, above = meet[1], spine[meet[0]]
         stamps.append(_older(below, above or 0) or 0)
-    if target in frames:
-        stamps[frames.index(target)] = tree.latest_common_time(target, target)
     return stamps
 
 

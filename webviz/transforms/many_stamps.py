@@ -1,21 +1,127 @@
-"""One pair of frames at many times, in one pass over arrays."""
+"""One pair of frames at many times, in passes over arrays."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from itertools import chain, pairwise
-from typing import Any, NamedTuple
+from contextlib import suppress
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.transforms.arrays import F64, canonical_many, interpolate_many, slerp_weights
-from webviz.transforms.cache import Cache, TimeCache
+from webviz.transforms.arrays import (
+    F64,
+    canonical_many,
+    compose_many,
+    interpolate_many,
+    interpolation_table,
+    inverse_many,
+    poses_to_rows,
+)
+from webviz.transforms.cache import TimeCache
 from webviz.transforms.errors import TransformException
-from webviz.transforms.geometry import IDENTITY, compose, inverse
+from webviz.transforms.geometry import IDENTITY, canonical
 from webviz.transforms.tree import MAX_DEPTH, FrameTree
 
+_IDENTITY = np.reshape(IDENTITY, (7, 1))
+
 I64 = NDArray[np.int64]
+
+BLOCK = 2048
+"""Requests at a time, so that the arrays of a pass stay in the processor's cache (measured)."""
+
+
+def lookup_many(
+    tree: FrameTree, target: str, source: str, stamps_ns: I64
+) -> tuple[F64, F64, NDArray[np.bool_]]:
+    """`TransformBuffer.lookup_many` for two known frames that differ."""
+    stamps_ns = np.asarray(stamps_ns, np.int64)
+    order = None
+    ascending = stamps_ns
+    if (np.diff(stamps_ns) < 0).any():
+        order = np.argsort(stamps_ns, kind="stable")
+        ascending = stamps_ns[order]
+    poses = np.full((7, len(stamps_ns)), np.nan)
+    histories = _Histories(tree, ascending)
+    for start in range(0, len(ascending), BLOCK):
+        block = poses[:, start : start + BLOCK]
+        _resolve(histories, target, source, ascending[start : start + BLOCK], block)
+        block[3:] = canonical_many(block[3:])
+    latest = ascending == 0
+    if latest.any():
+        poses[:, latest] = np.nan
+        with suppress(TransformException):
+            pose, _ = tree.resolve(target, source, 0)
+            poses[:, latest] = np.reshape((*pose[:3], *canonical(*pose[3:])), (7, 1))
+    if order is not None:
+        sorted_poses, poses = poses, np.empty_like(poses)
+        poses[:, order] = sorted_poses
+    return poses[:3].T, poses[3:].T, ~np.isnan(poses[6])
+
+
+class _History:
+    """What a cache holds around the requested times, as arrays over its M samples there."""
+
+    def __init__(self, cache: TimeCache, first_ns: int, last_ns: int) -> None:
+        stamps = cache.stamps
+        low = max(bisect_left(stamps, first_ns) - 1, 0)
+        part = slice(low, bisect_right(stamps, last_ns) + 1)
+        self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
+        self.stamps = np.array(stamps[part], np.int64)
+        samples = cache.samples[part]
+        parents = [parent for _, parent in samples]
+        self.parent: str | None = parents[0] if parents.count(parents[0]) == len(parents) else None
+        self.parents = np.array(parents) if self.parent is None else None
+        # Each sample with its successor; one before a change of parent, and the last, stand still.
+        start = poses_to_rows([pose for pose, _ in samples])
+        end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
+        if self.parent is None:
+            changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
+            end[:, changes] = start[:, changes]
+        span = np.append(np.maximum(np.diff(self.stamps), 1), 1)
+        self.table = np.concatenate((interpolation_table(start, end), span[None]))
+
+    def at(self, times: I64) -> tuple[F64, str | NDArray[np.str_]]:
+        """`TimeCache.at` for ascending times within the history.
+
+        Returns:
+            Poses (7, n), and the parent or parents.
+        """
+        # How many of the times fall to each sample: those from its stamp up to the next one's.
+        low = max(int(np.searchsorted(self.stamps, times[0])) - 1, 0)
+        part = slice(low, int(np.searchsorted(self.stamps, times[-1], side="right")))
+        stamps = self.stamps[part]
+        first = np.searchsorted(times, stamps)
+        if self.oldest_ns != self.newest_ns and times[0] == self.oldest_ns:
+            # Of equal oldest stamps tf2 gives the first.
+            equal = np.searchsorted(times, self.oldest_ns, side="right")
+            first[1:] = np.maximum(first[1:], equal)
+        counts = np.empty_like(first)
+        np.subtract(first[1:], first[:-1], out=counts[:-1])
+        counts[-1] = len(times) - first[-1]
+        table = np.repeat(self.table[:, part], counts, axis=1)
+        pose = interpolate_many(table, (times - np.repeat(stamps, counts)) / table[15])
+        if self.parents is None:
+            assert self.parent is not None
+            return pose, self.parent
+        return pose, np.repeat(self.parents[part], counts)
+
+
+class _Histories:
+    """The histories that a request needs, each made once."""
+
+    def __init__(self, tree: FrameTree, stamps: I64) -> None:
+        self.caches = tree.caches
+        asked = stamps[stamps != 0]
+        self._first, self._last = (int(asked.min()), int(asked.max())) if len(asked) else (0, 0)
+        self._made: dict[str, _History] = {}
+
+    def of(self, frame: str, cache: TimeCache) -> _History:
+        """The history of a frame whose cache is not empty."""
+        if frame not in self._made:
+            self._made[frame] = _History(cache, self._first, self._last)
+        return self._made[frame]
 
 
 class _Group(NamedTuple):
@@ -24,33 +130,12 @@ class _Group(NamedTuple):
     frame: str
     rows: NDArray[np.intp]
     """Which requests, (n,)."""
-    pose: Any
-    """Seven floats or arrays (n,): of the start of the walk in `frame`."""
+    pose: F64 | None
+    """The start of the walk in `frame`, (7, n) or one for all (7, 1); None is the identity."""
 
 
-def lookup_many(
-    tree: FrameTree, target: str, source: str, stamps_ns: I64
-) -> tuple[F64, F64, NDArray[np.bool_]]:
-    """`TransformBuffer.lookup_many` for two known frames that differ."""
-    poses = np.full((7, len(stamps_ns)), np.nan)
-    latest = stamps_ns == 0
-    if latest.any():
-        try:
-            pose, _ = tree.resolve(target, source, 0)
-            poses[:, latest] = np.reshape(pose, (7, 1))
-        except TransformException:
-            pass
-    _resolve(tree, target, source, stamps_ns, np.flatnonzero(~latest), poses)
-    ok = ~np.isnan(poses[6])
-    rotations = np.full((len(stamps_ns), 4), np.nan)
-    rotations[ok] = canonical_many(poses[3:, ok]).T
-    return poses[:3].T.copy(), rotations, ok
-
-
-def _resolve(
-    tree: FrameTree, target: str, source: str, stamps: I64, index: NDArray[np.intp], out: F64
-) -> None:
-    """`FrameTree.resolve` for the requests `index`; writes their poses into `out`.
+def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: F64) -> None:
+    """`FrameTree.resolve` for stamps other than 0; writes the poses into `out` (7, N).
 
     Requests climb together and part where their parents or their fates differ.
     """
@@ -58,19 +143,18 @@ def _resolve(
     top_of = np.full(len(stamps), -1)
     in_top = np.empty_like(out)
     waiting = False
-    pending = [_Group(source, index, IDENTITY)]
+    pending = [_Group(source, np.arange(len(stamps)), None)]
     for _ in range(MAX_DEPTH + 1):
         climbing: list[_Group] = []
         for group in pending:
             if group.frame == target:
-                _write(out, group.rows, group.pose)
+                out[:, group.rows] = group.pose
                 continue
-            cache = tree.caches.get(group.frame)
-            higher, stuck = _climb(cache, group, stamps) if cache else ([], group)
+            higher, stuck = _climb(histories, group, stamps)
             climbing += higher
             if stuck is not None:
                 top_of[stuck.rows] = tops.setdefault(stuck.frame, len(tops))
-                _write(in_top, stuck.rows, stuck.pose)
+                in_top[:, stuck.rows] = _IDENTITY if stuck.pose is None else stuck.pose
                 waiting = True
         pending = climbing
         if not pending:
@@ -78,7 +162,7 @@ def _resolve(
     if not waiting:
         return
 
-    pending = [_Group(target, np.flatnonzero(top_of >= 0), IDENTITY)]
+    pending = [_Group(target, np.flatnonzero(top_of >= 0), None)]
     for _ in range(MAX_DEPTH + 1):
         climbing = []
         for group in pending:
@@ -86,42 +170,39 @@ def _resolve(
             done = _part(group, met)
             if len(done.rows):
                 pose = in_top[:, done.rows]
-                if done.pose is not IDENTITY:
-                    pose = compose(inverse(done.pose), pose)
-                _write(out, done.rows, pose)
+                if done.pose is not None:
+                    pose = compose_many(inverse_many(done.pose), pose)
+                out[:, done.rows] = pose
             rest = _part(group, ~met)
-            cache = tree.caches.get(rest.frame)
             if rest.frame == source:
-                _write(out, rest.rows, inverse(rest.pose))
-            elif cache and len(rest.rows):
-                climbing += _climb(cache, rest, stamps)[0]
+                assert rest.pose is not None
+                out[:, rest.rows] = inverse_many(rest.pose)
+            elif len(rest.rows):
+                climbing += _climb(histories, rest, stamps)[0]
         pending = climbing
         if not pending:
             break
 
 
-def _write(out: F64, index: NDArray[np.intp], pose: Any) -> None:
-    for row, value in zip(out, pose, strict=True):
-        row[index] = value
-
-
 def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
     if keep.all():
         return group
-    pose = tuple(p[keep] if isinstance(p, np.ndarray) else p for p in group.pose)
+    pose = group.pose
+    if pose is not None and pose.shape[1] > 1:
+        pose = pose[:, keep]
     return _Group(group.frame, group.rows[keep], pose)
 
 
-def _climb(cache: Cache, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
-    """The group one link higher, split by parent; and those for which the link has no data."""
-    if not isinstance(cache, TimeCache):
-        sample = cache.sample
-        assert sample is not None
-        return [_Group(sample[1], group.rows, _onto(sample[0], group.pose))], None
-    if not cache.stamps:
+def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
+    """The group one link higher, split by parent; and those for which there is no such link."""
+    cache = histories.caches.get(group.frame)
+    if cache is None or cache.newest is None:
         return [], group
+    if not isinstance(cache, TimeCache):
+        pose, parent = cache.newest
+        return [_Group(parent, group.rows, _onto(np.reshape(pose, (7, 1)), group.pose))], None
     times = stamps[group.rows]
-    has_data = (times >= cache.stamps[0]) & (times <= cache.stamps[-1])
+    has_data = (times >= cache.stamps[0]) & (times <= cache.stamps[-1]) & (times != 0)
     stuck = None
     if not has_data.all():
         stuck = _part(group, ~has_data)
@@ -129,7 +210,7 @@ def _climb(cache: Cache, group: _Group, stamps: I64) -> tuple[list[_Group], _Gro
         times = times[has_data]
         if not len(times):
             return [], stuck
-    pose, parents = _sample(cache, times)
+    pose, parents = histories.of(group.frame, cache).at(times)
     pose = _onto(pose, group.pose)
     if isinstance(parents, str):
         return [_Group(parents, group.rows, pose)], stuck
@@ -140,33 +221,5 @@ def _climb(cache: Cache, group: _Group, stamps: I64) -> tuple[list[_Group], _Gro
     return higher, stuck
 
 
-def _onto(link: Any, pose: Any) -> Any:
-    return link if pose is IDENTITY else compose(link, pose)
-
-
-def _sample(cache: TimeCache, times: I64) -> tuple[Any, str | NDArray[np.str_]]:
-    """`TimeCache.at` for many times within the history: poses, and the parent or parents."""
-    low = max(bisect_left(cache.stamps, int(times.min())) - 1, 0)
-    high = bisect_right(cache.stamps, int(times.max())) + 1
-    known = np.array(cache.stamps[low:high], dtype=np.int64)
-    samples = cache.samples[low:high]
-    flat = chain.from_iterable(pose for pose, _ in samples)
-    start = np.fromiter(flat, np.float64, 7 * len(samples)).reshape(-1, 7).T.copy()
-    parents = [parent for _, parent in samples]
-
-    # Each sample with its successor; the last one, and one before a change of parent, stands still.
-    end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
-    span = np.append(np.maximum(np.diff(known), 1), 1).astype(np.float64)
-    one_parent = parents.count(parents[0]) == len(parents)
-    if not one_parent:
-        held = np.array([*(a != b for a, b in pairwise(parents)), False])
-        end[:, held] = start[:, held]
-
-    i = np.searchsorted(known, times, side="right") - 1
-    if low == 0 and cache.stamps[0] != cache.stamps[-1]:
-        i[times == known[0]] = 0  # of equal oldest stamps tf2 gives the first
-    theta, scale, sign = slerp_weights(start[3:], end[3:])
-    pairs = np.take(np.vstack((start, end, theta, scale, sign, span)), i, axis=1)
-    ratio = (times - known[i]) / pairs[17]
-    pose = interpolate_many(pairs[:7], pairs[7:14], ratio, pairs[14], pairs[15], pairs[16])
-    return pose, parents[0] if one_parent else np.array(parents)[i]
+def _onto(link: F64, pose: F64 | None) -> F64:
+    return link if pose is None else compose_many(link, pose)
