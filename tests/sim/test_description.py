@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 import yourdfpy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.typesys import Stores, get_typestore
 
@@ -54,6 +54,7 @@ def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
     assert wheel[2, 3] == radius
 
 
+@settings(deadline=None)
 @given(st.tuples(*[st.floats(-math.pi, math.pi)] * 3))
 def test_rpy_turns_about_the_fixed_axes_x_then_y_then_z(rpy):
     (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
@@ -63,6 +64,7 @@ def test_rpy_turns_about_the_fixed_axes_x_then_y_then_z(rpy):
     assert np.allclose(matrix(from_euler(*rpy)), about_z @ about_y @ about_x)
 
 
+@settings(deadline=None)
 @given(
     st.lists(
         st.tuples(

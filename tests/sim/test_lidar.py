@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -60,8 +61,6 @@ def test_a_turn_through_pi_is_swept_the_short_way_round(room):
 
 
 def test_the_scanner_works_in_a_turned_and_shifted_map(room):
-    from dataclasses import replace
-
     turn = Pose(-3.0, 7.0, 2.0)
     turned = replace(room, origin=turn @ room.origin)
     settings = LidarSettings(noise=0.0)

@@ -158,6 +158,11 @@ def planar(pose):
     return Pose(pose.position.x, pose.position.y, yaw)
 
 
+def period(messages):
+    """The usual time between stamps in seconds; a busy machine may lose single messages."""
+    return np.median(np.diff([nanoseconds(m.header.stamp) for m in messages])) * 1e-9
+
+
 def twist(linear, angular):
     message = Twist()
     message.linear.x, message.angular.z = linear, angular
@@ -184,11 +189,9 @@ def test_it_publishes_what_a_turtlebot_with_nav2_publishes(sim, robot):
         assert reliable == (topic != "/scan"), topic
     assert "/clock" not in names
 
-    span = nanoseconds(scans[-1].header.stamp) - nanoseconds(scans[0].header.stamp)
-    seconds = span * 1e-9
-    assert (len(scans) - 1) / seconds == pytest.approx(10.0, rel=0.1)
-    assert len(odometry) / seconds == pytest.approx(50.0, rel=0.3)
-    assert len(joints) / seconds == pytest.approx(20.0, rel=0.3)
+    assert period(scans) == pytest.approx(0.1, abs=0.001)
+    assert period(odometry) == pytest.approx(0.02, abs=0.001)
+    assert period(joints) == pytest.approx(0.05, abs=0.011)  # in steps of the odometry's period
     assert abs(nanoseconds(odometry[-1].header.stamp) - time.time_ns()) < 5e9
 
     links = {(parent, child) for _, parent, child, _ in robot.transforms()}
@@ -222,9 +225,8 @@ def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robo
     assert stamp in {nanoseconds(message.header.stamp) for message in odometry}
     dated_ahead = stamp + 200_000_000
     [map_from_odom] = [t for s, _, child, t in moving if child == "odom" and s == dated_ahead]
-    [base_from_scan] = [
-        t for _, _, child, t in robot.transforms("/tf_static") if child == "base_scan"
-    ]
+    fixed = robot.transforms("/tf_static")
+    [base_from_scan] = [t for _, _, child, t in fixed if child == "base_scan"]
 
     def as_pose(transform):
         rotation, shift = transform.rotation, transform.translation
@@ -336,10 +338,8 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
     robot.spin_until(lambda: client.service_is_ready() and scans)
 
     def set_parameter(name, value):
-        request = SetParameters.Request(
-            parameters=[Parameter(name, value=value).to_parameter_msg()]
-        )
-        future = client.call_async(request)
+        parameter = Parameter(name, value=value).to_parameter_msg()
+        future = client.call_async(SetParameters.Request(parameters=[parameter]))
         robot.spin_until(future.done)
         [result] = future.result().results
         return result.successful, result.reason

@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ def planner(building):
     return Planner(building)
 
 
+@settings(deadline=None)
 @given(arrays(bool, st.tuples(st.integers(1, 9), st.integers(1, 9))), st.integers(1, 5))
 def test_distances_to_obstacles_agree_with_measuring_to_every_cell(obstacles, reach):
     walls = np.argwhere(np.pad(obstacles, 1, constant_values=True)) - 1
@@ -110,8 +112,6 @@ def test_places_to_visit_are_apart_and_in_every_room(building, planner):
 @settings(max_examples=15, deadline=None)
 @given(st.floats(-math.pi, math.pi))
 def test_a_turned_map_gives_turned_paths(yaw):
-    from dataclasses import replace
-
     world = load_world(BUILDING)
     turn = Pose(3.0, -1.0, yaw)
     turned = Planner(replace(world, origin=turn @ world.origin))

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from webviz_sim.raycast import cast_rays
@@ -19,7 +19,7 @@ def brute_force(occupied, x, y, angle):
     nearest = math.inf
     direction = np.array([math.cos(angle), math.sin(angle)])
     for row, column in np.argwhere(occupied):
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", over="ignore"):
             low = (np.array([column, row]) - (x, y)) / direction
             high = (np.array([column + 1, row + 1]) - (x, y)) / direction
         entry, leave = np.minimum(low, high).max(), np.maximum(low, high).min()
@@ -79,6 +79,7 @@ def test_no_rays_give_no_distances():
 SIZE = 7
 
 
+@settings(deadline=None)
 @given(
     st.integers(0, 2**32 - 1),
     st.floats(0, SIZE),

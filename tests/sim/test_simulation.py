@@ -158,7 +158,7 @@ def test_the_tour_visits_every_place_again_and_again_for_an_hour(simulate, build
     places = list(simulation.places)
     visits = [0] * len(places)
     near = [False] * len(places)
-    step = 0.1
+    step = 0.2
     while simulation.time < 3600.0:
         simulation.step(step)
         for index, place in enumerate(places):

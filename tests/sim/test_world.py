@@ -28,9 +28,8 @@ def write(tmp_path):
     def make(pixels, pixel_mode="L", **changes):
         if pixels is not None:
             array = np.array(pixels, dtype=np.uint8)
-            Image.frombytes(pixel_mode, array.shape[1::-1], array.tobytes()).save(
-                tmp_path / "map.png"
-            )
+            image = Image.frombytes(pixel_mode, array.shape[1::-1], array.tobytes())
+            image.save(tmp_path / "map.png")
         entries = {**ENTRIES, **changes}
         lines = [f"{key}: {value}" for key, value in entries.items() if value is not None]
         path = tmp_path / "map.yaml"
@@ -139,9 +138,7 @@ def test_a_yaml_that_is_no_map_is_refused_in_one_sentence(tmp_path, text, messag
 
 
 def test_a_missing_yaml_is_refused_in_one_sentence(tmp_path):
-    with pytest.raises(
-        WorldError, match=r"^Cannot read the world .*: No such file or directory\.$"
-    ):
+    with pytest.raises(WorldError, match=r"^Cannot read the world .*: No such file .*\.$"):
         load_world(tmp_path / "none.yaml")
 
 
