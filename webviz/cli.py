@@ -20,6 +20,7 @@ import msgspec
 from webviz import config as config_file
 from webviz.config import Config, ConfigError
 
+DEMO = Path(__file__).parent / "demo.yaml"
 EPILOG = """\
 examples:
   webviz                          show the usual topics of the robots around
@@ -144,6 +145,8 @@ def _announce(options: argparse.Namespace, port: int) -> None:
 
 def _config(options: argparse.Namespace) -> Config:
     path = options.display_config
+    if path is None and options.command == "demo":
+        path = DEMO
     config = config_file.standard() if path is None else config_file.load(path)
     if options.fixed_frame:
         config.settings = msgspec.structs.replace(

@@ -7,6 +7,7 @@ from typing import Protocol
 from webviz.context import Context, Group, Placement
 from webviz.frames import Frames, compose
 from webviz.nodes import Node, Pose, has_content
+from webviz.pipeline.baking import Position, baked, can_bake, origin_near
 
 
 class Scene(Protocol):
@@ -46,21 +47,19 @@ class Drawing:
         self._prefix = prefix
         self._scopes: dict[str, dict[str, Group]] = {}
         self._shown: dict[str, bool] = {}
+        self._origins: dict[str, Position] = {}
 
     def replace(self, scope: str, context: Context) -> None:
         """Make a scope exactly what a context collected."""
         before = self._scopes.get(scope, {})
         after = {key: group for key, group in context.groups.items() if group.nodes}
         for key in before.keys() - after.keys():
-            self._scene.remove_group(self._name(scope, key))
-            self._shown.pop(self._name(scope, key), None)
+            self._drop(self._name(scope, key))
         for key, group in after.items():
             name = self._name(scope, key)
             for old in before[key].nodes.keys() - group.nodes.keys() if key in before else ():
                 self._scene.remove(name, old)
-            self._place(name, group.placement, context.frames)
-            for node_key, node in group.nodes.items():
-                self._scene.upsert(name, node_key, node)
+            self._put(name, group, context.frames)
         if after:
             self._scopes[scope] = after
         else:
@@ -69,8 +68,7 @@ class Drawing:
     def remove(self, scope: str) -> None:
         """Remove all that a scope drew."""
         for key in self._scopes.pop(scope, {}):
-            self._scene.remove_group(self._name(scope, key))
-            self._shown.pop(self._name(scope, key), None)
+            self._drop(self._name(scope, key))
 
     def clear(self) -> None:
         """Remove everything."""
@@ -83,12 +81,6 @@ class Drawing:
             for key, group in groups.items():
                 if group.placement.frame is not None:
                     self._place(self._name(scope, key), group.placement, frames)
-
-    def place(self, scope: str, pose: Pose, frames: Frames) -> None:
-        """Move the scope's own group, the one a sample is drawn in."""
-        if group := self._scopes.get(scope, {}).get(""):
-            group.placement = Placement(offset=pose)
-            self._place(self._name(scope, ""), group.placement, frames)
 
     def is_empty(self) -> bool:
         """Whether nothing of the display can be seen."""
@@ -111,6 +103,25 @@ class Drawing:
                 and _pose(group.placement, frames) is None
             }
         )
+
+    def _put(self, name: str, group: Group, frames: Frames) -> None:
+        """Send a group that is new or changed."""
+        nodes, placement = group.nodes, group.placement
+        if placement.frame is None and all(map(can_bake, nodes.values())):
+            origin = origin_near(
+                placement.offset.position, self._origins.get(name, (0.0, 0.0, 0.0))
+            )
+            self._origins[name] = origin
+            nodes = {key: baked(node, placement.offset, origin) for key, node in nodes.items()}
+            placement = Placement(offset=Pose(origin))
+        self._place(name, placement, frames)
+        for key, node in nodes.items():
+            self._scene.upsert(name, key, node)
+
+    def _drop(self, name: str) -> None:
+        self._scene.remove_group(name)
+        self._shown.pop(name, None)
+        self._origins.pop(name, None)
 
     def _place(self, name: str, placement: Placement, frames: Frames) -> None:
         pose = _pose(placement, frames)
