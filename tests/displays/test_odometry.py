@@ -83,12 +83,12 @@ def test_a_pose_is_added_once_the_robot_moved_or_turned_enough(shown: Benches) -
         odometry(0.49),  # not far enough from 0
         odometry(0.5),
         odometry(0.75),
-        odometry(0.9, turn=about_z(0.19)),
-        odometry(0.9, turn=about_z(0.21)),
+        odometry(0.875, turn=about_z(0.19)),
+        odometry(0.875, turn=about_z(0.21)),
         position_tolerance=0.5,
         angle_tolerance=0.2,
     )
-    assert tails(bench) == [[10, 0, 0], [10, 0.5, 0], [10, 0.9, 0]]
+    assert tails(bench) == [[10, 0, 0], [10, 0.5, 0], [10, 0.875, 0]]
 
 
 def test_the_sign_of_a_quaternion_is_no_turn(shown: Benches) -> None:
@@ -121,7 +121,7 @@ def test_a_long_trail_is_one_node(shown: Benches) -> None:
 
 
 def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
-    bench = shown(odometry(x=0, turn=about_z(np.pi / 2)) | odometry(**{"yaw": 0.01}))
+    bench = shown(odometry(turn=about_z(np.pi / 2), yaw=0.01))
     assert bench.nodes().keys() == {"poses", "position covariance", "orientation covariance"}
     wedge = bench.nodes()["orientation covariance"]
     assert (wedge.color, wedge.opacity) == ((255, 255, 127), 0.5)
