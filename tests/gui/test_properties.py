@@ -14,6 +14,7 @@ from webviz.gui.properties import Property, properties_of
 
 
 class Nested(msgspec.Struct, frozen=True):
+    value: bool = True
     shape: Literal["Sphere", "Box"] = "Sphere"
     edge: Annotated[float, Prop(gt=0, unit="m", when=("shape", "Box"))] = 1.0
 
@@ -49,6 +50,7 @@ def test_labels_are_rviz_names_with_the_unit_once() -> None:
     assert found["invert_rainbow"].label == "Invert Rainbow"
     assert found["size"].label == "Size (m)"
     assert found["marker.edge"].label == "Edge (m)"
+    assert found["marker.value"].label == "Marker"
 
 
 def test_choices_keep_the_order_of_the_declaration() -> None:

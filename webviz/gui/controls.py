@@ -71,19 +71,19 @@ def _add_number(
     high = _first(type_.le, type_.lt)
     hint = declared.help or None
     if low is not None and high is not None and low <= value <= high:
-        step = kind(1) if kind is int else float(_power_of_ten((high - low) / 100))
+        step = kind(1) if kind is int else _power_of_ten((high - low) / 100)
         widget: Any = gui.add_slider(
             declared.label, kind(low), kind(high), step, kind(value), hint=hint
         )
-        return Control(widget, edit, kind)
-    widget = gui.add_number(
-        declared.label,
-        kind(value),
-        min=low if low is None or low <= value else None,
-        max=high if high is None or high >= value else None,
-        step=1 if kind is int else _power_of_ten(abs(value) / 10 or 0.1),
-        hint=hint,
-    )
+    else:
+        widget = gui.add_number(
+            declared.label,
+            kind(value),
+            min=low if low is None or low <= value else None,
+            max=high if high is None or high >= value else None,
+            step=1 if kind is int else _power_of_ten(abs(value) / 10 or 0.1),
+            hint=hint,
+        )
     if kind is float:
         widget.precision = _DIGITS
     return Control(widget, edit, kind)

@@ -61,33 +61,37 @@ def value_at(display: Display, path: str) -> Any:
 @functools.cache
 def properties_of(cls: type[Display]) -> tuple[Property, ...]:
     """The properties of a display class, the name first."""
-    found = _properties(cls, "", inputs_of(cls))
+    found = _properties(cls, "", "", inputs_of(cls))
     return tuple(sorted(found, key=lambda each: each.path not in FIRST))
 
 
 def _properties(
-    cls: type[msgspec.Struct], prefix: str, inputs: dict[str, Input]
+    cls: type[msgspec.Struct], prefix: str, group: str, inputs: dict[str, Input]
 ) -> tuple[Property, ...]:
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = typing.get_type_hints(cls, include_extras=True)
     declared = {field.name: _declaration(field.type) for field in info.fields}
-    return tuple(
-        Property(
-            path=prefix + name,
-            label=_label(name, known.get("rviz", ""), known.get("unit", "")),
-            help=known.get("description", ""),
-            type=type_,
-            when=_conditions(name, prefix, declared),
-            widget=known.get("widget", ""),
-            input=inputs.get(name),
-            choices=_choices(hints[name]),
-            children=_properties(type_.cls, f"{prefix}{name}.", {})
-            if isinstance(type_, msgspec.inspect.StructType)
-            else (),
+    found = []
+    for name, (type_, known) in declared.items():
+        # In RViz a group of properties may have a value of its own.
+        own = group if name == "value" else name.replace("_", " ").title()
+        label = _with_unit(known.get("rviz") or own, known.get("unit", ""))
+        nested = type_.cls if isinstance(type_, msgspec.inspect.StructType) else None
+        found.append(
+            Property(
+                path=prefix + name,
+                label=label,
+                help=known.get("description", ""),
+                type=type_,
+                when=_conditions(name, prefix, declared),
+                widget=known.get("widget", ""),
+                input=inputs.get(name),
+                choices=_choices(hints[name]),
+                children=_properties(nested, f"{prefix}{name}.", label, {}) if nested else (),
+            )
         )
-        for name, (type_, known) in declared.items()
-    )
+    return tuple(found)
 
 
 def _declaration(type_: msgspec.inspect.Type) -> tuple[msgspec.inspect.Type, dict[str, Any]]:
@@ -116,6 +120,5 @@ def _choices(hint: Any) -> tuple[Any, ...]:
     return typing.get_args(hint) if typing.get_origin(hint) is Literal else ()
 
 
-def _label(name: str, rviz: str, unit: str) -> str:
-    label = rviz or name.replace("_", " ").title()
+def _with_unit(label: str, unit: str) -> str:
     return label if not unit or label.endswith(f"({unit})") else f"{label} ({unit})"

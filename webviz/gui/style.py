@@ -56,7 +56,9 @@ _LIST = f"""
 }}
 {_LIST_BOX} button:hover {{ background: rgba(128, 128, 128, 0.25) !important; }}
 {_LIST_BOX} button > span {{ justify-content: start; }}
-{_LIST_BOX} button > span > span {{ display: block; overflow: hidden; text-overflow: ellipsis; }}
+{_LIST_BOX} button > span > span {{
+  display: block; height: auto; overflow: hidden; text-overflow: ellipsis;
+}}
 """
 
 _ROW_BOX = ":has(> div > .webviz-row)"
@@ -65,6 +67,6 @@ _ROW = f"""
 {_ROW_BOX} > :first-child {{ display: none; }}
 {_ROW_BOX} > :nth-child(2) {{ flex: 1; }}
 {_ROW_BOX} > :nth-child(2) > div > :first-child:not(:last-child) {{ display: none; }}
-{_ROW_BOX} > :nth-child(3) {{ margin: 0; }}
+{_ROW_BOX} > :nth-child(3) {{ margin: 0 !important; }}
 {_ROW_BOX} button {{ height: 1.625rem !important; padding: 0 1em; }}
 """
