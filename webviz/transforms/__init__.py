@@ -1,6 +1,7 @@
 """Transforms between frames over time, as true as tf2."""
 
-from webviz.transforms.buffer import Rejection, Transform, TransformBuffer
+from webviz.transforms.buffer import TransformBuffer
+from webviz.transforms.diagnosis import Diagnosis, FrameReport, diagnose, tree_text
 from webviz.transforms.errors import (
     BackwardExtrapolationException,
     ConnectivityException,
@@ -12,18 +13,23 @@ from webviz.transforms.errors import (
     TimeoutException,
     TransformException,
 )
-from webviz.transforms.explain import Explanation, explain
+from webviz.transforms.explain import explain
 from webviz.transforms.filter import MessageFilter
 from webviz.transforms.many_frames import FramesIn
+from webviz.transforms.reasons import Explanation, Kind
+from webviz.transforms.records import Rejection, Transform
 
 __all__ = [
     "BackwardExtrapolationException",
     "ConnectivityException",
+    "Diagnosis",
     "Explanation",
     "ExtrapolationException",
     "ForwardExtrapolationException",
+    "FrameReport",
     "FramesIn",
     "InvalidArgumentException",
+    "Kind",
     "LookupException",
     "MessageFilter",
     "NoDataForExtrapolationException",
@@ -32,5 +38,7 @@ __all__ = [
     "Transform",
     "TransformBuffer",
     "TransformException",
+    "diagnose",
     "explain",
+    "tree_text",
 ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from math import isnan
 
 import numpy as np
@@ -12,51 +11,19 @@ from numpy.typing import NDArray
 from webviz.transforms.cache import Cache, StaticCache, TimeCache
 from webviz.transforms.errors import (
     NS_PER_S,
-    InvalidArgumentException,
-    LookupException,
     TransformException,
     format_stamp,
 )
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
+from webviz.transforms.listing import frames_as_yaml
 from webviz.transforms.many_frames import FramesIn, poses_in
 from webviz.transforms.many_stamps import lookup_many
 from webviz.transforms.publishers import Publishers
+from webviz.transforms.records import Rejection, Transform
 from webviz.transforms.tree import FrameTree
 
 QUATERNION_TOLERANCE = 10e-3
 """How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Transform:
-    """Maps coordinates of a source frame into a target frame.
-
-    Attributes:
-        translation: (x, y, z) in metres.
-        rotation: unit quaternion (x, y, z, w) as in ROS messages.
-        stamp_ns: the time it holds for, nanoseconds.
-    """
-
-    translation: tuple[float, float, float]
-    rotation: tuple[float, float, float, float]
-    stamp_ns: int
-
-
-@dataclass(frozen=True, slots=True)
-class Rejection:
-    """Why the buffer last refused a transform of some child, and how many it has refused.
-
-    Attributes:
-        reason: tf2's word for it, such as `TF_OLD_DATA`.
-        sentence: the case in words.
-        count: transforms of this child refused since the buffer was made or cleared.
-        stamp_ns: stamp of the last one refused.
-    """
-
-    reason: str
-    sentence: str
-    count: int
-    stamp_ns: int
 
 
 class TransformBuffer:
@@ -110,11 +77,22 @@ class TransformBuffer:
         rotation: tuple[float, float, float, float],
         is_static: bool = False,
         authority: str = "",
+        received_ns: int = 0,
     ) -> bool:
         """Store the pose of `child` in `parent`.
 
         One leading slash is stripped from the frame ids. The quaternion (x, y, z, w) may have any
         length but zero. A frame that changes between static and moving loses its history.
+
+        Args:
+            parent: frame that the pose is given in.
+            child: frame that it is the pose of.
+            stamp_ns: when; without meaning for a static transform.
+            translation: (x, y, z) in metres; infinity is accepted, NaN is not.
+            rotation: (x, y, z, w).
+            is_static: it holds at all times.
+            authority: who published it, as far as known.
+            received_ns: when it was received, for the diagnosis; 0 if not known.
 
         Returns:
             Whether it was stored (a repeated sample counts as stored); if not, `rejections` tells
@@ -160,6 +138,8 @@ class TransformBuffer:
         if publishers.current != authority:
             horizon_ns = cache.newest_stamp - self.cache_time_ns
             publishers.switch(authority, stamp_ns, horizon_ns, changed_static)
+        if received_ns:
+            publishers.delay_ns = received_ns - stamp_ns
         self.version += 1
         return True
 
@@ -195,7 +175,7 @@ class TransformBuffer:
         if target == source:
             rotations = np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))
             return np.zeros((count, 3)), rotations, np.ones(count, bool)
-        if self._fault(target) or self._fault(source):
+        if self._tree.fault(target) or self._tree.fault(source):
             return np.full((count, 3), np.nan), np.full((count, 4), np.nan), np.zeros(count, bool)
         return lookup_many(self._tree, target, source, stamps_ns)
 
@@ -210,7 +190,7 @@ class TransformBuffer:
             stamp_ns: one time for all; 0 means for each its latest common time with the target.
         """
         names = self.frames() if frames is None else list(frames)
-        valid = set() if self._fault(target) else {n for n in names if not self._fault(n)}
+        valid = set() if self._tree.fault(target) else {n for n in names if not self._tree.fault(n)}
         return poses_in(self._tree, target, names, valid, stamp_ns)
 
     def lookup_full(
@@ -223,9 +203,9 @@ class TransformBuffer:
         Raises:
             TransformException: as `lookup`, for each of the two steps.
         """
-        self._validate("lookupTransform argument target_frame", target)
-        self._validate("lookupTransform argument source_frame", source)
-        self._validate("lookupTransform argument fixed_frame", fixed)
+        self._tree.validate("lookupTransform argument target_frame", target)
+        self._tree.validate("lookupTransform argument source_frame", source)
+        self._tree.validate("lookupTransform argument fixed_frame", fixed)
         to_fixed, _ = self._pose(fixed, source, source_stamp_ns)
         to_target, stamp_ns = self._pose(target, fixed, target_stamp_ns)
         pose = compose_as_matrices(to_target, to_fixed)
@@ -240,7 +220,7 @@ class TransformBuffer:
         if target == source:
             return None
         for argument, frame in (("target", target), ("source", source)):
-            fault = self._fault(frame)
+            fault = self._tree.fault(frame)
             if fault:
                 return (
                     f'Invalid frame ID "{frame}" passed to canTransform argument '
@@ -261,8 +241,8 @@ class TransformBuffer:
         Raises:
             TransformException: as `lookup`, except for extrapolation.
         """
-        self._validate("get_latest_common_time", target)
-        self._validate("get_latest_common_time", source)
+        self._tree.validate("get_latest_common_time", target)
+        self._tree.validate("get_latest_common_time", source)
         return self._tree.latest_common_time(target, source)
 
     def clear(self) -> None:
@@ -273,6 +253,22 @@ class TransformBuffer:
         self.version += 1
         self.structure_version += 1
 
+    def rigid_root(self, frame: str) -> str:
+        """The uppermost frame that static transforms join with this one; itself if there is none.
+
+        Frames of one rigid root never move against each other. Stands until `structure_version`
+        changes.
+        """
+        return self._tree.rigid_root(frame)
+
+    def all_frames_as_string(self) -> str:
+        """One line per child frame, word for word as tf2."""
+        return self._tree.as_text()
+
+    def all_frames_as_yaml(self, now_ns: int = 0) -> str:
+        """Parent, publisher, rate and age per child frame, word for word as tf2."""
+        return frames_as_yaml(self._tree, self._publishers, now_ns)
+
     def frames(self) -> list[str]:
         """All frame ids ever mentioned, in order of first mention."""
         return list(self._tree.names)
@@ -282,25 +278,9 @@ class TransformBuffer:
             if stamp_ns == 0:
                 stamp_ns = self._tree.latest_common_time(target, source)
             return IDENTITY, stamp_ns
-        self._validate("lookupTransform argument target_frame", target)
-        self._validate("lookupTransform argument source_frame", source)
+        self._tree.validate("lookupTransform argument target_frame", target)
+        self._tree.validate("lookupTransform argument source_frame", source)
         return self._tree.resolve(target, source, stamp_ns)
-
-    def _fault(self, frame: str) -> str:
-        if not frame:
-            return "in tf2 frame_ids cannot be empty"
-        if frame[0] == "/":
-            return "in tf2 frame_ids cannot start with a '/'"
-        return "" if frame in self._tree.names else "frame does not exist"
-
-    def _validate(self, argument: str, frame: str) -> None:
-        fault = self._fault(frame)
-        if fault == "frame does not exist":
-            raise LookupException(f'"{frame}" passed to {argument} does not exist. ')
-        if fault:
-            raise InvalidArgumentException(
-                f'Invalid argument "{frame}" passed to {argument} - {fault}'
-            )
 
     def _new_cache(
         self, parent: str, child: str, stamp_ns: int, is_static: bool, authority: str

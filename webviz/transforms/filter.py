@@ -9,7 +9,8 @@ from typing import Generic, TypeVar
 
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.errors import TransformException
-from webviz.transforms.explain import Explanation, Kind, explain, in_words
+from webviz.transforms.explain import explain
+from webviz.transforms.reasons import Explanation, Kind, in_words
 
 P = TypeVar("P")
 

@@ -23,7 +23,7 @@ from webviz.transforms.errors import TransformException
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose, interpolate, inverse
 from webviz.transforms.tree import FrameTree
 
-ARRAYS_PAY_FROM = 60
+ARRAYS_PAY_FROM = 75
 """Links to evaluate from which numpy is faster than floats (measured: see the benchmark)."""
 
 

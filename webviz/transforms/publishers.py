@@ -12,13 +12,15 @@ class Publishers:
     Attributes:
         current: the authority of the last transform stored.
         contested_ns: stamp at which two were last caught, or None.
+        delay_ns: how long after its stamp the last transform was received; None if not known.
     """
 
-    __slots__ = ("_seen", "contested_ns", "current")
+    __slots__ = ("_seen", "contested_ns", "current", "delay_ns")
 
     def __init__(self, authority: str) -> None:
         self.current = authority
         self.contested_ns: int | None = None
+        self.delay_ns: int | None = None
         self._seen: dict[str, int] = {authority: 0}
 
     def switch(self, authority: str, stamp_ns: int, horizon_ns: int, conflict: bool) -> None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from webviz.transforms.cache import Cache, StaticCache
-from webviz.transforms.errors import ConnectivityException, LookupException
+from webviz.transforms.errors import (
+    ConnectivityException,
+    InvalidArgumentException,
+    LookupException,
+)
 from webviz.transforms.geometry import IDENTITY, Pose, compose, inverse
 
 MAX_DEPTH = 1000
@@ -21,6 +25,24 @@ class FrameTree:
     def __init__(self) -> None:
         self.names: dict[str, None] = {}
         self.caches: dict[str, Cache] = {}
+
+    def fault(self, frame: str) -> str:
+        """What is wrong with a frame id in a question, in tf2's words; empty if nothing is."""
+        if not frame:
+            return "in tf2 frame_ids cannot be empty"
+        if frame[0] == "/":
+            return "in tf2 frame_ids cannot start with a '/'"
+        return "" if frame in self.names else "frame does not exist"
+
+    def validate(self, argument: str, frame: str) -> None:
+        """Raise what tf2 does for a frame id that cannot be looked up."""
+        fault = self.fault(frame)
+        if fault == "frame does not exist":
+            raise LookupException(f'"{frame}" passed to {argument} does not exist. ')
+        if fault:
+            raise InvalidArgumentException(
+                f'Invalid argument "{frame}" passed to {argument} - {fault}'
+            )
 
     def latest_common_time(self, target: str, source: str) -> int:
         """The newest time for which every link between two known frames has data, as tf2 sees it.
@@ -121,6 +143,15 @@ class FrameTree:
             raise unconnected(target, source)
         return compose(inverse(target_pose), pose), stamp_ns
 
+    def rigid_root(self, frame: str) -> str:
+        """`TransformBuffer.rigid_root`."""
+        for _ in range(len(self.caches)):
+            cache = self.caches.get(frame)
+            if not isinstance(cache, StaticCache) or cache.sample is None:
+                break
+            frame = cache.sample[1]
+        return frame
+
     def as_text(self) -> str:
         """One line per child, as tf2's all_frames_as_string."""
         lines = []
@@ -151,3 +182,15 @@ def extrapolation(cache: Cache, target: str, source: str, stamp_ns: int) -> Exce
     assert not isinstance(cache, StaticCache)
     kind, text = cache.refusal(stamp_ns)
     return kind(f"{text}, when looking up transform from frame [{source}] to frame [{target}]")
+
+
+def ancestors(tree: FrameTree, frame: str) -> list[str]:
+    """The frame and what is above it now, up to the root or until a loop closes."""
+    chain: list[str] = []
+    while frame not in chain:
+        chain.append(frame)
+        cache = tree.caches.get(frame)
+        if cache is None or cache.newest is None:
+            return chain
+        frame = cache.newest[1]
+    return [*chain, frame]
