@@ -3,6 +3,7 @@
 import argparse
 import signal
 import sys
+import threading
 import time
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,9 @@ def main(args: list[str] | None = None) -> int:
         The exit status: 0 after a signal, 1 if the simulator cannot run, 2 for wrong arguments.
     """
     args = sys.argv[1:] if args is None else args
+    stopping = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopping.set())
     try:
         import rclpy
         from rclpy.exceptions import InvalidParameterValueException
@@ -51,7 +55,7 @@ def main(args: list[str] | None = None) -> int:
     node = None
     try:
         node = SimNode(time.time_ns())
-        _run(node)
+        _run(node, stopping)
     except WorldError as error:
         print(error, file=sys.stderr)
         return 1
@@ -67,30 +71,23 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-def _run(node: "SimNode") -> None:
+def _run(node: "SimNode", stopping: threading.Event) -> None:
     """Steps the node in real time, and serves its subscriptions in between."""
     from rclpy.experimental.events_executor import EventsExecutor
 
-    stopping = False
-
-    def stop(*_: object) -> None:
-        nonlocal stopping
-        stopping = True
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, stop)
     executor = EventsExecutor()
     executor.add_node(node)
     period = round(node.period * 1e9)
     due = time.time_ns()
-    while not stopping:
+    while not stopping.is_set():
         due += period
         if abs(due - time.time_ns()) > MAX_LAG * 1e9:
             due = time.time_ns()
         # At least once, so that commands are heard even where steps take longer than they may.
-        executor.spin_once(timeout_sec=max(0.0, (due - time.time_ns()) * 1e-9))
-        while not stopping and (wait := due - time.time_ns()) > 0:
-            executor.spin_once(timeout_sec=wait * 1e-9)
+        while True:
+            executor.spin_once(timeout_sec=max(0.0, (due - time.time_ns()) * 1e-9))
+            if stopping.is_set() or time.time_ns() >= due:
+                break
         node.step(due)
     executor.shutdown()
 

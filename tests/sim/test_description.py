@@ -1,4 +1,5 @@
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,10 @@ def robot(tmp_path_factory):
     path = tmp_path_factory.mktemp("urdf") / "robot.urdf"
     path.write_text(demo_description())
     return yourdfpy.URDF.load(str(path), load_meshes=False, build_scene_graph=True)
+
+
+def read_cdr(raw: bytes, kind: str) -> Any:
+    return STORE.deserialize_cdr(raw, kind)
 
 
 def matrix(quaternion):
@@ -77,7 +82,7 @@ def test_rpy_turns_about_the_fixed_axes_x_then_y_then_z(rpy):
     )
 )
 def test_serialised_transforms_are_read_back_as_they_were(stamped):
-    message = STORE.deserialize_cdr(cdr.tf_message(stamped), "tf2_msgs/msg/TFMessage")
+    message = read_cdr(cdr.tf_message(stamped), "tf2_msgs/msg/TFMessage")
     assert len(message.transforms) == len(stamped)
     for read, (stamp, transform) in zip(message.transforms, stamped, strict=True):
         time, turn, shift = read.header.stamp, read.transform.rotation, read.transform.translation
@@ -90,7 +95,7 @@ def test_serialised_transforms_are_read_back_as_they_were(stamped):
 def test_a_serialised_path_is_read_back_with_poses_along_it():
     points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
     raw = cdr.path_message(1_500_000_007, points)
-    path = STORE.deserialize_cdr(raw, "nav_msgs/msg/Path")
+    path = read_cdr(raw, "nav_msgs/msg/Path")
     assert path.header.frame_id == "map"
     assert [[p.pose.position.x, p.pose.position.y] for p in path.poses] == points.tolist()
     for pose in path.poses:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -93,7 +94,7 @@ class Robot(Node):
         self.executor_.add_node(self)
         self.received = {}
 
-    def listen(self, topic, kind, qos=10, raw=False):
+    def listen(self, topic, kind, qos: QoSProfile | int = 10, raw=False):
         self.received[topic] = []
         self.create_subscription(kind, topic, self.received[topic].append, qos, raw=raw)
         return self.received[topic]
@@ -107,7 +108,8 @@ class Robot(Node):
         """All transforms so far as (stamp in ns, parent, child, transform)."""
         found = []
         for raw in self.received[topic]:
-            for t in STORE.deserialize_cdr(bytes(raw), "tf2_msgs/msg/TFMessage").transforms:
+            message: Any = STORE.deserialize_cdr(bytes(raw), "tf2_msgs/msg/TFMessage")
+            for t in message.transforms:
                 stamp = nanoseconds(t.header.stamp)
                 found.append((stamp, t.header.frame_id, t.child_frame_id, t.transform))
         return found

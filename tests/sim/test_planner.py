@@ -117,6 +117,7 @@ def test_a_turned_map_gives_turned_paths(yaw):
     turned = Planner(replace(world, origin=turn @ world.origin))
     path = turned.plan(turn @ Pose(-5.0, 1.5), turn @ Pose(1.2, 2.5))
     expected = Planner(world).plan(Pose(-5.0, 1.5), Pose(1.2, 2.5))
+    assert path is not None
     back = np.array([(turn.inverse() @ Pose(x, y))[:2] for x, y in path])
     assert np.abs(back - expected).max() < 1e-6
 

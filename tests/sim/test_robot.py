@@ -120,7 +120,7 @@ def test_no_command_brings_the_robot_into_a_wall(seed):
     random = np.random.default_rng(seed)
     robot = robot_at(world, Pose(0.0, 0.0))
     for _ in range(40):
-        robot.step(*random.uniform(-2, 2, 2), 0.3)
+        robot.step(random.uniform(-2, 2), random.uniform(-2, 2), 0.3)
         assert world.clearance(robot.pose, 1.0) >= RADIUS - 1e-9
 
 
