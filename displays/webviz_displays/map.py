@@ -48,9 +48,9 @@ class Map(Display):
     )
     update_topic: Annotated[
         Topic,
-        Input("map_msgs/msg/OccupancyGridUpdate"),
-        Prop(help="Rectangles of cells that change the map."),
-    ] = Topic("/map_updates")
+        Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
+        Prop(help="Rectangles of cells that change the map; empty is the map's topic + _updates."),
+    ] = Topic()
     alpha: Annotated[
         float,
         Prop(ge=0, le=1, widget="slider", help="Opacity of the map, 0 is invisible."),

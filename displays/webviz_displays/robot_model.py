@@ -33,16 +33,18 @@ class _Model:
         frames: frame id of each link that is drawn or would be.
         parts: what is drawn.
         paint: of the parts.
-        lost: links without a transform when `nodes` were chosen.
-        nodes: of each part, grey where its link is lost.
+        seen: frames that ever had a transform; a link without has no place to be drawn at.
+        lost: links without a transform when `drawn` was chosen.
+        drawn: the parts with a place, and their nodes, grey where the link is lost.
         reason: why a link is lost, behind what and when that was asked for.
     """
 
     frames: dict[str, str]
     parts: list[Part]
     paint: Paint
+    seen: set[str]
     lost: list[str] | None = None
-    nodes: list[Node] = field(default_factory=list)
+    drawn: list[tuple[Part, Node]] = field(default_factory=list)
     reason: tuple[object, str] = (None, "")
 
 
@@ -53,7 +55,7 @@ class RobotModel(Display):
 
     description_topic: Annotated[
         Topic,
-        Input("std_msgs/msg/String", latched=True),
+        Input("std_msgs/msg/String", latched=True, optional=True),
         Prop(when=("description_source", "Topic"), help="Where the robot's URDF is published."),
     ] = Topic("/robot_description")
     description_source: Annotated[
@@ -119,7 +121,8 @@ class RobotModel(Display):
         paint.begin()
         prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
         frames = {link: f"{prefix}{link}" for link in robot.links if choices.of(link).enabled}
-        ctx.state["model"] = _Model(frames, parts_of(robot, full, choices, paint), paint)
+        parts = parts_of(robot, full, choices, paint)
+        ctx.state["model"] = _Model(frames, parts, paint, ctx.state.setdefault("seen", set()))
 
     def tick(self, ctx: Context) -> None:
         """Place the parts; those of links without a transform turn grey and stay."""
@@ -133,11 +136,13 @@ class RobotModel(Display):
         if lost != model.lost:
             gone = set(lost)
             model.lost = lost
-            model.nodes = [
-                model.paint(part.node, grey=True) if part.link in gone else part.node
+            model.seen.update(frame for link, frame in model.frames.items() if link not in gone)
+            model.drawn = [
+                (part, model.paint(part.node, grey=True) if part.link in gone else part.node)
                 for part in model.parts
+                if model.frames[part.link] in model.seen
             ]
-        for part, node in zip(model.parts, model.nodes, strict=True):
+        for part, node in model.drawn:
             frame = model.frames[part.link]
             ctx.follow(frame, offset=part.pose, keep_last=True, key=part.key).add(part.key, node)
         _report_lost(model, lost, ctx)
@@ -193,8 +198,8 @@ def _report_lost(model: _Model, lost: list[str], ctx: Context) -> None:
     )
     ctx.error(
         "Links",
-        f"{len(lost)} of {_count(len(model.frames), 'link')} without a transform, drawn grey where "
-        f"last seen: {names}. {model.reason[1]}",
+        f"{len(lost)} of {_count(len(model.frames), 'link')} without a transform: {names}. "
+        f"{model.reason[1]} What was seen before is grey where it was.",
     )
 
 

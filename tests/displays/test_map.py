@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz import Image
+from webviz import Image, Topic
 from webviz.messages import MapMetaData, OccupancyGrid, OccupancyGridUpdate, Point, Pose, Quaternion
 from webviz_displays.map import Map
 from webviz_displays.palettes import colorize, lookup_table
@@ -199,6 +199,20 @@ def test_an_update_in_another_frame_is_refused_and_said(bench) -> None:
     at.send(UPDATE, update_values(0, 0, [[100]]), frame="odom", topic="/map_updates")
     at.turn()
     assert at.statuses()["Update"][1] == "The update is in frame 'odom', the map in 'map'."
+
+
+def test_updates_come_from_the_topic_beside_the_map(bench) -> None:
+    at = bench(Map(topic=Topic("/global_costmap/costmap")))
+    assert set(at.runner.subscriptions()) == {
+        "/global_costmap/costmap",
+        "/global_costmap/costmap_updates",
+    }
+
+
+def test_a_map_that_nobody_updates_is_ok(bench) -> None:
+    at = bench(Map())
+    send_map(at, [[0]])
+    assert {level for level, _ in at.statuses().values()} == {"OK"}
 
 
 def test_an_empty_update_changes_nothing(bench) -> None:

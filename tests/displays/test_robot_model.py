@@ -1,0 +1,341 @@
+"""The RobotModel display: a description, transforms, and what is missing."""
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import webviz_urdf
+from webviz import Axes, Glb, Mesh
+from webviz_displays import robot_loading
+from webviz_displays.robot_model import RobotModel
+from webviz_displays.robot_parts import GREY
+from webviz_urdf import glb_with
+
+DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
+PACKAGES = [str(Path(webviz_urdf.__file__).parent.parent)]
+
+ARM = """
+<robot name="arm">
+  <material name="blue"><color rgba="0 0 1 1"/></material>
+  <link name="base">
+    <visual><geometry><box size="1 1 1"/></geometry><material name="blue"/></visual>
+    <collision><geometry><sphere radius="2"/></geometry></collision>
+    <inertial><mass value="6"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="tool">
+    <visual name="grip">
+      <origin xyz="0 0 2"/><geometry><box size="1 1 1"/></geometry><material name="blue"/>
+    </visual>
+  </link>
+  <joint name="wrist" type="continuous"><parent link="base"/><child link="tool"/></joint>
+</robot>
+"""
+MESHES = """
+<robot name="meshes">
+  <link name="base">
+    <visual><geometry><mesh filename="package://nowhere/a.stl"/></geometry></visual>
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <collision><geometry><mesh filename="package://nowhere/b.stl"/></geometry></collision>
+  </link>
+</robot>
+"""
+
+
+def wait(at, ready: Callable[[], bool]) -> None:
+    """Turn the frame loop until slow work is done."""
+    deadline = time.monotonic() + 20
+    at.turn()
+    while not ready():
+        assert time.monotonic() < deadline, at.statuses()
+        time.sleep(0.005)
+        at.turn()
+
+
+def is_loaded(at) -> bool:
+    statuses = at.statuses()
+    return "URDF" in statuses and "Loading" not in statuses
+
+
+def describe(at, text: str) -> None:
+    at.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
+    wait(at, lambda: is_loaded(at))
+
+
+def place_arm(at) -> None:
+    at.transform("map", "base", (1.0, 0.0, 0.0))
+    # Half a turn about x: what is 2 above the tool is then 2 below it.
+    at.transform("base", "tool", (0.0, 3.0, 0.0), (1.0, 0.0, 0.0, 0.0), stamp_ns=at.now_ns)
+
+
+def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
+    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
+    assert at.poses()["tool visual grip"].position == pytest.approx((1.0, 3.0, -2.0))
+    assert np.abs(at.poses()["tool visual grip"].wxyz) == pytest.approx([0, 1, 0, 0])
+    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
+    statuses = at.statuses()
+    assert statuses["URDF"] == ("OK", "'arm': 2 links, 2 of 2 visuals loaded.")
+    assert statuses["Links"] == ("OK", "2 links placed by transforms.")
+
+
+def test_the_demo_robot_is_drawn_whole(bench) -> None:
+    at = bench(RobotModel(package_paths=PACKAGES), fixed_frame="base_link")
+    robot = webviz_urdf.load_file(DEMO, webviz_urdf.Resolver(PACKAGES))
+    for joint in robot.joints.values():
+        x, y, z = joint.origin.position
+        w, i, j, k = joint.origin.wxyz
+        at.transform(joint.parent, joint.child, (x, y, z), (i, j, k, w))
+    describe(at, DEMO.read_text())
+    visuals = sum(len(link.visuals) for link in robot.links.values())
+    assert len(at.nodes()) == visuals
+    assert at.statuses()["URDF"][0] == "OK"
+    assert f"{visuals} of {visuals} visuals" in at.statuses()["URDF"][1]
+    assert "Meshes" not in at.statuses()
+    for link, pose in robot.fk().items():
+        for shape in robot.links[link].visuals:
+            expected = webviz_urdf.compose(pose, shape.pose)
+            assert at.poses()[f"{link} visual {shape.name}"].position == pytest.approx(
+                expected.position, abs=1e-9
+            )
+
+
+def test_until_a_description_comes_the_topic_is_named(bench) -> None:
+    at = bench(RobotModel())
+    at.turn()
+    assert at.nodes() == {}
+    assert at.statuses()["URDF"] == ("WARN", "No robot description yet on /robot_description.")
+
+
+def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, monkeypatch) -> None:
+    go_on = threading.Event()
+
+    def load_slowly(text, resolver, progress, collisions):
+        progress(1, 2, "tool")
+        assert go_on.wait(20)
+        return webviz_urdf.load_robot(text, resolver, progress, collisions)
+
+    monkeypatch.setattr(robot_loading, "load_robot", load_slowly)
+    at = bench(RobotModel())
+    place_arm(at)
+    at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+    wait(at, lambda: "tool" in at.statuses()["Loading"][1])
+    assert at.statuses()["Loading"] == ("WARN", "Loading: 1 of 2 shapes, at link 'tool'.")
+    assert at.nodes() == {}
+    go_on.set()
+    wait(at, lambda: is_loaded(at))
+    assert len(at.nodes()) == 2
+
+
+def test_an_identical_description_is_not_loaded_again(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    before = at.nodes()
+    at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+    at.turn()
+    assert "Loading" not in at.statuses()
+    after = at.nodes()
+    assert all(after[key] is before[key] for key in before)
+
+
+def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    other = ARM.replace('name="grip"', 'name="claw"')
+    at.send("std_msgs/msg/String", {"data": other}, topic="/robot_description")
+    at.turn()
+    assert {"tool visual grip", "tool visual claw"} & set(at.nodes())
+    wait(at, lambda: "tool visual claw" in at.nodes())
+    assert "tool visual grip" not in at.nodes()
+
+
+@pytest.mark.parametrize(
+    "text", ["", "no robot", "<robot name='r'><link name='a'/><link name='b'/></robot>"]
+)
+def test_a_description_that_is_no_robot_says_so_and_shows_nothing(bench, text) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    at.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
+    wait(at, lambda: at.statuses().get("URDF", ("",))[0] == "ERROR")
+    assert at.nodes() == {}
+
+
+def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
+    at = bench(RobotModel(), fixed_frame="base")
+    at.transform("base", "other")
+    describe(at, MESHES)
+    assert len(at.nodes()) == 1
+    statuses = at.statuses()
+    assert statuses["URDF"] == ("OK", "'meshes': 1 link, 1 of 2 visuals loaded.")
+    level, text = statuses["Meshes"]
+    assert level == "ERROR"
+    assert text.startswith("1 shape missing. Link 'base': Package 'nowhere'")
+
+
+def test_collision_shapes_are_read_only_when_they_are_wanted(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    at.set("collision_enabled", True)
+    wait(at, lambda: "base collision collision_0" in at.nodes())
+    assert "base visual visual_0" in at.nodes()
+    at.set("visual_enabled", False)
+    assert set(at.nodes()) == {"base collision collision_0"}
+    at.set("collision_enabled", False)
+    assert at.nodes() == {}
+    assert at.statuses()["Shapes"][0] == "WARN"
+
+
+def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None:
+    at = bench(RobotModel(collision_enabled=True), fixed_frame="base")
+    at.transform("base", "other")
+    describe(at, MESHES)
+    wait(at, lambda: is_loaded(at) and "2 shapes missing" in at.statuses()["Meshes"][1])
+    at.set("collision_enabled", False)
+    assert "1 shape missing" in at.statuses()["Meshes"][1]
+
+
+def test_a_link_that_loses_its_transform_turns_grey_where_it_was(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    before = at.poses()["tool visual grip"]
+    at.buffer.clear()  # forgets what moves
+    at.turn()
+    assert at.poses()["tool visual grip"] == before
+    assert at.nodes()["tool visual grip"].color == GREY
+    assert at.nodes()["base visual visual_0"].color == (0, 0, 255)
+    level, text = at.statuses()["Links"]
+    assert level == "ERROR"
+    assert text.startswith("1 of 2 links without a transform: tool.")
+    place_arm(at)
+    at.turn()
+    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
+    assert at.statuses()["Links"][0] == "OK"
+
+
+def test_a_link_that_never_had_a_transform_is_not_drawn(bench) -> None:
+    at = bench(RobotModel())
+    at.transform("map", "base", (1.0, 0.0, 0.0))
+    describe(at, ARM)
+    at.turn()
+    assert set(at.nodes()) == {"base visual visual_0"}
+    assert "tool" in at.statuses()["Links"][1]
+
+
+def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
+    at = bench(RobotModel(tf_prefix="robot_1"))
+    at.transform("map", "robot_1/base", (1.0, 0.0, 0.0))
+    at.transform("map", "robot_1/tool", (2.0, 0.0, 0.0))
+    at.transform("map", "base", (9.0, 0.0, 0.0))
+    describe(at, ARM)
+    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
+    at.set("tf_prefix", "/robot_1/")
+    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
+    at.set("tf_prefix", "")
+    assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
+
+
+def test_alpha_of_robot_and_link_multiply(bench) -> None:
+    at = bench(RobotModel(alpha=0.5))
+    place_arm(at)
+    describe(at, ARM)
+    assert at.nodes()["tool visual grip"].opacity == pytest.approx(0.5)
+    at.set("links", {"tool": {"alpha": 0.4}})
+    assert at.nodes()["tool visual grip"].opacity == pytest.approx(0.2)
+    assert at.nodes()["base visual visual_0"].opacity == pytest.approx(0.5)
+    at.set("alpha", 0.0)
+    assert at.nodes() == {}
+
+
+def test_links_have_switches_of_their_own(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    at.set("links", {"tool": {"enabled": False}})
+    assert set(at.nodes()) == {"base visual visual_0"}
+    at.set("all_links_enabled", False)
+    assert at.nodes() == {}
+    at.set("links", {"tool": {"enabled": True, "show_axes": True}})
+    assert set(at.nodes()) == {"tool visual grip", "tool axes"}
+    assert isinstance(at.nodes()["tool axes"], Axes)
+
+
+def test_mass_and_inertia_are_drawn_when_wanted(bench) -> None:
+    at = bench(RobotModel(visual_enabled=False, collision_enabled=False))
+    place_arm(at)
+    describe(at, ARM)
+    at.set("mass_properties.mass", True)
+    ball = at.nodes()["base mass"]
+    # 6 kg of lead, 11340 kg/m3: r = cbrt(3 * 6 / (4 pi 11340)) = 0.0502 m.
+    assert np.linalg.norm(ball.vertices, axis=1).max() == pytest.approx(0.0502, abs=1e-4)
+    at.set("mass_properties.inertia", True)
+    assert np.ptp(at.nodes()["base inertia"].vertices, axis=0) == pytest.approx([1, 1, 1])
+
+
+def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    at = bench(RobotModel(description_source="File", description_file=str(path)))
+    place_arm(at)
+    wait(at, lambda: is_loaded(at))
+    assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
+
+
+@pytest.mark.parametrize(
+    ("path", "level", "said"),
+    [("", "WARN", "No description file"), ("gone.urdf", "ERROR", "gone.urdf")],
+)
+def test_a_file_that_is_not_there_is_said(bench, tmp_path, path, level, said) -> None:
+    path = path and str(tmp_path / path)
+    at = bench(RobotModel(description_source="File", description_file=path))
+    wait(at, lambda: "URDF" in at.statuses())
+    assert at.statuses()["URDF"][0] == level
+    assert said in at.statuses()["URDF"][1]
+
+
+def test_a_model_with_materials_of_its_own_turns_transparent_and_grey_too(bench, tmp_path) -> None:
+    (tmp_path / "two.obj").write_text(
+        "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+        "usemtl red\nf 1 2 3\nusemtl green\nf 1 2 4\n"
+    )
+    (tmp_path / "two.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n")
+    path = tmp_path / "model.urdf"
+    path.write_text(
+        "<robot name='m'><link name='base'><visual><geometry><mesh filename='two.obj'/></geometry>"
+        "</visual></link></robot>"
+    )
+    at = bench(RobotModel(description_source="File", description_file=str(path)))
+    at.transform("map", "base", stamp_ns=at.now_ns)
+    wait(at, lambda: is_loaded(at))
+    (plain,) = at.nodes().values()
+    assert isinstance(plain, Glb)
+    at.set("alpha", 0.5)
+    (thin,) = at.nodes().values()
+    assert thin == Glb(glb_with(plain.data, 0.5))
+    at.buffer.clear()
+    at.turn()
+    (grey,) = at.nodes().values()
+    assert grey == Glb(glb_with(thin.data, 1.0, GREY))
+
+
+def test_a_tick_without_news_makes_no_node_anew(bench) -> None:
+    at = bench(RobotModel(alpha=0.5))
+    place_arm(at)
+    describe(at, ARM)
+    before = at.nodes()
+    at.transform("base", "tool", (0.0, 4.0, 0.0), stamp_ns=at.now_ns + 1)
+    at.turn(0.1)
+    after = at.nodes()
+    assert at.poses()["tool visual grip"].position == pytest.approx((1.0, 4.0, 2.0))
+    assert all(after[key] is before[key] for key in before)
+    assert all(isinstance(node, Mesh) for node in after.values())
