@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import msgspec
 import numpy as np
 
-from webviz import Axes, Glb, Mesh, Node, Pose
+from webviz import Axes, Glb, Mesh, Node, Pose, Prop
 from webviz_urdf import Link, Robot, Shape, glb_with, inertia_box, mass_sphere
 
 OPAQUE = 0.9998
@@ -24,9 +25,11 @@ _AXES = Axes(np.zeros((1, 3), np.float32), np.array(((1, 0, 0, 0),), np.float32)
 class LinkSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What a user chose for one link."""
 
-    enabled: bool = True
-    alpha: float = 1.0
-    show_axes: bool = False
+    enabled: Annotated[bool, Prop(help="Draw this link.")] = True
+    alpha: Annotated[
+        float, Prop(ge=0, le=1, widget="slider", help="Opacity, times that of the robot.")
+    ] = 1.0
+    show_axes: Annotated[bool, Prop(help="Draw the axes of the link's frame.")] = False
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from webviz import Image, Topic
-from webviz.messages import MapMetaData, OccupancyGrid, OccupancyGridUpdate, Point, Pose, Quaternion
 from webviz_displays.map import Map
 from webviz_displays.palettes import colorize, lookup_table
-from webviz_displays.tiles import TILE, GridFault, tiled, updated
+from webviz_displays.tiles import TILE
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
@@ -284,67 +281,3 @@ def test_an_invisible_map_is_not_called_ok(bench) -> None:
     at = bench(Map(alpha=0.0))
     send_map(at, [[0]])
     assert at.statuses()["Map"][0] == "WARN"
-
-
-def map_message(cells: np.ndarray) -> OccupancyGrid:
-    height, width = cells.shape
-    origin = Pose(Point(1.0, 2.0, 0.0), Quaternion())
-    return OccupancyGrid(
-        info=MapMetaData(resolution=0.1, width=width, height=height, origin=origin),
-        data=cells.ravel(),
-    )
-
-
-def cells_of(width: int, height: int):
-    """Few rows or columns keep the examples small, and still cross the borders of tiles."""
-    return st.integers(0, 2**32 - 1).map(
-        lambda seed: (
-            np.random.default_rng(seed).integers(-128, 128, (height, width)).astype(np.int8)
-        )
-    )
-
-
-@st.composite
-def maps_with_updates(draw):
-    width, height = draw(st.sampled_from([(1, 1), (256, 3), (600, 2), (3, 513), (257, 257)]))
-    cells = draw(cells_of(width, height))
-    updates = []
-    for _ in range(draw(st.integers(0, 4))):
-        x, y = draw(st.integers(0, width - 1)), draw(st.integers(0, height - 1))
-        w, h = draw(st.integers(0, width - x)), draw(st.integers(0, height - y))
-        updates.append((x, y, draw(cells_of(w, h))))
-    return cells, updates
-
-
-@given(maps_with_updates())
-def test_folding_updates_gives_the_tiles_of_the_whole_map_drawn_anew(case) -> None:
-    cells, updates = case
-    grid = tiled(map_message(cells), "map")
-    whole = cells.copy()
-    for x, y, part in updates:
-        height, width = part.shape
-        message = OccupancyGridUpdate(x=x, y=y, width=width, height=height, data=part.ravel())
-        before = {corner: tile.copy() for corner, tile in grid.tiles.items()}
-        older = grid
-        grid = updated(grid, message, "map")
-        assert all((older.tiles[corner] == tile).all() for corner, tile in before.items())
-        whole[y : y + height, x : x + width] = part
-    expected = tiled(map_message(whole), "map")
-    assert grid.tiles.keys() == expected.tiles.keys()
-    for corner, tile in expected.tiles.items():
-        assert (grid.tiles[corner] == tile).all()
-
-
-def test_an_update_that_changes_no_cell_keeps_every_tile() -> None:
-    cells = np.arange(12, dtype=np.int8).reshape(3, 4)
-    grid = tiled(map_message(cells), "map")
-    message = OccupancyGridUpdate(x=1, y=1, width=2, height=2, data=cells[1:3, 1:3].ravel())
-    assert updated(grid, message, "map").tiles[0, 0] is grid.tiles[0, 0]
-
-
-def test_a_refused_update_is_an_error_that_a_caller_can_catch() -> None:
-    grid = tiled(map_message(np.zeros((2, 2), np.int8)), "map")
-    with pytest.raises(GridFault, match="outside"):
-        updated(
-            grid, OccupancyGridUpdate(x=2, y=0, width=1, height=1, data=np.ones(1, np.int8)), "map"
-        )

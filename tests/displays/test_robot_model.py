@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 import webviz_urdf
-from webviz import Axes, Glb, Mesh
+from webviz import Mesh
 from webviz_displays import robot_loading
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_parts import GREY
-from webviz_urdf import glb_with
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 PACKAGES = [str(Path(webviz_urdf.__file__).parent.parent)]
@@ -245,43 +244,6 @@ def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
     assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
 
 
-def test_alpha_of_robot_and_link_multiply(bench) -> None:
-    at = bench(RobotModel(alpha=0.5))
-    place_arm(at)
-    describe(at, ARM)
-    assert at.nodes()["tool visual grip"].opacity == pytest.approx(0.5)
-    at.set("links", {"tool": {"alpha": 0.4}})
-    assert at.nodes()["tool visual grip"].opacity == pytest.approx(0.2)
-    assert at.nodes()["base visual visual_0"].opacity == pytest.approx(0.5)
-    at.set("alpha", 0.0)
-    assert at.nodes() == {}
-
-
-def test_links_have_switches_of_their_own(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    at.set("links", {"tool": {"enabled": False}})
-    assert set(at.nodes()) == {"base visual visual_0"}
-    at.set("all_links_enabled", False)
-    assert at.nodes() == {}
-    at.set("links", {"tool": {"enabled": True, "show_axes": True}})
-    assert set(at.nodes()) == {"tool visual grip", "tool axes"}
-    assert isinstance(at.nodes()["tool axes"], Axes)
-
-
-def test_mass_and_inertia_are_drawn_when_wanted(bench) -> None:
-    at = bench(RobotModel(visual_enabled=False, collision_enabled=False))
-    place_arm(at)
-    describe(at, ARM)
-    at.set("mass_properties.mass", True)
-    ball = at.nodes()["base mass"]
-    # 6 kg of lead, 11340 kg/m3: r = cbrt(3 * 6 / (4 pi 11340)) = 0.0502 m.
-    assert np.linalg.norm(ball.vertices, axis=1).max() == pytest.approx(0.0502, abs=1e-4)
-    at.set("mass_properties.inertia", True)
-    assert np.ptp(at.nodes()["base inertia"].vertices, axis=0) == pytest.approx([1, 1, 1])
-
-
 def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)
@@ -301,31 +263,6 @@ def test_a_file_that_is_not_there_is_said(bench, tmp_path, path, level, said) ->
     wait(at, lambda: "URDF" in at.statuses())
     assert at.statuses()["URDF"][0] == level
     assert said in at.statuses()["URDF"][1]
-
-
-def test_a_model_with_materials_of_its_own_turns_transparent_and_grey_too(bench, tmp_path) -> None:
-    (tmp_path / "two.obj").write_text(
-        "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-        "usemtl red\nf 1 2 3\nusemtl green\nf 1 2 4\n"
-    )
-    (tmp_path / "two.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n")
-    path = tmp_path / "model.urdf"
-    path.write_text(
-        "<robot name='m'><link name='base'><visual><geometry><mesh filename='two.obj'/></geometry>"
-        "</visual></link></robot>"
-    )
-    at = bench(RobotModel(description_source="File", description_file=str(path)))
-    at.transform("map", "base", stamp_ns=at.now_ns)
-    wait(at, lambda: is_loaded(at))
-    (plain,) = at.nodes().values()
-    assert isinstance(plain, Glb)
-    at.set("alpha", 0.5)
-    (thin,) = at.nodes().values()
-    assert thin == Glb(glb_with(plain.data, 0.5))
-    at.buffer.clear()
-    at.turn()
-    (grey,) = at.nodes().values()
-    assert grey == Glb(glb_with(thin.data, 1.0, GREY))
 
 
 def test_a_tick_without_news_makes_no_node_anew(bench) -> None:

@@ -5,7 +5,6 @@ import pytest
 
 from webviz import Arrows, Labels, Lines
 from webviz import Axes as AxesNode
-from webviz_displays.fading import Ages, fade
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000
@@ -105,16 +104,6 @@ def test_marker_scale_scales_everything(bench) -> None:
     assert at.nodes()["heads"].head_length == pytest.approx(0.05)
 
 
-# RViz: colours to a third of the timeout, grey at two thirds, gone at the whole.
-@pytest.mark.parametrize(
-    ("age", "greyness", "opacity"),
-    [(0, 0, 1), (5, 0, 1), (7.5, 0.5, 1), (10, 1, 1), (12.5, 1, 0.5), (15, 1, 0), (99, 1, 0)],
-)
-def test_frames_turn_grey_and_then_transparent(age, greyness, opacity) -> None:
-    grey, opaque = fade(np.array([float(age)]), 15.0)
-    assert (grey[0], opaque[0]) == (pytest.approx(greyness), pytest.approx(opacity))
-
-
 @pytest.mark.parametrize(
     ("age", "red"),
     [
@@ -171,19 +160,6 @@ def test_static_frames_never_age(bench) -> None:
     at.turn()
     at.turn(1e5)
     assert len(at.nodes()["axes"].positions) == 2
-
-
-def test_frames_that_move_stay_young_though_their_stamps_are_of_another_day() -> None:
-    ages, day = Ages(), 86_400 * SECOND
-    ages.update(np.array([SECOND]), day)
-    assert ages.update(np.array([2 * SECOND]), day + SECOND).tolist() == [0.0]
-    assert ages.update(np.array([2 * SECOND]), day + 4 * SECOND).tolist() == [3.0]
-
-
-def test_a_frame_first_seen_late_is_as_old_as_its_stamp() -> None:
-    ages = Ages()
-    ages.update(np.array([8 * SECOND]), 8 * SECOND)
-    assert ages.update(np.array([8 * SECOND, 3 * SECOND]), 10 * SECOND).tolist() == [2.0, 7.0]
 
 
 @pytest.mark.parametrize(
