@@ -82,7 +82,7 @@ class Planner:
         source = self._nearest_open(start)
         if source is None:
             return []
-        places = self._roomy(np.array(sorted(self._search(source, None))))
+        places = self._roomy(np.argwhere(self._reachable(source)))
         nearest = np.hypot(*(places - (start.x, start.y)).T)
         chosen = []
         while len(chosen) < count and nearest.max() > 2.0 * RADIUS:
@@ -106,8 +106,24 @@ class Planner:
         clearance = self._clearance[tuple(cells.T)]
         return self._to_map(cells[clearance >= min(COMFORT, np.median(clearance))].astype(float))
 
-    def _search(self, source: Cell, target: Cell | None) -> dict[Cell, Cell]:
-        """A* from a cell to another, or to all there are; maps each cell to the one before."""
+    def _reachable(self, source: Cell) -> NDArray[np.bool_]:
+        """The open cells to which there is a way from a cell."""
+        reached = np.zeros_like(self._open)
+        reached[source] = True
+        count = 0
+        while count < (count := np.count_nonzero(reached)):
+            for _ in range(16):  # counting takes as long as growing
+                wide = reached.copy()
+                wide[1:] |= reached[:-1]
+                wide[:-1] |= reached[1:]
+                reached = wide.copy()
+                reached[:, 1:] |= wide[:, :-1]
+                reached[:, :-1] |= wide[:, 1:]
+                reached &= self._open
+        return reached
+
+    def _search(self, source: Cell, target: Cell) -> dict[Cell, Cell]:
+        """A* from a cell to another; maps each cell that was met to the one before it."""
         came_from = {source: source}
         costs = {source: 0.0}
         queue = [(0.0, source)]
@@ -124,8 +140,7 @@ class Planner:
                 if cost < costs.get(other, math.inf):
                     costs[other] = cost
                     came_from[other] = cell
-                    ahead = math.dist(other, target) if target else 0.0
-                    heapq.heappush(queue, (cost + ahead, other))
+                    heapq.heappush(queue, (cost + math.dist(other, target), other))
         return came_from
 
     def _neighbours(self, cell: Cell) -> Iterator[tuple[Cell, float]]:
