@@ -37,13 +37,14 @@ def test_what_is_entered_becomes_a_command_of_the_right_type(
     loop: Any, tab: Any, make_row: MakeRow
 ) -> None:
     loop.show(make_row("a"))
-    tab.field("Size (m)").fill("0.25")
-    tab.field("Count").fill("7")
+    tab.fill("Size (m)", "0.25")
+    tab.fill("Count", "7")
     tab.field("Filled").uncheck()
-    tab.field("Channel").fill("ring")
-    tab.field("Length (m)").fill("2")
-    tab.field("Offset").fill("1.5")
-    tab.field("Shown").fill("base_link: false")
+    tab.page.wait_for_timeout(100)
+    tab.fill("Channel", "ring")
+    tab.fill("Length (m)", "2")
+    tab.fill("Offset", "1.5")
+    tab.fill("Shown", "base_link: false")
     tab.wait_for(lambda: loop.turn() or len({c.path for c in loop.commands}) == 7)
     assert {c.path: c.value for c in loop.commands} == {
         "size": 0.25,
@@ -62,7 +63,7 @@ def test_text_counts_when_typing_pauses_not_by_the_letter(
     loop: Any, tab: Any, make_row: MakeRow
 ) -> None:
     loop.show(make_row("a"))
-    tab.field("Channel").fill("")
+    tab.fill("Channel", "")
     tab.field("Channel").press_sequentially("ring", delay=20)
     tab.wait_for(lambda: loop.turn() or loop.commands)
     assert loop.commands == [SetProperty("a", "channel", "ring")]
@@ -105,7 +106,7 @@ def test_the_fixed_frame_is_chosen_from_known_frames_and_its_status_is_read(
 
 def test_a_refused_value_is_set_back(loop: Any, tab: Any, make_row: MakeRow) -> None:
     loop.show(make_row("a"))
-    tab.field("Size (m)").fill("0")
+    tab.fill("Size (m)", "0")
     tab.wait_for(lambda: loop.turn() or loop.commands)
     assert loop.commands == [SetProperty("a", "size", 0.0)]
     tab.wait_for(lambda: loop.turn() or tab.field("Size (m)").input_value() == "0.01")
@@ -116,7 +117,7 @@ def test_a_viewer_that_lags_behind_does_not_pull_a_value_back(
     loop: Any, tab: Any, make_row: MakeRow
 ) -> None:
     loop.show(make_row("a"))
-    tab.field("Count").fill("9")
+    tab.fill("Count", "9")
     tab.wait_for(lambda: loop.drain() or loop.commands)
     frames = tab.frames_received
     loop.panel.update(loop.state)
@@ -255,7 +256,7 @@ def test_two_browsers_see_the_same(
 ) -> None:
     loop.show(make_row("a"), make_row("b"))
     other = open_tab()
-    tab.field("Count").fill("5")
+    tab.fill("Count", "5")
     tab.boxes().nth(1).uncheck()
     tab.wait_for(lambda: loop.turn() or other.field("Count").input_value() == "5")
     other.wait_for(lambda: not other.boxes().nth(1).is_checked())
