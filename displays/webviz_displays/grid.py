@@ -60,6 +60,9 @@ class Grid(Display):
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All lines as one node that follows the reference frame."""
+        if self.alpha == 0:
+            ctx.warn("Grid", "Invisible: alpha is 0.")
+            return
         plane, normal = self.plane_cell_count, self.normal_cell_count
         count = 2 * (plane + 1) * (normal + 1) + ((plane + 1) ** 2 if normal else 0)
         if count > MOST_LINES:

@@ -157,6 +157,9 @@ class LaserScan(Display):
         hits = beams.project(scan)
         say = ctx.ok if len(hits.beams) else ctx.warn
         say("Points", hits.sentence())
+        if self.alpha == 0:
+            ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}")
+            return
         if scan.angle_increment == 0 and hits.total > 1:
             ctx.warn("Angles", "angle_increment is 0: all beams lie on one line.")
         xyz = self._place(hits, sample, ctx)

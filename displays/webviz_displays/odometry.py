@@ -73,14 +73,17 @@ class Odometry(Display):
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
-        self._draw_poses(poses, group)
+        self._draw_poses(poses, group, ctx)
         if self.covariance.value:
             self._draw_covariances(good, poses, group, ctx)
 
-    def _draw_poses(self, poses: Trail, group: Group) -> None:
+    def _draw_poses(self, poses: Trail, group: Group, ctx: Context) -> None:
         look = self.shape
         if look.value == "Axes":
             group.axes("poses", poses.positions, poses.wxyzs, look.axes_length, look.axes_radius)
+            return
+        if look.alpha == 0:
+            ctx.warn("Pose", "The arrows are invisible: alpha is 0.")
             return
         group.arrows(
             "poses",

@@ -107,7 +107,9 @@ class Path(Display):
         group = ctx.follow(None, offset=Pose(tuple(corner.tolist()), sample.pose.wxyz))
         xyz = path.poses.positions - origin
         color = faded_color(self.color, self.alpha)
-        if self.line_style == "Lines":
+        if self.alpha == 0:
+            ctx.warn("Path", "The line is invisible: alpha is 0.")
+        elif self.line_style == "Lines":
             group.strip("line", xyz, color)
         else:
             group.strip("line", xyz, color, self.line_width, "m")

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
@@ -19,6 +21,7 @@ from webviz.pipeline.background import Workers
 from webviz.pipeline.runner import Runner, Services
 from webviz.sources import Offer, Publisher, Raw
 from webviz.transforms import TransformBuffer
+from webviz_displays.geometry import transformed
 
 SECOND = 1_000_000_000
 START = 100 * SECOND
@@ -135,6 +138,12 @@ class Bench:
     def poses(self) -> dict[str, Pose]:
         """Where in the fixed frame each of `nodes` is."""
         return {key: pose for key, (pose, _) in self._visible()}
+
+    def xyz(self, key: str) -> NDArray[np.float64]:
+        """Positions, vertices or segments of a node in the fixed frame, wherever its group is."""
+        pose, node = next(item for name, item in self._visible() if name == key)
+        local = np.asarray(getattr(node, fields(node)[0].name), dtype=np.float64)
+        return transformed(pose, local.reshape(-1, 3)).reshape(local.shape)
 
     def statuses(self) -> dict[str, tuple[str, str]]:
         """Level and sentence by key."""

@@ -42,16 +42,15 @@ def lab(bench: Benches) -> Callable[..., Any]:
 def test_beams_become_points_in_the_frame_of_the_laser(lab: Benches) -> None:
     bench = lab(scan([1, 2, 3, 4]))
     node = bench.nodes()["points"]
-    expected = [(1, 0, 0), (0, 2, 0), (-3, 0, 0), (0, -4, 0)]
-    np.testing.assert_allclose(node.xyz, expected, atol=1e-6)
+    expected = [(1, 0, 1), (0, 2, 1), (-3, 0, 1), (0, -4, 1)]
+    np.testing.assert_allclose(bench.xyz("points"), expected, atol=1e-6)
     assert (node.size, node.shape) == (0.01, "square")
-    assert bench.poses()["points"].position == (0, 0, 1)
     assert bench.statuses()["Points"] == ("OK", "Showing 4 of 4 points.")
 
 
 def test_a_range_counts_from_range_min_to_just_below_range_max(lab: Benches) -> None:
     bench = lab(scan([0.5, 0.49, 7.99, 8.0, NAN, INF, -INF], range_min=0.5, range_max=8.0))
-    lengths = np.linalg.norm(bench.nodes()["points"].xyz, axis=1)
+    lengths = np.linalg.norm(bench.xyz("points") - (0, 0, 1), axis=1)
     np.testing.assert_allclose(lengths, [0.5, 7.99], rtol=1e-6)
     assert bench.statuses()["Points"] == (
         "OK",
@@ -185,7 +184,7 @@ def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
     node = lab(scan([1, 2]), style="Points", size_pixels=5.0).nodes()["points"]
     assert isinstance(node, Lines)
     assert (node.width, node.unit) == (5.0, "px")
-    np.testing.assert_allclose(node.segments.mean(axis=1), [(1, 0, 0), (0, 2, 0)], atol=1e-6)
+    np.testing.assert_allclose(node.segments.mean(axis=1), [(1, 0, 1), (0, 2, 1)], atol=1e-6)
     assert np.ptp(node.segments, axis=1).max() < 1e-3
 
 
@@ -216,12 +215,10 @@ def test_each_beam_is_placed_where_the_laser_was_at_its_time(bench: Benches) -> 
     stamp_ns = made.now_ns + SECOND // 2
     made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
     made.turn()
-    assert made.poses()["points"].position == pytest.approx((0, 0.5, 0))
-    points = made.nodes()["points"].xyz
-    expected = [(2, 0, 0), (2, 0.125, 0), (2, 0.25, 0), (2, 0.375, 0), (2, 0.5, 0)]
-    np.testing.assert_allclose(points, expected, atol=1e-6)
+    expected = [(2, 0.5, 0), (2, 0.625, 0), (2, 0.75, 0), (2, 0.875, 0), (2, 1, 0)]
+    np.testing.assert_allclose(made.xyz("points"), expected, atol=1e-6)
     made.set("deskew", "As measured")
-    np.testing.assert_allclose(made.nodes()["points"].xyz, [(2, 0, 0)] * 5, atol=1e-6)
+    np.testing.assert_allclose(made.xyz("points"), [(2, 0.5, 0)] * 5, atol=1e-6)
 
 
 def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
@@ -237,9 +234,9 @@ def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
     values = scan(ranges, angle_min=-0.5, angle_increment=0.05, time_increment=apart)
     made.send(SCAN, values, frame="laser")
     made.turn()
-    np.testing.assert_allclose(made.nodes()["points"].xyz[:, 0], 3.0, atol=1e-5)
+    np.testing.assert_allclose(made.xyz("points")[:, 0], 3.0, atol=1e-5)
     made.set("deskew", "As measured")
-    assert np.ptp(made.nodes()["points"].xyz[:, 0]) > 0.5
+    assert np.ptp(made.xyz("points")[:, 0]) > 0.5
 
 
 def test_beams_after_the_newest_transform_are_counted(bench: Benches) -> None:
@@ -247,8 +244,8 @@ def test_beams_after_the_newest_transform_are_counted(bench: Benches) -> None:
     stamp_ns = made.now_ns + 3 * SECOND // 4
     made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
     made.turn()
-    points = made.nodes()["points"].xyz
-    np.testing.assert_allclose(points[:, 1], [0, 0.125, 0.25, 0.25, 0.25], atol=1e-6)
+    expected = [0.75, 0.875, 1, 1, 1]
+    np.testing.assert_allclose(made.xyz("points")[:, 1], expected, atol=1e-6)
     level, text = made.statuses()["De-skew"]
     assert level == "WARN"
     assert text.startswith("2 of 5 beams")
@@ -262,7 +259,7 @@ def test_a_time_increment_without_sense_counts_as_zero(
     values = {**FIVE_TO_THE_FRONT, "time_increment": time_increment}
     made.send(SCAN, values, frame="laser")
     made.turn()
-    np.testing.assert_allclose(made.nodes()["points"].xyz[:, 1], 0, atol=1e-6)
+    np.testing.assert_allclose(made.xyz("points")[:, 1], 0, atol=1e-6)
     assert made.statuses()["Scan Time"][0] == "WARN"
 
 

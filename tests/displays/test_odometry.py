@@ -1,8 +1,9 @@
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from webviz_displays.odometry import MOST_COVARIANCES, Odometry
 from webviz_displays.pose_properties import (
@@ -24,11 +25,15 @@ def about_z(angle: float) -> Quaternion:
 
 
 def odometry(
-    x: float = 0.0, y: float = 0.0, turn: Quaternion = (0, 0, 0, 1), **variances: float
+    x: float = 0.0,
+    y: float = 0.0,
+    turn: Quaternion = (0, 0, 0, 1),
+    covariance: Mapping[str, float] | NDArray[np.float64] = {},  # noqa: B006
 ) -> dict[str, Any]:
-    """A pose, and the diagonal of its covariance by name."""
-    names = ("x", "y", "z", "roll", "pitch", "yaw")
-    covariance = np.diag([variances.get(name, 0.0) for name in names])
+    """A pose, and its covariance or the variances by name."""
+    if isinstance(covariance, Mapping):
+        names = ("x", "y", "z", "roll", "pitch", "yaw")
+        covariance = np.diag([covariance.get(name, 0.0) for name in names])
     pose = {
         "position": {"x": x, "y": y},
         "orientation": dict(zip("xyzw", turn, strict=True)),
@@ -121,21 +126,18 @@ def test_a_long_trail_is_one_node(shown: Benches) -> None:
 
 
 def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
-    bench = shown(odometry(turn=about_z(np.pi / 2), yaw=0.01))
+    bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"yaw": 0.01}))
     assert bench.nodes().keys() == {"poses", "position covariance", "orientation covariance"}
     wedge = bench.nodes()["orientation covariance"]
     assert (wedge.color, wedge.opacity) == ((255, 255, 127), 0.5)
     width = np.tan(0.1)
-    expected = [(10, 0, 1e-3), (10 + width, 1, 1e-3), (10 - width, 1, 1e-3)]
+    expected = [(10, 0, 1e-3), (9, width, 1e-3), (9, -width, 1e-3)]
     np.testing.assert_allclose(wedge.vertices, expected, atol=1e-6)
 
 
 def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(shown: Benches) -> None:
     # In odom the robot looks along y, and its position along x is uncertain; odom's x is map's y.
-    values = {**odometry(turn=about_z(np.pi / 2)), **{}}
-    values["pose"]["covariance"] = odometry(**{"yaw": 0.01})["pose"]["covariance"]
-    values["pose"]["covariance"][0] = 4.0
-    bench = shown(values)
+    bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"x": 4.0, "yaw": 0.01}))
     ellipse = bench.nodes()["position covariance"].vertices - (10, 0, 0)
     assert np.abs(ellipse).max(axis=0) == pytest.approx((0, 2, 1e-3), abs=1e-6)
     tip = bench.nodes()["orientation covariance"].vertices[1:].mean(axis=0)
@@ -150,9 +152,7 @@ def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -
         position=PositionCovariance(scale=2.0), orientation=OrientationCovariance(color_style="RGB")
     )
     variances = {"x": 0.01, "y": 0.04, "z": 0.09, "roll": 0.01, "pitch": 0.01, "yaw": 0.01}
-    message = odometry()
-    message["pose"]["covariance"] = np.diag(list(variances.values())).ravel()
-    nodes = shown(message, covariance=look).nodes()
+    nodes = shown(odometry(covariance=variances), covariance=look).nodes()
     ellipsoid = nodes["position covariance"]
     assert (ellipsoid.color, ellipsoid.opacity) == ((204, 51, 204), 0.3)
     halves = np.abs(ellipsoid.vertices - (10, 0, 0)).max(axis=0)
@@ -173,11 +173,8 @@ def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None
 
 
 def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None:
-    bad = odometry(1)
-    bad["pose"]["covariance"] = np.full(36, NAN)
-    worse = odometry(2)
-    worse["pose"]["covariance"] = -np.eye(6).ravel()
-    bench = shown(odometry(0), bad, worse)
+    bad = odometry(1, covariance=np.full(36, NAN))
+    bench = shown(odometry(0), bad, odometry(2, covariance=-np.eye(6)))
     assert len(tails(bench)) == 3
     assert len(bench.nodes()["orientation covariance"].faces) == 1
     level, text = bench.statuses()["Covariance"]
@@ -186,8 +183,7 @@ def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None
 
 
 def test_a_huge_covariance_stays_finite(shown: Benches) -> None:
-    message = odometry()
-    message["pose"]["covariance"] = np.diag(np.full(6, 1e300)).ravel()
+    message = odometry(covariance=np.eye(6) * 1e300)
     for node in shown(message).nodes().values():
         for values in vars(node).values():
             assert not isinstance(values, np.ndarray) or np.isfinite(values).all()

@@ -4,7 +4,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz import Pose
 from webviz_displays.path import Path
 
 PATH = "nav_msgs/msg/Path"
@@ -46,19 +45,10 @@ def shown(bench: Benches) -> Callable[..., Any]:
     return make
 
 
-def in_map(bench: Any, key: str) -> Any:
-    """Segments of a node in the fixed frame."""
-    pose: Pose = bench.poses()[key]
-    w, x, y, z = pose.wxyz
-    assert (x, y) == (0.0, 0.0)
-    turn = np.array([(w * w - z * z, -2 * w * z, 0), (2 * w * z, w * w - z * z, 0), (0, 0, 1)])
-    return bench.nodes()[key].segments @ turn.T + pose.position
-
-
 def test_poses_are_joined_in_the_frame_of_the_header(shown: Benches) -> None:
     bench = shown(path((0, 0, 0), (1, 0, 0), (1, 2, 0)))
     expected = [[(10, 0, 0), (10, 1, 0)], [(10, 1, 0), (8, 1, 0)]]
-    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-6)
+    np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-6)
     node = bench.nodes()["line"]
     assert (node.colors, node.width, node.unit) == ((25, 255, 0), 1.0, "px")
     assert bench.statuses()["Path"] == ("OK", "Showing 3 poses.")
@@ -67,7 +57,7 @@ def test_poses_are_joined_in_the_frame_of_the_header(shown: Benches) -> None:
 def test_the_offset_is_along_the_axes_of_the_fixed_frame(shown: Benches) -> None:
     bench = shown(path((0, 0, 0), (1, 0, 0)), offset=(0.0, 0.5, 3.0))
     expected = [[(10, 0.5, 3), (10, 1.5, 3)]]
-    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-6)
+    np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-6)
 
 
 def test_billboards_have_a_width_in_metres(shown: Benches) -> None:
@@ -86,25 +76,26 @@ def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
 def test_the_newest_paths_stay_up_to_the_buffer_length(shown: Benches) -> None:
     paths = [path((0, 0, i), (1, 0, i)) for i in range(4)]
     bench = shown(*paths, buffer_length=3)
-    heights = sorted(in_map(bench, key)[0, 0, 2] for key in bench.nodes())
+    heights = sorted(bench.xyz(key)[0, 0, 2] for key in bench.nodes())
     assert heights == [1, 2, 3]
     bench.set("buffer_length", 1)
-    assert [in_map(bench, key)[0, 0, 2] for key in bench.nodes()] == [3]
+    assert [bench.xyz(key)[0, 0, 2] for key in bench.nodes()] == [3]
 
 
 def test_arrows_point_along_x_of_each_pose(shown: Benches) -> None:
     bench = shown(path((0, 0, 0), (5, 0, 0), turn=QUARTER), pose_style="Arrows")
     node = bench.nodes()["poses"]
-    expected = [[(0, 0, 0), (0, 0.3, 0)], [(5, 0, 0), (5, 0.3, 0)]]
-    np.testing.assert_allclose(node.segments, expected, atol=1e-6)
+    expected = [[(10, 0, 0), (9.7, 0, 0)], [(10, 5, 0), (9.7, 5, 0)]]
+    np.testing.assert_allclose(bench.xyz("poses"), expected, atol=1e-6)
     assert (node.shaft_radius, node.head_radius, node.head_length) == (0.05, 0.15, 0.2)
     assert node.colors == (255, 85, 255)
 
 
 def test_axes_are_turned_as_each_pose(shown: Benches) -> None:
-    node = shown(path((1, 2, 3), turn=QUARTER), pose_style="Axes").nodes()["poses"]
-    np.testing.assert_allclose(node.positions, [(1, 2, 3)])
-    np.testing.assert_allclose(node.wxyzs, [(np.sqrt(0.5), 0, 0, np.sqrt(0.5))], atol=1e-6)
+    bench = shown(path((1, 2, 3), turn=QUARTER), pose_style="Axes")
+    np.testing.assert_allclose(bench.xyz("poses"), [(8, 1, 3)], atol=1e-6)
+    node = bench.nodes()["poses"]  # two quarter turns, of odom and of the pose
+    np.testing.assert_allclose(np.abs(node.wxyzs), [(0, 0, 0, 1)], atol=1e-6)
     assert (node.length, node.radius) == (0.3, 0.03)
 
 
@@ -112,7 +103,7 @@ def test_orientations_that_planners_leave_at_zero_are_drawn_unturned_and_named(
     shown: Benches,
 ) -> None:
     bench = shown(path((0, 0, 0), (1, 0, 0), turn=(0, 0, 0, 0)), pose_style="Arrows")
-    np.testing.assert_allclose(bench.nodes()["poses"].segments[0, 1], (0.3, 0, 0), atol=1e-6)
+    np.testing.assert_allclose(bench.xyz("poses")[0, 1], (10, 0.3, 0), atol=1e-6)
     assert bench.statuses()["Orientation"][0] == "WARN"
     bench.set("pose_style", "None")
     assert "Orientation" not in bench.statuses()
@@ -120,7 +111,7 @@ def test_orientations_that_planners_leave_at_zero_are_drawn_unturned_and_named(
 
 def test_unnormalized_orientations_are_normalized(shown: Benches) -> None:
     bench = shown(path((0, 0, 0), turn=(0, 0, 0, 7)), pose_style="Arrows")
-    np.testing.assert_allclose(bench.nodes()["poses"].segments[0, 1], (0.3, 0, 0), atol=1e-6)
+    np.testing.assert_allclose(bench.xyz("poses")[0, 1], (10, 0.3, 0), atol=1e-6)
 
 
 def test_an_empty_path_is_named(shown: Benches) -> None:
@@ -156,4 +147,4 @@ def test_far_from_the_origin_a_path_keeps_its_millimetres(shown: Benches) -> Non
     east, north = 448_262.123, 5_411_932.456
     bench = shown(path((east, north, 0), (east + 0.25, north, 0)))
     expected = [[(10 - north, east, 0), (10 - north, east + 0.25, 0)]]
-    np.testing.assert_allclose(in_map(bench, "line"), expected, atol=1e-4, rtol=0)
+    np.testing.assert_allclose(bench.xyz("line"), expected, atol=1e-4, rtol=0)

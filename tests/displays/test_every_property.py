@@ -1,0 +1,319 @@
+"""Every property of every built-in display changes what is drawn or said."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path as FilePath
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+
+import msgspec
+import numpy as np
+import pytest
+import trimesh
+
+import webviz_displays
+from webviz import Display, Topic
+from webviz.display import set_property
+from webviz_displays.robot_parts import LinkSettings
+
+SECOND = 1_000_000_000
+
+Benches = Callable[..., Any]
+
+
+def display_classes() -> list[type[Display]]:
+    modules = pkgutil.iter_modules(webviz_displays.__path__, "webviz_displays.")
+    found = [
+        value
+        for module in modules
+        for value in vars(importlib.import_module(module.name)).values()
+        if isinstance(value, type) and issubclass(value, Display) and value is not Display
+    ]
+    return sorted(set(found), key=lambda cls: cls.__name__)
+
+
+# Scenes in which every property has something to change
+
+
+def scans(bench: Any) -> None:
+    """Two scans of a tilted laser that moves while it turns."""
+    tilt = (0.5, 0.5, 0.5, 0.5)  # x points along y, y along z
+    for i in range(10):
+        stamp_ns = bench.now_ns + i * SECOND // 10
+        bench.transform("map", "laser", (0.3 * i, 0.0, 0.1 * i), tilt, stamp_ns=stamp_ns)
+    for _ in range(2):
+        values = {
+            "angle_increment": 0.7,
+            "time_increment": 0.125,
+            "range_max": 10.0,
+            "ranges": [1.0, 2.5, 2.0, 4.0, 1.5],
+            "intensities": [100.0, 900.0, 30.0, 4000.0, 5000.0],
+        }
+        bench.send("sensor_msgs/msg/LaserScan", values, frame="laser")
+        bench.turn()
+
+
+def paths(bench: Any) -> None:
+    for height in (0.0, 1.0):
+        poses = [{"pose": {"position": {"x": x, "z": height}}} for x in (0.0, 1.0, 2.0)]
+        bench.send("nav_msgs/msg/Path", {"poses": poses}, frame="map")
+        bench.turn()
+
+
+def odometries(bench: Any) -> None:
+    """Small steps and turns; the last pose is uncertain in space."""
+    variances = np.diag([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]).ravel()
+    for i in range(250):
+        turn = {"z": float(np.sin(0.03 * i)), "w": float(np.cos(0.03 * i))}
+        pose = {"position": {"x": 0.07 * i}, "orientation": turn}
+        values = {"pose": {"pose": pose, "covariance": variances}}
+        bench.send("nav_msgs/msg/Odometry", values, frame="map")
+    bench.turn()
+
+
+def robot_frame(bench: Any) -> None:
+    """A frame to refer to, away from the fixed frame."""
+    bench.transform("map", "robot", (1.0, 2.0, 0.0))
+    bench.turn()
+
+
+def frames(bench: Any) -> None:
+    """One frame that stands still and one that moved twice in a short time, 10 s ago."""
+    bench.transform("map", "robot", (1.0, 2.0, 0.0))
+    for x in (1.0, 2.0):
+        bench.transform("robot", "arm", (x, 0.0, 0.0), stamp_ns=bench.now_ns)
+        bench.turn(0.05)
+    bench.turn(10.0)
+
+
+def maps(bench: Any) -> None:
+    """A map of all kinds of cells, and an update, in a frame that moved on."""
+    for age, x in ((1, 1.0), (0, 2.0)):
+        bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=bench.now_ns - age * SECOND)
+    grid = {
+        "info": {"resolution": 0.5, "width": 3, "height": 2, "origin": {"orientation": {"w": 1.0}}},
+        "data": [0, 30, 60, 98, 100, -1],
+    }
+    stamp_ns = bench.now_ns - SECOND
+    bench.send("nav_msgs/msg/OccupancyGrid", grid, frame="room", stamp_ns=stamp_ns, topic="/map")
+    bench.turn()
+    update = {"x": 1, "width": 1, "height": 1, "data": [77]}
+    type_name, topic = "map_msgs/msg/OccupancyGridUpdate", "/map_updates"
+    bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
+    bench.turn()
+
+
+ROBOT = """
+<robot name="one">
+  <link name="base">
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <visual><geometry><mesh filename="package://somewhere/part.stl"/></geometry></visual>
+    <collision><geometry><sphere radius="1"/></geometry></collision>
+    <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+</robot>
+"""
+
+
+def robots(bench: Any) -> None:
+    bench.transform("map", "base", (1.0, 0.0, 0.0))
+    bench.send("std_msgs/msg/String", {"data": ROBOT}, topic="/robot_description")
+    settle(bench)
+
+
+SCENES: dict[str, Callable[[Any], None]] = {
+    "Axes": robot_frame,
+    "Grid": robot_frame,
+    "LaserScan": scans,
+    "Map": maps,
+    "Odometry": odometries,
+    "Path": paths,
+    "RobotModel": robots,
+    "TF": frames,
+}
+
+# What these say shows with what comes next, not with what is drawn already.
+OF_THE_FUTURE = {
+    ("LaserScan", "decay_time"),
+    ("Odometry", "angle_tolerance"),
+    ("Odometry", "keep_count"),
+    ("Odometry", "position_tolerance"),
+    ("Path", "buffer_length"),
+    ("TF", "update_interval"),
+}
+
+# What must be set besides what `when` tells.
+BESIDES: dict[tuple[str, str], dict[str, Any]] = {
+    # With both tolerances at work the larger motion decides.
+    ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
+    ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
+}
+
+
+def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) -> list[Any]:
+    """Other values of a property; each that is valid must show."""
+    if get_origin(hint) is Literal:
+        return [choice for choice in get_args(hint) if choice != value]
+    if isinstance(value, bool):
+        return [not value]
+    if isinstance(value, int):
+        return [value * 3 + 1, value // 2]
+    if isinstance(value, float):
+        return [value * 3 + 50.0, value / 2]
+    if isinstance(value, Topic):
+        return [Topic("/somewhere_else")]
+    if isinstance(value, tuple):
+        return [tuple(255 - v for v in value)] if isinstance(value[0], int) else [(1.0, 2.0, 3.0)]
+    if isinstance(value, str):
+        return ["robot"]
+    if isinstance(value, dict):
+        return [{"robot": False}] if cls.__name__ == "TF" else [{"base": LinkSettings(alpha=0.5)}]
+    assert isinstance(value, list), "a new kind of property"
+    package = folder / "somewhere"
+    package.mkdir()
+    (package / "package.xml").write_text("<package><name>somewhere</name></package>")
+    trimesh.creation.box().export(package / "part.stl")
+    return [[str(folder)]]
+
+
+def properties() -> Iterator[Any]:
+    for cls in display_classes():
+        for path, hint, condition in leaves(cls, cls(), "", {}):
+            if path != "name":
+                yield pytest.param(cls, path, hint, condition, id=f"{cls.__name__}.{path}")
+
+
+def leaves(
+    struct: Any, value: Any, prefix: str, condition: dict[str, Any]
+) -> Iterator[tuple[str, Any, dict[str, Any]]]:
+    """Path, type, and what must hold besides for each property, nested ones included."""
+    hints = get_type_hints(struct, include_extras=True)
+    for name in value.__struct_fields__:
+        hint, current = hints[name], getattr(value, name)
+        needs = dict(condition)
+        add_condition(name, hints, prefix, needs)
+        plain = get_args(hint)[0] if get_origin(hint) is Annotated else hint
+        if isinstance(current, msgspec.Struct) and not isinstance(current, Topic):
+            yield from leaves(type(current), current, f"{prefix}{name}.", needs)
+        else:
+            yield f"{prefix}{name}", plain, needs
+
+
+def add_condition(name: str, hints: dict[str, Any], prefix: str, needs: dict[str, Any]) -> None:
+    for item in getattr(hints[name], "__metadata__", ()):
+        if isinstance(item, msgspec.Meta) and (when := (item.extra or {}).get("when")):
+            other, wanted = when
+            add_condition(other, hints, prefix, needs)
+            inner = isinstance(wanted, bool) and not prefix and is_group(hints[other])
+            needs[f"{prefix}{other}{'.value' if inner else ''}"] = wanted
+
+
+def is_group(hint: Any) -> bool:
+    plain = get_args(hint)[0] if get_origin(hint) is Annotated else hint
+    return isinstance(plain, type) and issubclass(plain, msgspec.Struct)
+
+
+def settle(bench: Any) -> None:
+    """Let slow work finish."""
+    deadline = time.monotonic() + 20
+    bench.turn()
+    while "Loading" in bench.statuses():
+        assert time.monotonic() < deadline, bench.statuses()
+        time.sleep(0.005)
+        bench.turn()
+
+
+def picture(bench: Any) -> tuple[Any, ...]:
+    """Everything a user sees but counts and ages of messages."""
+    said = {k: v for k, v in bench.statuses().items() if not k.startswith(("Topic", "Message"))}
+    return bench.nodes(), bench.poses(), said
+
+
+@pytest.mark.parametrize(("cls", "path", "hint", "condition"), list(properties()))
+def test_every_property_changes_what_is_drawn_or_said(
+    bench: Benches,
+    tmp_path: FilePath,
+    cls: type[Display],
+    path: str,
+    hint: Any,
+    condition: dict[str, Any],
+) -> None:
+    condition = condition | BESIDES.get((cls.__name__, path), {})
+    display = cls()
+    for other, wanted in condition.items():
+        set_property(display, other, wanted)
+    before = display
+    for part in path.split("."):
+        before = getattr(before, part)
+    at_work = bench(display)
+    SCENES[cls.__name__](at_work)
+    tried = 0
+    for value in other_values(cls, hint, before, tmp_path):
+        if value == before:
+            continue
+        try:
+            set_property(changed := cls(), path, value)
+        except msgspec.ValidationError:
+            continue  # out of bounds
+        tried += 1
+        former = picture(at_work)
+        if (cls.__name__, path) in OF_THE_FUTURE:
+            for other, wanted in condition.items():
+                set_property(changed, other, wanted)
+            again = bench(changed)
+            SCENES[cls.__name__](again)
+            assert picture(again) != former, f"{value} shows as {before} does"
+        else:
+            at_work.set(path, before)
+            settle(at_work)
+            assert picture(at_work) == former  # what changes by itself would prove nothing
+            at_work.set(path, value)
+            settle(at_work)
+            assert picture(at_work) != former, f"{value} shows as {before} does"
+            at_work.set(path, before)
+            settle(at_work)
+    assert tried
+
+
+def test_every_display_is_tried() -> None:
+    assert {cls.__name__ for cls in display_classes()} == SCENES.keys()
+
+
+@pytest.mark.parametrize("cls", display_classes())
+def test_every_property_is_documented(cls: type[Display]) -> None:
+    def check(struct: type[msgspec.Struct]) -> None:
+        for name, hint in get_type_hints(struct, include_extras=True).items():
+            if name not in struct.__struct_fields__:
+                continue
+            metas = [m for m in getattr(hint, "__metadata__", ()) if isinstance(m, msgspec.Meta)]
+            assert any(meta.description for meta in metas), f"{struct.__name__}.{name}"
+            if is_group(hint) and get_args(hint)[0] is not Topic:
+                check(get_args(hint)[0])
+
+    check(cls)
+    assert cls.__doc__
+    assert cls.rviz.startswith("rviz_default_plugins/")
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "status"),
+    [
+        ("Grid", "alpha", "Grid"),
+        ("LaserScan", "alpha", "Points"),
+        ("Odometry", "shape.alpha", "Pose"),
+        ("Path", "alpha", "Path"),
+    ],
+)
+def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status: str) -> None:
+    cls = next(cls for cls in display_classes() if cls.__name__ == name)
+    at_work = bench(cls())
+    SCENES[name](at_work)
+    visible = set(at_work.nodes())
+    at_work.set(path, 0.0)
+    assert set(at_work.nodes()) < visible
+    level, text = at_work.statuses()[status]
+    assert level == "WARN"
+    assert "nvisible: alpha is 0." in text
