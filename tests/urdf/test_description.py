@@ -43,7 +43,9 @@ def test_links_joints_inertials_and_limits_are_read(load):
 
 
 def test_shapes_of_one_name_get_names_of_their_own(load):
-    assert [shape.name for shape in load(ARM).links["tip"].visuals] == ["a", "a_1"]
+    visuals = "".join(f"<visual name='{name}'>{BOX}</visual>" for name in ("a_2", "a", "a"))
+    robot = load(f"<robot name='r'><link name='l'>{visuals}</link></robot>")
+    assert [shape.name for shape in robot.links["l"].visuals] == ["a_2", "a", "a_2_2"]
 
 
 def test_collisions_are_left_out_when_not_wanted():

@@ -73,8 +73,6 @@ def extents(robot, as_trimesh) -> np.ndarray:
 @pytest.mark.parametrize(
     ("file", "height"),
     [
-        # COLLADA that says Y_UP and means nothing by it; the real one is 1.04 m with its scalp.
-        ("icub_description/robots/icub.urdf", 1.0),
         # Files named .DAE; without the pedestal's feet.
         ("baxter_description/urdf/baxter.urdf", 1.78),
         # Binary .STL, the right side mirrored; 1.75 m by its maker.

@@ -93,7 +93,7 @@ class _Builder:
             self._progress(self._done, self._total, link)
             self._done += 1
             name = element.name or f"{kind}_{index}"
-            if name in shapes:
+            while name in shapes:
                 name = f"{name}_{index}"
             geometry = element.geometry or yourdfpy.Geometry()
             try:

@@ -41,6 +41,7 @@ class Materials:
 
     def __init__(self, model: yourdfpy.Robot) -> None:
         self._by_name: dict[str, Material] = {}
+        self._conflicting: set[str] = set()
         self.warnings: list[str] = []
         for material in model.materials:
             self._define(material, "the robot")
@@ -72,7 +73,8 @@ class Materials:
         if material is None or definition is None or not material.name:
             return
         known = self._by_name.setdefault(material.name, definition)
-        if known != definition:
+        if known != definition and material.name not in self._conflicting:
+            self._conflicting.add(material.name)
             self.warnings.append(
                 f"Material '{material.name}' is defined again, differently, in {where}; "
                 "the first definition counts."
