@@ -120,6 +120,14 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         """How much history to hold; every held sample stays drawn."""
         return Keep()
 
+    def waits(self, name: str) -> bool:
+        """Whether messages of the input `name` wait for the transform at their stamp.
+
+        Those that do not are for a display that follows their frame; their samples have the pose
+        of the frame now, or the identity while there is none.
+        """
+        return True
+
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
         """Whether a new sample joins the kept ones (oldest first)."""
         return True

@@ -84,6 +84,10 @@ class Map(Display):
         ),
     ] = 100
 
+    def waits(self, name: str) -> bool:
+        """A map that follows its frame needs no transform at its stamp, often long ago."""
+        return self.use_timestamp
+
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
         """Take a new map, or change the one there is."""
         grid = state.grid if state else None
@@ -115,13 +119,25 @@ class Map(Display):
         images = _images(grid, lookup_table(self.color_scheme, alpha, threshold), ctx.state)
         outer, frame = Pose(), grid.frame
         if self.use_timestamp:
-            outer, frame = samples[-1].pose, None
+            at_stamp = self._pose_at_stamp(samples[-1], ctx)
+            if at_stamp is None:
+                ctx.error("Transform", ctx.frames.why_not(grid.frame, samples[-1].stamp_ns))
+                return
+            outer, frame = at_stamp, None
         for (corner, image), offset in zip(
             images.items(), self._offsets(grid, outer, list(images)), strict=True
         ):
             key = f"tile {corner[0]} {corner[1]}"
             ctx.follow(frame, when="now", offset=offset, key=key).add(key, image)
         self._report(folded, grid, ctx)
+
+    def _pose_at_stamp(self, sample: Sample, ctx: Context) -> Pose | None:
+        """Where the frame was at the stamp; remembered, as transforms are kept for seconds only."""
+        key = (ctx.frames.fixed_frame, sample.frame, sample.stamp_ns)
+        if pose := ctx.frames.at(sample.frame, sample.stamp_ns):
+            ctx.state["pose at stamp"] = (key, pose)
+        known, pose = ctx.state.get("pose at stamp", (None, None))
+        return pose if known == key else None
 
     def _offsets(self, grid: TiledGrid, outer: Pose, corners: list[Corner]) -> list[Pose]:
         """Pose of each tile; `outer` is that of the grid's frame."""

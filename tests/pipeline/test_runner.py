@@ -373,3 +373,25 @@ def test_an_optional_input_follows_the_first_ones_topic_and_may_be_silent(
     b.viewer.enqueue(SetProperty("display1", "topic.name", "/other"))
     b.turn()
     assert {"/other", "/other_updates"} <= set(b.source.wanted)
+
+
+class Poster(Dot):
+    """A dot that stays with its frame, whenever it was published."""
+
+    def waits(self, name: str) -> bool:
+        return False
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.follow(sample.frame, when="now").points("dot", [[0, 0, 0]], (255, 0, 0), 0.1)
+
+
+def test_a_display_that_follows_a_frame_needs_no_transform_at_the_stamp(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Poster(name="Poster"))
+    b.pose("/pose", "map", T - 3600 * SECOND)
+    b.transform("odom", "map", T, 3.0)
+    b.turn()
+    b.viewer.enqueue(SetFixedFrame("odom"))
+    b.turn()
+    assert at(b) == [3.0]

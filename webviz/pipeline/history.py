@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from webviz.display import Keep
 from webviz.frames import Frames, compose
+from webviz.nodes import Pose
 from webviz.sample import Sample
 
 MAX_SAMPLES = 10_000
@@ -58,15 +59,23 @@ class History:
             self.held = [held for held in self.held if held.sample.received_ns >= oldest]
         return len(self.held) != before
 
-    def move(self, frames: Frames, former_fixed_frame: str) -> None:
+    def move(self, frames: Frames, former_fixed_frame: str, timed: bool) -> None:
         """Place all samples in a new fixed frame.
 
         Each at its own stamp; one older than the transforms goes along with the former fixed frame.
+
+        Args:
+            frames: know the new fixed frame.
+            former_fixed_frame: frame id.
+            timed: False if the samples' display follows their frame instead.
         """
         shift = frames.latest(former_fixed_frame)
         for held in self.held:
             sample = held.sample
-            pose = frames.at(sample.frame, sample.stamp_ns) if sample.frame else sample.pose
+            if not timed:
+                pose = frames.now(sample.frame) or Pose()
+            else:
+                pose = frames.at(sample.frame, sample.stamp_ns) if sample.frame else sample.pose
             if pose is None and shift is not None and held.has_pose:
                 pose = compose(shift, sample.pose)
             held.has_pose = pose is not None

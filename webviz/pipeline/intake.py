@@ -55,7 +55,7 @@ class Intake:
         return Subscription(self.spec.type, self.topic, self.spec.latched)
 
     def take(
-        self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float
+        self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
     ) -> list[Arrival]:
         """Let messages in and return those that can be placed now, oldest first.
 
@@ -64,6 +64,7 @@ class Intake:
             frames: the transforms of this tick.
             offer: what is known of the topic.
             clock: monotonic time in seconds.
+            waits: whether messages wait for the transform at their stamp.
         """
         arrivals: list[Arrival] = []
         is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
@@ -83,6 +84,9 @@ class Intake:
                 continue
             frame, stamp_ns = header
             arrival = Arrival(raw, frame.removeprefix("/"), stamp_ns, self._received - 1)
+            if not waits:
+                arrivals.append(arrival)
+                continue
             self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns)
         arrivals += self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         if arrivals:
@@ -117,8 +121,8 @@ class Intake:
         elif dropped:
             text = f"{dropped} messages came faster than they could be read and were dropped."
             result["Message"] = Status(Level.WARN, text)
-        waits = self._waiting_since is not None and clock - self._waiting_since > PATIENCE_S
-        if waits and (
+        is_late = self._waiting_since is not None and clock - self._waiting_since > PATIENCE_S
+        if is_late and (
             explanation := self._filter.explanation(
                 frames.buffer, frames.fixed_frame, frames.now_ns
             )

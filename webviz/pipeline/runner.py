@@ -123,7 +123,8 @@ class Runner:
         primary = next(iter(self._intakes), "")
         for name, intake in self._intakes.items():
             raws = batches.get(intake.name, ())
-            arrivals = intake.take(raws, frames, offers.get(intake.name), clock)
+            waits = self.display.waits(name)
+            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
             if not arrivals:
                 continue
             if self._every_message_counts or self._keep() != Keep():
@@ -142,7 +143,8 @@ class Runner:
             self._let_in(name, intake, arrival, frames)
         if frames.fixed_frame != self._fixed_frame:
             if self._fixed_frame:
-                self._history.move(frames, self._fixed_frame)
+                timed = self.display.waits(next(iter(self._intakes), ""))
+                self._history.move(frames, self._fixed_frame, timed)
             self._fixed_frame = frames.fixed_frame
             self._is_stale = True
         self._history.trim(self._keep(), frames.now_ns)
@@ -198,7 +200,12 @@ class Runner:
 
     def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
         """Decode a message and hold it, if the display wants it."""
-        pose = frames.at(arrival.frame, arrival.stamp_ns) if arrival.frame else Pose()
+        if not arrival.frame:
+            pose = Pose()
+        elif self.display.waits(name):
+            pose = frames.at(arrival.frame, arrival.stamp_ns)
+        else:
+            pose = frames.now(arrival.frame) or Pose()
         if pose is None:
             return  # the buffer was cleared since; newer messages will tell
         try:

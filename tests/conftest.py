@@ -1,0 +1,16 @@
+"""What tests of several folders share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import playwright.sync_api as playwright
+import pytest
+from page import launched
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[playwright.Browser]:
+    """One headless Chromium for all tests."""
+    with launched() as browser:
+        yield browser

@@ -1,0 +1,61 @@
+"""Programs as a user starts them, on a ROS domain of their own."""
+
+from __future__ import annotations
+
+import os
+import random
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+from page import Page
+from program import Program
+
+
+@pytest.fixture(scope="module")
+def ros_env() -> dict[str, str]:
+    """The environment of programs that meet only each other."""
+    domain = str(random.SystemRandom().randrange(160, 220))
+    return {
+        **os.environ,
+        "ROS_DOMAIN_ID": domain,
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+@pytest.fixture(scope="module")
+def start(
+    ros_env: dict[str, str], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[..., Program]]:
+    """Start `python -m` with arguments; whatever still runs at the end is ended."""
+    programs: list[Program] = []
+
+    def start(*arguments: str, env: dict[str, str] | None = None) -> Program:
+        log = tmp_path_factory.mktemp("log") / "output.txt"
+        command = [sys.executable, "-m", *arguments]
+        programs.append(Program(command, {**ros_env, **(env or {})}, log))
+        return programs[-1]
+
+    yield start
+    for program in reversed(programs):
+        program.end()
+
+
+@pytest.fixture
+def open_page(browser: playwright.Browser) -> Iterator[Callable[..., Page]]:
+    """Open a viewer in a tab; pages must raise no errors."""
+    pages: list[Page] = []
+
+    def open_page(url: str, width: int = 900, height: int = 500) -> Page:
+        pages.append(Page(browser, url, width, height))
+        return pages[-1]
+
+    yield open_page
+    errors: list[Any] = []
+    for page in pages:
+        errors += page.errors
+        page.close()
+    assert errors == []

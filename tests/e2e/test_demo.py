@@ -1,0 +1,219 @@
+"""The whole path: the simulator, DDS, the viewer and a browser, each in a process of its own."""
+
+from __future__ import annotations
+
+import math
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from page import Page
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.context import Context
+from rclpy.node import Node
+
+# Seen from straight above, with colours that tell the displays apart.
+CONFIG = """\
+fixed_frame: {fixed_frame}
+view: {{distance: 14.0, yaw: -1.570796, pitch: 1.5697}}
+displays:
+- {{type: Map, alpha: 1.0}}
+- {{type: Axes, reference_frame: base_link, length: 0.01, radius: 0.001}}
+- {{type: RobotModel}}
+- {{type: LaserScan, size: 0.04, color_transformer: FlatColor, color: [255, 0, 255]}}
+"""
+SPEED, SECONDS = 0.4, 2.5
+
+
+@dataclass
+class Seen:
+    """What a picture shows, in metres of the fixed frame."""
+
+    robot: np.ndarray
+    """Centre of the robot (2,), NaN if there is none."""
+    scan: np.ndarray
+    """Points of the scan (N, 2)."""
+    walls: np.ndarray
+    """Black cells of the map (N, 2)."""
+
+
+def look(page: Page) -> Seen:
+    """Find the displays in a picture by their colours."""
+    page.draw()
+    pixels = page.pixels().astype(int)
+    columns_rows = np.array([page.pixel_of(0, 0), page.pixel_of(1, 0), page.pixel_of(0, 1)])
+    to_metres = np.linalg.inv(np.column_stack([columns_rows[1:] - columns_rows[0]]).T)
+
+    def where(mask: np.ndarray) -> np.ndarray:
+        rows, columns = np.nonzero(mask)
+        return (np.column_stack([columns, rows]) + 0.5 - columns_rows[0]) @ to_metres.T
+
+    red, green, blue = np.moveaxis(pixels, -1, 0)
+    orange = (red > 150) & (red > 2 * blue) & (red > green + 40) & (blue < 110)
+    robot = where(orange)
+    return Seen(
+        robot.mean(axis=0) if len(robot) else np.full(2, math.nan),
+        where((red > 230) & (green < 60) & (blue > 230)),
+        where((red < 30) & (green < 30) & (blue < 30)),
+    )
+
+
+def share_on_walls(scan: np.ndarray, walls: np.ndarray, reach: float = 0.15) -> float:
+    """The share of scan points with a wall within `reach` metres."""
+    distances = np.linalg.norm(scan[::5, None] - walls[None, ::3], axis=2)
+    return float((distances.min(axis=1) < reach).mean())
+
+
+@pytest.fixture(scope="module")
+def driver(ros_env: dict[str, str]) -> Iterator[Driver]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        driver = Driver(int(ros_env["ROS_DOMAIN_ID"]))
+        yield driver
+        driver.close()
+
+
+class Driver:
+    """Drives the robot as a joystick would, and knows where it says it is."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self._node = Node("driver", context=self._context)
+        self._publisher = self._node.create_publisher(Twist, "/cmd_vel", 1)
+        self._node.create_subscription(Odometry, "/odom", self._hear, 10)
+        self._executor = rclpy.executors.SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self.odometry: np.ndarray | None = None
+
+    def _hear(self, odometry: Odometry) -> None:
+        position = odometry.pose.pose.position
+        self.odometry = np.array([position.x, position.y])
+
+    def where(self) -> np.ndarray:
+        """Position by odometry, metres."""
+        self.odometry = None
+        deadline = time.monotonic() + 20
+        while self.odometry is None:
+            assert time.monotonic() < deadline, "no /odom"
+            self._executor.spin_once(timeout_sec=0.1)
+        return self.odometry
+
+    def drive(self, speed: float, seconds: float) -> None:
+        """Drive straight on, then stand."""
+        twist = Twist()
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            twist.linear.x = speed
+            self._publisher.publish(twist)
+            self._executor.spin_once(timeout_sec=0.05)
+        twist.linear.x = 0.0
+        for _ in range(5):
+            self._publisher.publish(twist)
+            time.sleep(0.1)
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+
+@pytest.fixture(scope="module")
+def simulator(start: Callable[..., Program]) -> Program:
+    """The robot stands in the corridor until it is commanded."""
+    pose = "start_pose:=[-1.0, 0.0, 0.0]"
+    return start("webviz_sim", "--ros-args", "-p", "tour:=false", "-p", pose)
+
+
+@contextmanager
+def viewer(start: Callable, folder: Path, fixed_frame: str) -> Iterator[str]:
+    config = folder / "top.yaml"
+    config.write_text(CONFIG.format(fixed_frame=fixed_frame))
+    program = start("webviz", "-d", str(config), "--port", "0")
+    yield program.url()
+    assert program.end() == 0, program.output()
+
+
+def settled(page: Page) -> Seen:
+    """What is seen once everything is drawn."""
+
+    def complete() -> Seen | None:
+        seen = look(page)
+        is_complete = (
+            len(seen.scan) > 50 and len(seen.walls) > 500 and np.isfinite(seen.robot).all()
+        )
+        return seen if is_complete else None
+
+    page.wait_for(complete, "robot, scan and map in the picture", 60)
+    page.tab.wait_for_timeout(1500)
+    return look(page)
+
+
+def check_drive_in_map(page: Page, driver: Driver) -> None:
+    before, start = settled(page), driver.where()
+    driver.drive(SPEED, SECONDS)
+    page.tab.wait_for_timeout(1500)
+    after, end = settled(page), driver.where()
+    driven = end - start
+    assert np.linalg.norm(driven) == pytest.approx(SPEED * SECONDS, abs=0.15)
+    assert after.robot - before.robot == pytest.approx(driven, abs=0.06)
+    # Walls that were black are black or under points of the scan.
+    assert share_on_walls(before.walls, np.vstack([after.walls, after.scan]), 0.06) > 0.95
+    for seen in (before, after):
+        assert share_on_walls(seen.scan, seen.walls) > 0.9
+    # The scan is another one than before: what the robot passed is seen from elsewhere.
+    assert share_on_walls(after.scan, before.scan, 0.03) < 0.95
+
+
+def check_drive_in_base(page: Page, driver: Driver) -> None:
+    before, start = settled(page), driver.where()
+    driver.drive(-SPEED, SECONDS)
+    page.tab.wait_for_timeout(1500)
+    after, end = settled(page), driver.where()
+    assert after.robot - before.robot == pytest.approx(0, abs=0.03)
+    shift = start - end
+    walls = before.walls + shift
+    inside = np.abs(walls).max(axis=1) < 2.5
+    now = np.vstack([after.walls, after.scan])
+    assert share_on_walls(walls[inside], now, 0.06) > 0.95
+    assert share_on_walls(before.walls[inside], now, 0.06) < 0.9
+    assert share_on_walls(after.scan, after.walls) > 0.9
+
+
+def test_robot_and_scan_move_by_the_commanded_amount_and_the_map_stands(
+    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
+) -> None:
+    with viewer(start, tmp_path, "map") as url:
+        check_drive_in_map(open_page(url), driver)
+
+
+def test_seen_from_the_robot_the_map_moves(
+    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
+) -> None:
+    with viewer(start, tmp_path, "base_link") as url:
+        check_drive_in_base(open_page(url), driver)
+
+
+def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
+    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
+) -> None:
+    with viewer(start, tmp_path, "map") as url:
+        page = open_page(url)
+        settled(page)
+        page.tab.get_by_role("button", name="LaserScan").click()
+        page.wait_for(lambda: "from /sim (best effort, volatile)" in page.text(), "a good status")
+        simulator.end(signal.SIGKILL)
+        page.wait_for(lambda: "Nobody publishes /scan any more" in page.text(), "the reason", 40)
+        with pytest.raises(AssertionError, match="no /odom"):
+            check_drive_in_map(page, driver)
