@@ -77,19 +77,21 @@ class _Line:
         enqueue: Callable[[Command], None],
         select: Callable[[str], None],
     ) -> None:
-        self._box = gui.add_checkbox("", _enabled(row), disabled=row.display is None)
+        self._box = gui.add_checkbox("", _enabled(row))
         self._control = Control(
             self._box, lambda value: enqueue(SetProperty(row.id, "enabled", value))
         )
-        self._button = gui.add_button(_label(row, row.level))
+        self._button = gui.add_button("")
         self._button.on_click(lambda _: select(row.id))
-        self._shown = (row.name, row.level)
+        self._shown: tuple[str, Level, bool] | None = None
 
     def update(self, row: Row, level: Level) -> None:
         self._control.show(_enabled(row))
-        if self._shown != (row.name, level):
-            self._shown = (row.name, level)
-            self._button.label = _label(row, level)
+        shown = (row.name, level, row.display is None)
+        if shown != self._shown:
+            self._shown = shown
+            self._button.label = f"{MARKS[level]} {plain(row.name)}".strip()
+            self._box.disabled = row.display is None
 
     def place(self, index: int) -> None:
         self._box.order = 2.0 * index
@@ -102,7 +104,3 @@ class _Line:
 
 def _enabled(row: Row) -> bool:
     return row.display is not None and row.display.enabled
-
-
-def _label(row: Row, level: Level) -> str:
-    return f"{MARKS[level]} {plain(row.name)}".strip()

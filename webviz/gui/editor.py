@@ -28,7 +28,6 @@ class Editor:
     Args:
         gui: viser's GUI.
         row: the display.
-        state: what it is part of.
         enqueue: takes commands, from any thread.
         order: place in the panel.
     """
@@ -37,7 +36,6 @@ class Editor:
         self,
         gui: viser.GuiApi,
         row: Row,
-        state: State,
         enqueue: Callable[[Command], None],
         order: float,
     ) -> None:

@@ -13,7 +13,7 @@ from webviz.gui.display_list import DisplayList
 from webviz.gui.editor import Editor
 from webviz.gui.style import row_style
 from webviz.gui.text import StatusLines
-from webviz.state import State
+from webviz.state import Row, State
 
 WIDTH_PX = 340
 
@@ -29,6 +29,7 @@ class Panel:
     """
 
     def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
+        self._server = server
         self._gui = server.gui
         self._enqueue = enqueue
         self._selected: str | None = None
@@ -92,11 +93,16 @@ class Panel:
 
     def _edit(self, state: State) -> None:
         row = next((row for row in state.rows if row.id == self._selected), None)
-        if self._editor is not None and (row is None or not self._editor.fits(row)):
+        if self._editor is not None and row is not None and self._editor.fits(row):
+            self._editor.update(row, state)
+        elif self._editor is not None or row is not None:
+            with self._server.atomic():
+                self._replace_editor(row, state)
+
+    def _replace_editor(self, row: Row | None, state: State) -> None:
+        if self._editor is not None:
             self._editor.remove()
             self._editor = None
-        if row is None:
-            return
-        if self._editor is None:
-            self._editor = Editor(self._gui, row, state, self._enqueue, order=3)
-        self._editor.update(row, state)
+        if row is not None:
+            self._editor = Editor(self._gui, row, self._enqueue, order=3)
+            self._editor.update(row, state)

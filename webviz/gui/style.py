@@ -57,7 +57,8 @@ _LIST = f"""
 {_LIST_BOX} button:hover {{ background: rgba(128, 128, 128, 0.25) !important; }}
 {_LIST_BOX} button > span {{ justify-content: start; }}
 {_LIST_BOX} button > span > span {{
-  display: block; height: auto; overflow: hidden; text-overflow: ellipsis;
+  display: block; height: auto; text-box: normal; line-height: 1.5;
+  overflow: hidden; text-overflow: ellipsis;
 }}
 """
 
