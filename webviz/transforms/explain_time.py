@@ -34,9 +34,18 @@ def explain_time(
     if empty:
         sentence = f'No transform of "{empty[0]}" has come since the transforms were cleared.'
         return Explanation(Kind.NO_DATA, sentence)
+    if stamp_ns == 0:
+        alone = [name for name, cache in links if len(cache.stamps) == 1]
+        if not alone:
+            return Explanation(Kind.NO_DATA, f"{text}.")
+        return Explanation(
+            Kind.NO_DATA,
+            f"Only one transform {_link(buffer, alone[0])} has come, and it is newer than others "
+            "on the way: a second one is needed.",
+        )
     late = [(cache.stamps[-1], name) for name, cache in links if cache.stamps[-1] < stamp_ns]
     early = [(cache.stamps[0], name) for name, cache in links if cache.stamps[0] > stamp_ns]
-    if late and (not early or stamp_ns != 0):
+    if late:
         newest, child = min(late)
         return _ahead(buffer, child, stamp_ns, newest, now_ns)
     if early:

@@ -1,0 +1,245 @@
+"""What the buffer stores, changes and refuses: tf2's setTransform tests and its surprises."""
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from webviz.transforms import (
+    ConnectivityException,
+    LookupException,
+    NoDataForExtrapolationException,
+    TransformBuffer,
+)
+
+S = 1_000_000_000
+UNIT = (0.0, 0.0, 0.0, 1.0)
+ZERO = (0.0, 0.0, 0.0)
+Put = Callable[..., bool]
+
+
+@pytest.mark.parametrize(
+    ("parent", "child", "translation", "rotation", "reason"),
+    [
+        ("same", "same", ZERO, UNIT, "TF_SELF_TRANSFORM"),
+        ("/same", "same", ZERO, UNIT, "TF_SELF_TRANSFORM"),
+        ("parent", "", ZERO, UNIT, "TF_NO_CHILD_FRAME_ID"),
+        ("parent", "/", ZERO, UNIT, "TF_NO_CHILD_FRAME_ID"),
+        ("", "child", ZERO, UNIT, "TF_NO_FRAME_ID"),
+        ("/", "child", ZERO, UNIT, "TF_NO_FRAME_ID"),
+        ("parent", "child", (0.0, math.nan, 0.0), UNIT, "TF_NAN_INPUT"),
+        ("parent", "child", ZERO, (0.0, 0.0, math.nan, 1.0), "TF_NAN_INPUT"),
+        ("parent", "child", ZERO, (0.0, 0.0, 0.0, 0.0), "TF_NAN_INPUT"),
+        ("parent", "child", ZERO, (0.0, 0.0, 0.0, math.inf), "TF_NAN_INPUT"),
+    ],
+)
+def test_an_invalid_transform_is_refused_with_tf2s_reason(
+    buffer: TransformBuffer,
+    parent: str,
+    child: str,
+    translation: tuple[float, float, float],
+    rotation: tuple[float, float, float, float],
+    reason: str,
+) -> None:
+    version = buffer.version
+    assert not buffer.set_transform(parent, child, S, translation, rotation)
+    assert buffer.rejections[child.removeprefix("/")].reason == reason
+    assert buffer.frames() == []
+    assert buffer.version == version
+
+
+def test_a_valid_transform_is_stored_and_changes_the_version(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    version = buffer.version
+    assert put("parent", "child", 1.0, 3.0)
+    assert buffer.version != version
+    assert buffer.lookup("parent", "child", S).translation == (3.0, 0.0, 0.0)
+    assert not buffer.rejections
+
+
+@pytest.mark.parametrize("length", [1e-9, 0.3, 2.0, 1e6])
+def test_a_quaternion_of_any_length_is_normalised(buffer: TransformBuffer, length: float) -> None:
+    rotation = (0.0, 0.0, 0.6 * length, 0.8 * length)
+    assert buffer.set_transform("parent", "child", S, ZERO, rotation)
+    assert buffer.lookup("parent", "child", S).rotation == pytest.approx((0.0, 0.0, 0.6, 0.8))
+
+
+@pytest.mark.parametrize(
+    ("sent", "stored"),
+    [
+        ((0.0, 0.0, -0.6, -0.8), (0.0, 0.0, 0.6, 0.8)),
+        ((-1.0, 0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
+        ((0.0, -1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)),
+        ((0.0, 0.0, -1.0, 0.0), (0.0, 0.0, 1.0, 0.0)),
+        ((0.0, 0.0, 0.96, -0.28), (0.0, 0.0, 0.96, -0.28)),
+        ((-0.5, -0.5, -0.5, 0.5), (0.5, 0.5, 0.5, -0.5)),
+    ],
+)
+def test_the_sign_of_a_rotation_is_canonical(
+    buffer: TransformBuffer,
+    sent: tuple[float, float, float, float],
+    stored: tuple[float, float, float, float],
+) -> None:
+    buffer.set_transform("parent", "child", S, ZERO, sent)
+    assert buffer.lookup("parent", "child", S).rotation == pytest.approx(stored, abs=1e-15)
+
+
+def test_an_infinite_translation_is_accepted(buffer: TransformBuffer) -> None:
+    assert buffer.set_transform("parent", "child", S, (math.inf, 0.0, 0.0), UNIT)
+    assert not math.isfinite(buffer.lookup("parent", "child", S).translation[0])
+
+
+def test_one_leading_slash_is_stripped_on_insertion_and_only_one(buffer: TransformBuffer) -> None:
+    assert buffer.set_transform("/map", "//odom", S, ZERO, UNIT)
+    assert buffer.frames() == ["/odom", "map"]
+
+
+def test_frames_are_listed_child_before_parent_in_order_of_first_mention(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("odom", "base")
+    put("map", "odom")
+    put("base", "laser")
+    assert buffer.frames() == ["base", "odom", "map", "laser"]
+
+
+def test_data_older_than_the_cache_is_refused_and_counted(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 100.0)
+    assert put("map", "odom", 90.0)
+    assert not put("map", "odom", 89.999)
+    assert not put("map", "odom", 1.0)
+    rejection = buffer.rejections["odom"]
+    assert (rejection.reason, rejection.count, rejection.stamp_ns) == ("TF_OLD_DATA", 2, S)
+
+
+def test_a_refused_transform_still_makes_its_parent_known(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 100.0)
+    assert not put("elsewhere", "odom", 1.0)
+    with pytest.raises(ConnectivityException):
+        buffer.lookup("elsewhere", "odom", 0)
+
+
+def test_changing_between_static_and_moving_loses_the_history(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("a", "b", 1.0, 1.0)
+    put("a", "b", 2.0, 2.0)
+    put("a", "b", 0.0, 7.0, is_static=True)
+    assert buffer.lookup("a", "b", 123 * S).translation[0] == 7.0
+    put("a", "b", 3.0, 3.0)
+    with pytest.raises(NoDataForExtrapolationException):
+        buffer.lookup("a", "b", 2 * S)
+    assert buffer.lookup("a", "b", 3 * S).translation[0] == 3.0
+
+
+def test_the_later_static_parent_wins(buffer: TransformBuffer, put: Put) -> None:
+    put("a", "c", is_static=True)
+    put("b", "c", is_static=True)
+    assert buffer.can_transform("b", "c", S)
+    assert not buffer.can_transform("a", "c", S)
+
+
+def test_clear_keeps_static_transforms_names_and_publishers(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.0, authority="slam")
+    put("odom", "base", is_static=True)
+    buffer.clear()
+    assert buffer.frames() == ["odom", "map", "base"]
+    assert buffer.can_transform("odom", "base", 5 * S)
+    assert buffer.publishers["odom"].current == "slam"
+    with pytest.raises(ConnectivityException):
+        buffer.lookup("map", "odom", 0)
+    with pytest.raises(NoDataForExtrapolationException) as error:
+        buffer.lookup("map", "odom", S)
+    assert str(error.value) == ", when looking up transform from frame [odom] to frame [map]"
+    assert buffer.all_frames_as_string() == (
+        "Frame odom exists with parent NO_PARENT.\nFrame base exists with parent odom.\n"
+    )
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_a_cleared_frame_can_become_static(buffer: TransformBuffer, put: Put, before: bool) -> None:
+    put("map", "odom", 1.0, is_static=before)
+    buffer.clear()
+    put("map", "odom", 1.0, 4.0, is_static=True)
+    assert buffer.lookup("map", "odom", 99 * S).translation[0] == 4.0
+
+
+def test_after_a_clear_older_data_is_welcome(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 100.0)
+    buffer.clear()
+    assert put("map", "odom", 1.0)
+
+
+def test_two_publishers_of_one_frame_are_told_from_a_restart(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.0, authority="amcl")
+    put("map", "odom", 1.1, authority="amcl again")
+    put("map", "odom", 1.2, authority="amcl again")
+    assert buffer.publishers["odom"].contested_ns is None
+    put("map", "odom", 1.3, authority="amcl")
+    assert buffer.publishers["odom"].contested_ns == 1_300_000_000
+    assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
+
+
+def test_two_static_publishers_quarrel_only_if_they_disagree(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("base", "laser", x=1.0, is_static=True, authority="first")
+    put("base", "laser", x=1.0, is_static=True, authority="second")
+    assert buffer.publishers["laser"].contested_ns is None
+    put("base", "laser", x=2.0, is_static=True, authority="first")
+    assert buffer.publishers["laser"].contested_ns is not None
+
+
+def test_the_structure_version_stands_while_only_poses_of_moving_frames_change(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.0)
+    put("odom", "base", is_static=True)
+    structure, version = buffer.structure_version, buffer.version
+    put("map", "odom", 2.0, 5.0)
+    put("odom", "base", is_static=True)
+    assert buffer.structure_version == structure
+    assert buffer.version > version
+    put("odom", "base", x=1.0, is_static=True)
+    assert buffer.structure_version > structure
+    structure = buffer.structure_version
+    put("world", "odom", 3.0)
+    assert buffer.structure_version > structure
+
+
+def test_frames_joined_by_static_transforms_share_a_rigid_root(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.0)
+    put("odom", "base", 1.0)
+    put("base", "laser", is_static=True)
+    put("laser", "beam", is_static=True)
+    roots = {frame: buffer.rigid_root(frame) for frame in (*buffer.frames(), "unknown")}
+    assert roots == {
+        "odom": "odom",
+        "map": "map",
+        "base": "base",
+        "laser": "base",
+        "beam": "base",
+        "unknown": "unknown",
+    }
+
+
+def test_a_loop_of_static_transforms_has_some_rigid_root(buffer: TransformBuffer, put: Put) -> None:
+    put("a", "b", is_static=True)
+    put("b", "a", is_static=True)
+    assert buffer.rigid_root("a") in ("a", "b")
+
+
+def test_nothing_is_known_of_a_frame_never_mentioned(buffer: TransformBuffer) -> None:
+    with pytest.raises(LookupException):
+        buffer.latest_common_time("a", "b")

@@ -1,0 +1,154 @@
+"""The state of the whole tree."""
+
+from collections.abc import Callable
+
+import pytest
+
+from webviz.transforms import FrameReport, TransformBuffer, diagnose, tree_text
+
+S = 1_000_000_000
+Put = Callable[..., bool]
+
+
+def report(buffer: TransformBuffer, frame: str, now_s: float = 0.0) -> FrameReport:
+    frames = diagnose(buffer, round(now_s * S)).frames
+    return next(found for found in frames if found.frame == frame)
+
+
+def test_a_moving_frame_is_reported_with_rate_age_and_history(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(21):
+        put("map", "odom", 10.0 + i / 20, authority="slam")
+    found = report(buffer, "odom", 11.1)
+    assert (found.parent, found.is_static, found.publishers) == ("map", False, ("slam",))
+    assert found.rate_hz == pytest.approx(20.0)
+    assert found.age_ns == 100_000_000
+    assert (found.samples, found.history_ns, found.newest_ns) == (21, S, 11 * S)
+    assert found.problems == ()
+
+
+def test_a_static_frame_has_neither_age_nor_rate(buffer: TransformBuffer, put: Put) -> None:
+    put("base", "laser", is_static=True)
+    found = report(buffer, "laser", 50.0)
+    assert (found.is_static, found.age_ns, found.rate_hz) == (True, None, 0.0)
+
+
+def test_the_delay_is_the_time_from_stamp_to_reception(buffer: TransformBuffer) -> None:
+    identity = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+    buffer.set_transform("map", "odom", S, *identity, received_ns=S + 5)
+    buffer.set_transform("odom", "base", S, *identity)
+    assert report(buffer, "odom").delay_ns == 5
+    assert report(buffer, "base").delay_ns is None
+
+
+def test_roots_of_unconnected_trees_are_a_problem(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 1.0)
+    assert diagnose(buffer).problems == []
+    put("world", "drone", 1.0)
+    diagnosis = diagnose(buffer)
+    assert diagnosis.roots == ("map", "world")
+    assert "roots map, world" in diagnosis.problems[0]
+
+
+def test_a_loop_is_reported_once(buffer: TransformBuffer, put: Put) -> None:
+    for parent, child in (("a", "b"), ("b", "c"), ("c", "a"), ("a", "tail")):
+        put(parent, child, 1.0)
+    diagnosis = diagnose(buffer)
+    assert diagnosis.loops == (("b", "a", "c", "b"),)
+    assert "b → a → c → b" in diagnosis.problems[0]
+    assert "(loop)" in tree_text(buffer)
+
+
+def test_a_link_that_stopped_is_a_problem_until_it_resumes(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(11):
+        put("map", "odom", 10.0 + i / 10)
+    assert (
+        "has stopped: its last transform is 4.0 s old" in report(buffer, "odom", 15.0).problems[0]
+    )
+    put("map", "odom", 15.0)
+    assert report(buffer, "odom", 15.0).problems == ()
+
+
+def test_a_slow_link_is_not_taken_for_a_stopped_one(buffer: TransformBuffer, put: Put) -> None:
+    for i in range(4):
+        put("map", "odom", 10.0 + 2 * i)
+    assert report(buffer, "odom", 17.9).problems == ()
+
+
+def test_two_publishers_with_different_parents_are_found_without_their_names(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(6):
+        put("map" if i % 2 else "world", "odom", 1.0 + i / 10)
+    problems = report(buffer, "odom").problems
+    assert any('between "map" and "world"' in problem for problem in problems)
+
+
+def test_one_change_of_parent_is_no_quarrel(buffer: TransformBuffer, put: Put) -> None:
+    for i in range(6):
+        put("map" if i < 3 else "world", "odom", 1.0 + i / 10)
+    assert report(buffer, "odom").problems == ()
+
+
+def test_two_publishers_of_the_same_stamps_are_found_without_their_names(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(4):
+        put("map", "odom", 1.0 + i, 0.0)
+        put("map", "odom", 1.0 + i, 5.0)
+    assert "same stamp" in report(buffer, "odom").problems[0]
+
+
+def test_two_publishers_are_named_while_they_quarrel(buffer: TransformBuffer, put: Put) -> None:
+    for i in range(6):
+        put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam_toolbox")[i % 2])
+    assert "amcl and slam_toolbox" in report(buffer, "odom").problems[0]
+    for i in range(30):
+        put("map", "odom", 2.0 + i, authority="slam_toolbox")
+    assert report(buffer, "odom").problems == ()
+
+
+def test_refused_transforms_are_counted_with_the_reason(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 100.0)
+    for _ in range(3):
+        put("map", "odom", 1.0)
+    problem = report(buffer, "odom", 100.0).problems[0]
+    assert problem.startswith('3 transforms of "odom" were refused')
+    assert "TF_OLD_DATA" in problem
+
+
+def test_a_cleared_frame_is_reported_as_silent(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 1.0)
+    buffer.clear()
+    found = report(buffer, "odom", 1.0)
+    assert (found.parent, found.samples) == ("", 0)
+    assert "since the transforms were cleared" in found.problems[0]
+
+
+def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(3):
+        put("map", "odom", 1.0 + i / 10, authority="slam")
+    put("odom", "base", 1.2)
+    put("base", "laser", is_static=True, authority="robot_state_publisher")
+    put("odom", "goal", 1.2)
+    put("world", "drone", 1.1)
+    assert tree_text(buffer, round(1.25 * S)).splitlines() == [
+        "map",
+        "└─ odom  [10.0 Hz, 50 ms old, from slam]",
+        "   ├─ base  [one sample, 50 ms old]",
+        "   │  └─ laser  [static, from robot_state_publisher]",
+        "   └─ goal  [one sample, 50 ms old]",
+        "world",
+        "└─ drone  [one sample, 150 ms old]",
+    ]
+
+
+def test_an_empty_buffer_has_an_empty_diagnosis(buffer: TransformBuffer) -> None:
+    diagnosis = diagnose(buffer)
+    assert (diagnosis.roots, diagnosis.frames, diagnosis.problems) == ((), (), [])
+    assert tree_text(buffer) == ""

@@ -1,0 +1,210 @@
+"""Why a frame has no pose: every reason in words and numbers, and what to do next."""
+
+from collections.abc import Callable
+
+import pytest
+
+from webviz.transforms import Explanation, Kind, TransformBuffer, explain
+from webviz.transforms.reasons import in_words
+
+S = 1_000_000_000
+Put = Callable[..., bool]
+
+
+def why(
+    buffer: TransformBuffer, frame: str, stamp_s: float, now_s: float = 0.0, fixed: str = "map"
+) -> Explanation:
+    return explain(buffer, fixed, frame, round(stamp_s * S), round(now_s * S))
+
+
+def test_an_available_transform_is_ok(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "laser", 1.0)
+    assert why(buffer, "laser", 1.0) == Explanation(Kind.AVAILABLE, "Transform OK")
+    assert why(buffer, "map", 99.0).kind == Kind.AVAILABLE
+
+
+def test_an_empty_frame_id_is_the_publishers_to_fill(buffer: TransformBuffer) -> None:
+    found = why(buffer, "", 1.0)
+    assert found.kind == Kind.EMPTY_FRAME
+    assert "header.frame_id" in found.sentence
+
+
+def test_a_leading_slash_is_named_with_the_right_spelling(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "laser", 1.0)
+    found = why(buffer, "/laser", 1.0)
+    assert found.kind == Kind.LEADING_SLASH
+    assert 'call it "laser"' in found.sentence
+    assert why(buffer, "laser", 1.0, fixed="/map").kind == Kind.LEADING_SLASH
+
+
+def test_without_any_transform_the_topics_are_named(buffer: TransformBuffer) -> None:
+    found = why(buffer, "laser", 1.0)
+    assert found.kind == Kind.NO_TRANSFORMS
+    assert "/tf" in found.sentence
+
+
+def test_a_frame_never_seen_comes_with_the_nearest_name(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "base_scan", 1.0)
+    found = why(buffer, "base_scann", 1.0)
+    assert found.kind == Kind.UNKNOWN_FRAME
+    assert '"base_scann" was never seen' in found.sentence
+    assert 'the nearest name is "base_scan"' in found.sentence
+    assert 'nearest name is "base_scan"' in why(buffer, "robot1/Base_Scan", 1.0).sentence
+    assert "known are base_scan, map" in why(buffer, "zzz", 1.0).sentence
+
+
+def test_a_fixed_frame_never_seen_comes_with_the_nearest_name(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "laser", 1.0)
+    found = why(buffer, "laser", 1.0, fixed="Map")
+    assert found.kind == Kind.UNKNOWN_FIXED_FRAME
+    assert 'nearest name is "map"' in found.sentence
+
+
+def test_two_trees_are_named_by_their_roots(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "landmark", 1.0)
+    put("odom", "base", 1.0)
+    put("base", "laser", is_static=True)
+    found = why(buffer, "laser", 1.0, fixed="landmark")
+    assert found.kind == Kind.NOT_CONNECTED
+    assert 'the root "odom", the other "map"' in found.sentence
+    assert "localisation" in found.sentence
+
+
+def test_a_loop_is_spelled_out(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "other", 1.0)
+    put("a", "b", 1.0)
+    put("b", "a", 1.0)
+    found = why(buffer, "a", 1.0)
+    assert found.kind == Kind.LOOP
+    assert "a → b → a" in found.sentence
+
+
+def test_a_stamp_ahead_names_the_link_that_lags_and_by_how_much(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for stamp in (10.0, 10.5):
+        put("map", "odom", stamp, authority="amcl")
+    for stamp in (10.0, 10.5, 10.58):
+        put("odom", "base", stamp)
+    found = why(buffer, "base", 10.583, 10.6)
+    assert found.kind == Kind.AHEAD
+    assert found.is_catching_up
+    assert found.lag_ns == 83_000_000
+    assert 'The stamp is 83 ms ahead of the newest transform "map" → "odom" (from amcl)' in (
+        found.sentence
+    )
+    assert "100 ms old" in found.sentence
+
+
+def test_a_link_that_stopped_is_told_from_one_that_is_late(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 10.0)
+    put("map", "odom", 11.0)
+    found = why(buffer, "odom", 23.0, 23.1)
+    assert found.kind == Kind.AHEAD
+    assert not found.is_catching_up
+    assert "which has stopped: its last is 12.1 s old" in found.sentence
+
+
+def test_a_stamp_in_the_future_blames_the_clock_of_the_data(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 10.0)
+    put("map", "odom", 11.0)
+    found = why(buffer, "odom", 15.0, 11.0)
+    assert found.kind == Kind.AHEAD
+    assert "4.0 s ahead of the present" in found.sentence
+
+
+def test_a_stamp_older_than_the_cache_says_by_how_much(buffer: TransformBuffer, put: Put) -> None:
+    for stamp in range(100, 111):
+        put("map", "odom", float(stamp))
+    found = why(buffer, "odom", 96.5, 110.0)
+    assert found.kind == Kind.BEHIND
+    assert "3.5 s older than the oldest transform kept" in found.sentence
+    assert "10.0 s are kept" in found.sentence
+
+
+def test_a_stamp_from_before_the_first_transform_will_pass(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 100.0)
+    put("map", "odom", 100.5)
+    found = why(buffer, "odom", 99.0, 100.5)
+    assert found.kind == Kind.BEHIND
+    assert "began only 500 ms ago" in found.sentence
+
+
+@pytest.mark.parametrize(("data_s", "tf_s"), [(12.0, 1.7e9), (1.7e9, 12.0)])
+def test_wall_time_against_simulated_time_is_recognised_either_way(
+    buffer: TransformBuffer, put: Put, data_s: float, tf_s: float
+) -> None:
+    put("map", "odom", tf_s)
+    put("map", "odom", tf_s + 1)
+    found = why(buffer, "odom", data_s)
+    assert found.kind == Kind.CLOCKS
+    assert "use_sim_time" in found.sentence
+    simulated, wall = found.sentence.split("the transform" if data_s < tf_s else "the data")
+    assert ("12.0 s" if data_s < tf_s else "13.0 s") in simulated
+    assert "1700000" in wall
+
+
+def test_clocks_hours_apart_are_told_as_such(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 1.7e9)
+    put("map", "odom", 1.7e9 + 1)
+    found = why(buffer, "odom", 1.7e9 + 18_001)
+    assert found.kind == Kind.CLOCKS
+    assert "5.0 hours apart" in found.sentence
+
+
+def test_a_jump_back_in_time_is_recognised_by_refused_transforms(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for stamp in (100.0, 105.0, 110.0):
+        put("map", "odom", stamp)
+    for stamp in (50.0, 50.1):
+        assert not put("map", "odom", stamp)
+    found = why(buffer, "odom", 50.1, 50.2)
+    assert found.kind == Kind.JUMPED_BACK
+    assert "59.9 s older" in found.sentence
+    assert "2 older transforms were refused" in found.sentence
+    assert "Reset" in found.sentence
+
+
+def test_a_single_sample_at_another_time_is_too_little(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 1.0)
+    put("odom", "base", 1.1)
+    found = explain(buffer, "map", "base", 0)
+    assert found.kind == Kind.NO_DATA
+    assert 'Only one transform "odom" → "base" has come' in found.sentence
+
+
+def test_after_a_clear_the_silent_link_is_named(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "odom", 1.0)
+    buffer.clear()
+    for stamp in (0.0, 1.0):
+        found = why(buffer, "odom", stamp)
+        assert found.kind == Kind.NO_DATA
+        assert '"odom" has come since the transforms were cleared' in found.sentence
+
+
+@pytest.mark.parametrize(
+    ("duration_ns", "text"),
+    [
+        (400_000, "0.4 ms"),
+        (83_000_000, "83 ms"),
+        (3_200_000_000, "3.2 s"),
+        (-3_200_000_000, "3.2 s"),
+        (600 * S, "10 min"),
+        (5 * 3600 * S, "5.0 hours"),
+        (72 * 3600 * S, "3 days"),
+        (54 * 365 * 86400 * S, "54 years"),
+    ],
+)
+def test_durations_are_told_in_the_unit_people_use(duration_ns: int, text: str) -> None:
+    assert in_words(duration_ns) == text
