@@ -91,16 +91,47 @@ class RobotModel(Display):
     )
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """Load what is new, and choose what to draw."""
-        description = self._description(samples, ctx)
+        """Properties or the description changed: `tick` loads and chooses anew."""
+        ctx.state["text"] = samples[-1].message.data if samples else None
+        ctx.state["said"] = None
+
+    def tick(self, ctx: Context) -> None:
+        """Place the parts; those of links without a transform turn grey and stay."""
+        if ctx.state["said"] is None or ctx.state["loading"]:
+            self._choose(ctx)
+            ctx.state["said"] = dict(ctx.statuses)
+        ctx.statuses.update(ctx.state["said"])
+        model: _Model | None = ctx.state.get("model")
+        if model is None:
+            return
+        latest = ctx.frames.latest
+        lost = [link for link, frame in model.frames.items() if latest(frame) is None]
+        if lost != model.lost:
+            gone = set(lost)
+            model.lost = lost
+            model.seen.update(frame for link, frame in model.frames.items() if link not in gone)
+            model.drawn = [
+                (part, model.paint(part.node, grey=True) if part.link in gone else part.node)
+                for part in model.parts
+                if model.frames[part.link] in model.seen
+            ]
+        for part, node in model.drawn:
+            frame = model.frames[part.link]
+            ctx.follow(frame, offset=part.pose, keep_last=True, key=part.key).add(part.key, node)
+        _report_lost(model, lost, ctx)
+
+    def _choose(self, ctx: Context) -> None:
+        """Load what is new, and choose what to draw of it."""
+        before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
+        description = self._description(ctx)
         if description is None:
-            ctx.state.clear()
+            ctx.state.pop("model", None)
             return
         try:
-            robot = _load(description, False, ctx)
-            full = _load(description, True, ctx) if self.collision_enabled else None
+            robot = _load(description, False, before, ctx)
+            full = _load(description, True, before, ctx) if self.collision_enabled else None
         except RobotDescriptionError as error:
-            ctx.state.clear()
+            ctx.state.pop("model", None)
             ctx.error("URDF", str(error))
             return
         if robot is None:
@@ -124,49 +155,29 @@ class RobotModel(Display):
         parts = parts_of(robot, full, choices, paint)
         ctx.state["model"] = _Model(frames, parts, paint, ctx.state.setdefault("seen", set()))
 
-    def tick(self, ctx: Context) -> None:
-        """Place the parts; those of links without a transform turn grey and stay."""
-        for loading in ctx.state.get("loading", {}).values():
-            ctx.warn("Loading", loading.text)
-        model: _Model | None = ctx.state.get("model")
-        if model is None:
-            return
-        latest = ctx.frames.latest
-        lost = [link for link, frame in model.frames.items() if latest(frame) is None]
-        if lost != model.lost:
-            gone = set(lost)
-            model.lost = lost
-            model.seen.update(frame for link, frame in model.frames.items() if link not in gone)
-            model.drawn = [
-                (part, model.paint(part.node, grey=True) if part.link in gone else part.node)
-                for part in model.parts
-                if model.frames[part.link] in model.seen
-            ]
-        for part, node in model.drawn:
-            frame = model.frames[part.link]
-            ctx.follow(frame, offset=part.pose, keep_last=True, key=part.key).add(part.key, node)
-        _report_lost(model, lost, ctx)
-
-    def _description(self, samples: Sequence[Sample], ctx: Context) -> Description | None:
+    def _description(self, ctx: Context) -> Description | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
             if self.description_file:
                 return describe_file(self.description_file, paths)
             ctx.warn("URDF", "No description file is chosen.")
             return None
-        if samples:
-            return Description(text=samples[-1].message.data, package_paths=paths)
+        if ctx.state["text"] is not None:
+            return Description(text=ctx.state["text"], package_paths=paths)
         ctx.warn("URDF", f"No robot description yet on {self.description_topic.name}.")
         return None
 
 
-def _load(description: Description, collisions: bool, ctx: Context) -> Robot | None:
-    """The robot, None while it is being loaded, which `tick` then reports."""
+def _load(
+    description: Description, collisions: bool, before: dict[object, Loading], ctx: Context
+) -> Robot | None:
+    """The robot, None while it is being loaded; `before` is what was being loaded so far."""
     key = (description, collisions)
-    loading: dict[object, Loading] = ctx.state.setdefault("loading", {})
-    robot = ctx.background(key, description.load, collisions, loading.setdefault(key, Loading()))
-    if robot is not None:
-        del loading[key]
+    loading = before.get(key) or Loading()
+    robot = ctx.background(key, description.load, collisions, loading)
+    if robot is None:
+        ctx.state["loading"][key] = loading
+        ctx.warn("Loading", loading.text)
     return robot
 
 

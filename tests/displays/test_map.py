@@ -115,6 +115,15 @@ def test_a_map_follows_its_frame(bench) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((2.0, 0.0, 0.0))
 
 
+def test_a_map_is_placed_at_the_time_of_now_and_not_of_the_newest_transform(bench) -> None:
+    at = bench(Map(), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    at.transform("odom", "map", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 10**9)
+    send_map(at, [[0]])
+    at.turn(0.5)
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.5, 0.0, 0.0))
+
+
 def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench) -> None:
     at = bench(Map(use_timestamp=True), fixed_frame="odom")
     at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)

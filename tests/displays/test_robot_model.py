@@ -194,6 +194,15 @@ def test_collision_shapes_are_read_only_when_they_are_wanted(bench) -> None:
     assert at.statuses()["Shapes"][0] == "WARN"
 
 
+def test_collision_shapes_that_are_no_longer_wanted_are_no_longer_waited_for(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    at.set("collision_enabled", True)
+    at.set("collision_enabled", False)
+    assert "Loading" not in at.statuses()
+
+
 def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None:
     at = bench(RobotModel(collision_enabled=True), fixed_frame="base")
     at.transform("base", "other")
