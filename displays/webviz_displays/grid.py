@@ -39,7 +39,13 @@ class Grid(Display):
     ] = "Lines"
     line_width: Annotated[
         float,
-        Prop(gt=0, unit="m", when=("line_style", "Billboards"), help="Width of the lines."),
+        Prop(
+            gt=0,
+            unit="m",
+            rviz="Line Style/Line Width",
+            when=("line_style", "Billboards"),
+            help="Width of the lines.",
+        ),
     ] = 0.03
     color: Annotated[Color, Prop(help="Colour of the lines.")] = (160, 160, 164)
     alpha: Annotated[

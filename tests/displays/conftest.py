@@ -110,10 +110,14 @@ class Bench:
             stamp_ns: of its header; None is now.
             topic: full name; the display's only one if it is not given.
         """
-        topic = topic or inputs(self.display)[0][2].name
         if frame is not None:
             values = {**values, "header": header(frame, stamp_ns or self.now_ns)}
         cdr = bytes(STORE.serialize_cdr(message(type_name, values), type_name))
+        self.send_bytes(type_name, cdr, topic)
+
+    def send_bytes(self, type_name: str, cdr: bytes, topic: str = "") -> None:
+        """Publish a message as it is in a bag."""
+        topic = topic or inputs(self.display)[0][2].name
         publisher = Publisher("/test", type_name, "reliable", "volatile")
         self._offers[topic] = Offer((publisher,), ("reliable", "volatile"))
         self._batches.setdefault(topic, []).append(Raw(cdr, self.now_ns))
