@@ -133,7 +133,7 @@ class Viewer:
         if self._scene.has_watchers():
             for runner in runners:
                 runner.draw(frames)
-            self._scene.flush()
+            self._flush()
         self._source.want(self._wanted())
         if commanded or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
@@ -220,6 +220,14 @@ class Viewer:
 
     def _runners(self) -> list[Runner]:
         return [entry for entry in self._entries if isinstance(entry, Runner)]
+
+    def _flush(self) -> None:
+        try:
+            self._scene.flush()
+        except Exception:  # a display made a malformed node; the scene has dropped it
+            if self._services.strict:
+                raise
+            log.exception("Something could not be drawn")
 
     def _take_transforms(self, cdr: bytes, is_static: bool) -> None:
         topic = "/tf_static" if is_static else "/tf"

@@ -132,6 +132,8 @@ class Resolver:
                     yield folder
                 if (folder / package / "package.xml").is_file():
                     yield folder / package
+        if package == __package__:  # the demo robot, wherever webviz is installed
+            yield Path(__file__).parent
 
     @cached_property
     def _packages_below_roots(self) -> dict[str, list[Path]]:

@@ -88,8 +88,9 @@ class Intake:
                 arrivals.append(arrival)
                 continue
             self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns)
-        arrivals += self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
-        if arrivals:
+        placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
+        arrivals += placed
+        if placed:
             self._placed_at, self._waiting_since = clock, None
         elif self._waiting_since is None and self._filter.is_stuck:
             self._waiting_since = clock

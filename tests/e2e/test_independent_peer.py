@@ -1,0 +1,95 @@
+"""Somebody else's DDS stack drives the viewer: Eclipse Cyclone DDS, without ROS."""
+
+from __future__ import annotations
+
+import os
+import random
+import subprocess
+import sys
+import venv
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from page import Page
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+ROOT = Path(__file__).parents[2]
+PEER = ROOT.parent / "shared" / "tools" / "cyclone_peer.py"
+CONFIG = """\
+fixed_frame: map
+view: {distance: 16.0, yaw: -1.570796, pitch: 1.5697}
+displays:
+- {type: Map, alpha: 1.0}
+- {type: LaserScan, size: 0.1, color_transformer: FlatColor, color: [255, 0, 255]}
+- {type: Path, line_style: Billboards, line_width: 0.2, color: [255, 255, 0]}
+- {type: TF}
+- {type: Odometry}
+"""
+
+
+@pytest.fixture(scope="module")
+def peer_python() -> str:
+    """A Python with Cyclone DDS and nothing of ours."""
+    if not PEER.exists():
+        pytest.skip("the independent peer is not here: ../shared/tools/cyclone_peer.py")
+    folder = ROOT / ".venv-peer"
+    python = folder / "bin" / "python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+    installed = subprocess.run([python, "-c", "import cyclonedds"], capture_output=True)
+    if installed.returncode:
+        command = [python, "-m", "pip", "install", "--quiet", "cyclonedds==11.0.1"]
+        if subprocess.run(command).returncode:
+            pytest.skip("cyclonedds could not be installed")
+    return str(python)
+
+
+@pytest.fixture
+def domain() -> str:
+    return str(random.SystemRandom().randrange(60, 100))
+
+
+@pytest.fixture
+def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
+    # The wheels of rclpy mark the environment of child processes, which are not theirs here.
+    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
+    command = [peer_python, str(PEER), "pub", "all", "--seconds", "120", "--domain", domain]
+    program = Program(command, env, tmp_path / "peer.txt")
+    yield program
+    program.end()
+
+
+@pytest.fixture
+def url(domain: str, tmp_path: Path) -> Iterator[str]:
+    config = tmp_path / "peer.yaml"
+    config.write_text(CONFIG)
+    env = {**os.environ, "ROS_DOMAIN_ID": domain, "PYTHONUNBUFFERED": "1"}
+    # With this, rclpy announces itself to other processes in a way that only Fast DDS looks for.
+    env.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
+    command = [sys.executable, "-m", "webviz", "-d", str(config), "--port", "0"]
+    program = Program(command, env, tmp_path / "viewer.txt")
+    yield program.url()
+    assert program.end() == 0, program.output()
+
+
+def count(page: Page, rgb: tuple[int, int, int]) -> int:
+    """Pixels of about one colour."""
+    page.draw()
+    return int((np.abs(page.pixels().astype(int) - rgb).max(axis=2) < 40).sum())
+
+
+def test_it_sees_everything_the_peer_publishes(
+    peer: Program, url: str, open_page: Callable[..., Page]
+) -> None:
+    page = open_page(url)
+    page.wait_for(lambda: count(page, (255, 0, 255)) > 300, "the scan", 60)
+    page.wait_for(lambda: count(page, (255, 255, 0)) > 100, "the path")
+    page.wait_for(lambda: count(page, (255, 255, 255)) > 10_000, "the map")
+    for name in ("TF", "Odometry", "LaserScan"):
+        page.tab.get_by_role("button", name=name).first.click()
+        page.wait_for(lambda: "✖" not in page.text(), f"no error on {name}")
+    page.wait_for(lambda: "from a DDS program (best effort, volatile)" in page.text(), "its name")
