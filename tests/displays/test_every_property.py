@@ -282,22 +282,6 @@ def test_every_display_is_tried() -> None:
     assert {cls.__name__ for cls in display_classes()} == SCENES.keys()
 
 
-@pytest.mark.parametrize("cls", display_classes())
-def test_every_property_is_documented(cls: type[Display]) -> None:
-    def check(struct: type[msgspec.Struct]) -> None:
-        for name, hint in get_type_hints(struct, include_extras=True).items():
-            if name not in struct.__struct_fields__:
-                continue
-            metas = [m for m in getattr(hint, "__metadata__", ()) if isinstance(m, msgspec.Meta)]
-            assert any(meta.description for meta in metas), f"{struct.__name__}.{name}"
-            if is_group(hint) and get_args(hint)[0] is not Topic:
-                check(get_args(hint)[0])
-
-    check(cls)
-    assert cls.__doc__
-    assert cls.rviz.startswith("rviz_default_plugins/")
-
-
 @pytest.mark.parametrize(
     ("name", "path", "status"),
     [

@@ -68,7 +68,7 @@ def test_the_scans_lie_on_the_walls_of_the_map(bench: Benches) -> None:
     assert len(points) > 50
     hits = np.concatenate(points)
     assert share_on_walls(hits) > 0.85
-    assert share_on_walls(hits + (0.3, 0.3)) < 0.6  # the measure can tell
+    assert share_on_walls(hits + np.array((0.3, 0.3))) < 0.6  # the measure can tell
 
 
 def share_on_walls(hits: NDArray[np.float64]) -> float:
