@@ -163,7 +163,8 @@ def _ros_source(ros: Sequence[str]):
     try:
         return RosSource(ros)
     except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
-        raise UserError(f"ROS did not start: {' '.join(str(error).split())}") from error
+        reason = " ".join(str(error).split()).partition(", at /")[0]
+        raise UserError(f"ROS did not start: {reason}.") from error
 
 
 @contextlib.contextmanager

