@@ -116,7 +116,7 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         """How much history to hold; every held sample stays drawn."""
         return Keep()
 
@@ -128,8 +128,15 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         """
         return True
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
-        """Whether a new sample joins the kept ones (oldest first)."""
+    def duration_ns(self, message: Any) -> int:
+        """How long after its stamp a message goes on; transforms up to there are waited for.
+
+        A message is decoded only when it is drawn, so this tells how long the next one waits.
+        """
+        return 0
+
+    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+        """Whether a new sample joins the kept ones (oldest first); text says what is wrong with it."""
         return True
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
@@ -204,11 +211,18 @@ def set_property(display: Display, path: str, value: Any) -> None:
     head, _, rest = path.partition(".")
     if head not in display.__struct_fields__:
         raise AttributeError(f"{type(display).__name__} has no property {head!r}")
-    current = getattr(display, head)
-    for part in reversed(rest.split(".") if rest else []):
-        value = {part: value}
-    checked = make(type(display), {head: _merge(current, value)})
+    whole = _replaced(getattr(display, head), rest.split(".") if rest else [], value)
+    checked = make(type(display), {head: whole})
     setattr(display, head, getattr(checked, head))
+
+
+def _replaced(current: Any, path: list[str], value: Any) -> Any:
+    """`current` as plain values, with what lies at a path replaced."""
+    plain = msgspec.to_builtins(current)
+    if not path:
+        return _merge(current, value)
+    inner = plain if isinstance(plain, dict) else {}
+    return {**inner, path[0]: _replaced(inner.get(path[0]), path[1:], value)}
 
 
 def _merge(default: Any, value: Any) -> Any:

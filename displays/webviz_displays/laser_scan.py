@@ -144,7 +144,7 @@ class LaserScan(Display):
         ),
     ] = True
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         """Scans that came within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
 

@@ -35,15 +35,15 @@ class Odometry(Display):
     angle_tolerance: Annotated[
         float, Prop(ge=0, unit="rad", help="or turned at least so much, since the last one.")
     ] = 0.1
-    keep_count: Annotated[
-        int, Prop(ge=0, rviz="Keep", help="How many of the newest poses stay; 0 is all.")
+    keep: Annotated[
+        int, Prop(ge=0, help="How many of the newest poses stay; 0 is all.")
     ] = 100
     shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
     covariance: Annotated[Covariance, Prop(help="How to draw uncertainty.")] = Covariance()
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         """The newest poses that were accepted."""
-        return Keep(count=self.keep_count)
+        return Keep(count=self.keep)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
         """Whether the robot moved by one of the tolerances.

@@ -79,7 +79,7 @@ class Path(Display):
         float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the heads.")
     ] = 0.3
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         """The newest paths."""
         return Keep(count=self.buffer_length)
 

@@ -139,7 +139,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
 OF_THE_FUTURE = {
     ("LaserScan", "decay_time"),
     ("Odometry", "angle_tolerance"),
-    ("Odometry", "keep_count"),
+    ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
     ("Path", "buffer_length"),
     ("TF", "update_interval"),

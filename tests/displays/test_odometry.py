@@ -106,19 +106,19 @@ def test_without_tolerances_every_pose_is_added(shown: Benches) -> None:
 
 
 def test_the_newest_poses_stay(shown: Benches) -> None:
-    bench = shown(*map(odometry, range(6)), keep_count=3)
+    bench = shown(*map(odometry, range(6)), keep=3)
     assert [y for _, y, _ in tails(bench)] == [3, 4, 5]
-    bench.set("keep_count", 1)
+    bench.set("keep", 1)
     assert [y for _, y, _ in tails(bench)] == [5]
 
 
 def test_keep_0_keeps_all(shown: Benches) -> None:
-    assert len(tails(shown(*map(odometry, range(150)), keep_count=0))) == 150
+    assert len(tails(shown(*map(odometry, range(150)), keep=0))) == 150
 
 
 def test_a_long_trail_is_one_node(shown: Benches) -> None:
     off = Covariance(value=False)
-    bench = shown(*map(odometry, range(2000)), keep_count=0, covariance=off)
+    bench = shown(*map(odometry, range(2000)), keep=0, covariance=off)
     assert {key: len(node.segments) for key, node in bench.nodes().items()} == {"poses": 2000}
 
 
@@ -166,7 +166,7 @@ def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -
 
 def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None:
     count = MOST_COVARIANCES + 20
-    bench = shown(*map(odometry, range(count)), keep_count=0)
+    bench = shown(*map(odometry, range(count)), keep=0)
     assert len(tails(bench)) == count
     assert len(bench.nodes()["orientation covariance"].faces) == MOST_COVARIANCES
     assert bench.statuses()["Covariance"][1].endswith(f"{MOST_COVARIANCES} of {count} covariances.")

@@ -80,7 +80,7 @@ def share_on_walls(hits: NDArray[np.float64]) -> float:
 
 
 def test_odometry_and_its_covariances_are_drawn_without_complaint(bench: Benches) -> None:
-    made = bench(Odometry(keep_count=0), fixed_frame="odom")
+    made = bench(Odometry(keep=0), fixed_frame="odom")
     load_transforms(made)
     for _, type_name, time_ns, data in messages("/odom"):
         made.now_ns = time_ns

@@ -24,7 +24,7 @@ class Dot(Display):
     count: Annotated[int, Prop(ge=0)] = 1
     seconds: Annotated[float, Prop(ge=0)] = 0.0
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         return Keep(self.count, self.seconds)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -40,7 +40,7 @@ class Trail(Display):
 
     topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
 
-    def keep(self) -> Keep:
+    def history(self) -> Keep:
         return Keep(0)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:

@@ -39,6 +39,7 @@ class Tasks:
         self._workers = workers
         self._futures: dict[object, Future[Any]] = {}
         self._asked: set[object] = set()
+        self._unanswered: set[object] = set()
 
     def __call__(self, key: object, fn: Callable[..., Any], *args: Any) -> Any:
         """The result of `fn(*args)`, None while it is not there.
@@ -55,14 +56,19 @@ class Tasks:
         if key not in self._futures:
             self._futures[key] = self._workers.submit(fn, *args)
         future = self._futures[key]
-        return future.result() if future.done() else None
+        if not future.done():
+            self._unanswered.add(key)
+            return None
+        self._unanswered.discard(key)
+        return future.result()
 
-    def pending(self) -> set[object]:
-        """The work that is under way."""
-        return {key for key, future in self._futures.items() if not future.done()}
+    def has_news(self) -> bool:
+        """Whether work is done that was asked for in vain before."""
+        return any(self._futures[key].done() for key in self._unanswered)
 
     def forget_unasked(self) -> None:
         """Drop what was not asked for since the last call."""
         for key in self._futures.keys() - self._asked:
             self._futures.pop(key).cancel()
+            self._unanswered.discard(key)
         self._asked.clear()

@@ -47,6 +47,7 @@ class Intake:
         self._last: Raw | None = None
         self._times: deque[float] = deque(maxlen=50)
         self._fault = ""
+        self.duration_ns = 0
         self._placed_at = 0.0
         self._waiting_since: float | None = None
 
@@ -87,7 +88,9 @@ class Intake:
             if not waits:
                 arrivals.append(arrival)
                 continue
-            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns)
+            self._filter.add(
+                arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns
+            )
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:

@@ -58,7 +58,6 @@ class Runner:
         self._services = services
         self._drawing = Drawing(services.scene, id)
         self._tasks = Tasks(services.workers)
-        self._pending: set[object] = set()
         self._state: dict[str, Any] = {}
         self._statuses: dict[str, dict[str, Status]] = {}
         self._crashes: dict[str, str] = {}
@@ -121,17 +120,19 @@ class Runner:
             return
         clock = self._services.clock()
         primary = next(iter(self._intakes), "")
+        counting: list[tuple[str, Intake, Arrival]] = []
         for name, intake in self._intakes.items():
             raws = batches.get(intake.name, ())
             waits = self.display.waits(name)
             arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
             if not arrivals:
                 continue
-            if self._every_message_counts or self._keep() != Keep():
-                for arrival in arrivals:
-                    self._let_in(name, intake, arrival, frames)
+            if self._every_message_counts or self.display.history() != Keep():
+                counting += [(name, intake, arrival) for arrival in arrivals]
             elif name == primary:
                 self._newest = arrivals[-1]
+        for name, intake, arrival in sorted(counting, key=lambda item: item[2].raw.received_ns):
+            self._let_in(name, intake, arrival, frames)
 
     def draw(self, frames: Frames) -> None:
         """Bring the scene up to date."""
@@ -147,11 +148,10 @@ class Runner:
                 self._history.move(frames, self._fixed_frame, timed)
             self._fixed_frame = frames.fixed_frame
             self._is_stale = True
-        self._history.trim(self._keep(), frames.now_ns)
-        if self._pending - self._tasks.pending():
-            self._is_stale = True  # slow work is done
+        self._history.trim(self.display.history(), frames.now_ns)
+        if self._tasks.has_news():
+            self._is_stale = True
         self._redraw(frames)
-        self._pending = self._tasks.pending()
         self._drawing.move(frames)
 
     def statuses(
@@ -195,9 +195,6 @@ class Runner:
             result[name] = Intake(spec, topic, full, problem)
         return result
 
-    def _keep(self) -> Keep:
-        return self.display.keep()
-
     def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
         """Decode a message and hold it, if the display wants it."""
         if not arrival.frame:
@@ -214,13 +211,19 @@ class Runner:
             intake.refuse(str(error))
             return
         intake.accepted()
+        duration_ns = self._guard("duration", self.display.duration_ns, message)
+        intake.duration_ns = duration_ns if isinstance(duration_ns, int) else 0
         sample = Sample(
             message, arrival.frame, arrival.stamp_ns, arrival.raw.received_ns, arrival.number, pose
         )
         if overrides(self.display, "fold"):
             self._fold(name, sample)
-        elif self._guard("accept", self.display.accept, sample, self._history.samples()) is True:
-            self._history.add(sample, self._keep())
+            return
+        verdict = self._guard("accept", self.display.accept, sample, self._history.samples())
+        if isinstance(verdict, str):
+            intake.refuse(verdict)
+        elif verdict is True:
+            self._history.add(sample, self.display.history())
 
     def _fold(self, name: str, sample: Sample) -> None:
         folded = self._guard("fold", self.display.fold, name, sample, self._folded)
@@ -236,7 +239,7 @@ class Runner:
                 sample.number,
                 sample.pose,
             ),
-            self._keep(),
+            self.display.history(),
         )
 
     def _redraw(self, frames: Frames) -> None:
@@ -253,6 +256,8 @@ class Runner:
             self._call("all", display.draw_all, frames, self._history.samples())
         if overrides(display, "tick"):
             self._call("tick", display.tick, frames)
+        if not samples:
+            self._statuses.pop("sample", None)
         if changed:
             self._drawn = {slot: held.sample for slot, held in samples.items()}
             self._tasks.forget_unasked()
