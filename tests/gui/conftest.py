@@ -103,7 +103,7 @@ class Tab:
         self.errors: list[str] = []
         self.frames_received = 0
         page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("dialog", lambda dialog: self.errors.append(dialog.message))
+        page.on("dialog", self._dismiss)
         page.on("websocket", lambda socket: socket.on("framereceived", self._count))
         # viser ignores the edits of a browser that has not told its camera yet.
         known = len(server.get_clients())
@@ -140,6 +140,10 @@ class Tab:
                 return
             self.page.wait_for_timeout(20)
         raise AssertionError("timed out")
+
+    def _dismiss(self, dialog: playwright.Dialog) -> None:
+        self.errors.append(f"a script ran: {dialog.message}")
+        dialog.dismiss()
 
     def _count(self, _: object) -> None:
         self.frames_received += 1

@@ -226,10 +226,11 @@ def test_a_removed_display_leaves_its_neighbour_selected(
 def test_displays_are_listed_in_the_order_of_the_viewer(
     loop: Any, tab: Any, make_row: MakeRow
 ) -> None:
-    a, b, c = make_row("a"), make_row("b"), make_row("c")
+    a, b, c = make_row("a"), make_row("b"), make_row("c", enabled=False)
     loop.show(a, b)
     loop.show(c, b, a)
     tab.wait_for(lambda: tab.names() == ["c", "b", "a"])
+    assert [box.is_checked() for box in tab.boxes().all()] == [False, True, True]
 
 
 def test_an_added_display_of_the_chosen_type_is_selected(
