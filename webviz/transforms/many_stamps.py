@@ -40,7 +40,7 @@ def lookup_many(
     order = None
     ascending = stamps_ns
     if (np.diff(stamps_ns) < 0).any():
-        order = np.argsort(stamps_ns, kind="stable")
+        order = np.argsort(stamps_ns)
         ascending = stamps_ns[order]
     poses = np.full((7, len(stamps_ns)), np.nan)
     histories = _Histories(tree, ascending)
@@ -68,7 +68,8 @@ class _History:
         low = max(bisect_left(stamps, first_ns) - 1, 0)
         part = slice(low, bisect_right(stamps, last_ns) + 1)
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
-        self.stamps = np.array(stamps[part], np.int64)
+        self._known = stamps[part]
+        self.stamps = np.array(self._known, np.int64)
         samples = cache.samples[part]
         parents = [parent for _, parent in samples]
         self.parent: str | None = parents[0] if parents.count(parents[0]) == len(parents) else None
@@ -89,8 +90,8 @@ class _History:
             Poses (7, n), and the parent or parents.
         """
         # How many of the times fall to each sample: those from its stamp up to the next one's.
-        low = max(int(np.searchsorted(self.stamps, times[0])) - 1, 0)
-        part = slice(low, int(np.searchsorted(self.stamps, times[-1], side="right")))
+        low = max(bisect_left(self._known, int(times[0])) - 1, 0)
+        part = slice(low, bisect_right(self._known, int(times[-1]), low))
         stamps = self.stamps[part]
         first = np.searchsorted(times, stamps)
         if self.oldest_ns != self.newest_ns and times[0] == self.oldest_ns:

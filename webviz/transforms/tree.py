@@ -95,7 +95,7 @@ class FrameTree:
         raise unconnected(target, source)
 
     def resolve(self, target: str, source: str, stamp_ns: int) -> tuple[Pose, int]:
-        """The pose of `source` in `target`, and the time it holds for (never 0 if data has time).
+        """The pose of `source` in `target`, and the time it holds for: 0 if all links are static.
 
         The walk from the source stops at the first link without data; it fails only if the walk
         from the target does not arrive there. So frames below a stale common parent still resolve.
