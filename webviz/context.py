@@ -45,10 +45,13 @@ class Group:
     def __init__(self, placement: Placement) -> None:
         self.placement = placement
         self.nodes: dict[str, Node] = {}
+        self.poses: dict[str, Pose] = {}
 
-    def add(self, key: str, node: Node) -> None:
-        """Draw a ready-made node, in the coordinates of the group."""
+    def add(self, key: str, node: Node, pose: Pose | None = None) -> None:
+        """Draw a ready-made node, at a pose in the coordinates of the group."""
         self.nodes[key] = node
+        if pose is not None:
+            self.poses[key] = pose
 
     def points(
         self,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,8 +45,33 @@ class Frames:
         self.buffer = buffer
         self.fixed_frame = fixed_frame
         self.now_ns = now_ns
+        self._version = buffer.version
         self._poses: dict[tuple[str, int], Pose | None] = {}
         self._all: FramePoses | None = None
+
+    def next(self, fixed_frame: str, now_ns: int) -> Frames:
+        """The frames of the next tick; what no transform changed is not computed again."""
+        frames = Frames(self.buffer, fixed_frame, now_ns)
+        if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
+            frames._all = self._all
+            frames._poses = {key: pose for key, pose in self._poses.items() if key[1] == 0}
+        return frames
+
+    def prepare(self, names: Iterable[str]) -> None:
+        """Compute the latest poses of many frames in one pass, before they are asked for singly."""
+        missing = [name for name in names if (name, 0) not in self._poses]
+        if not missing:
+            return
+        poses = self.buffer.poses_in(self.fixed_frame, missing)
+        rows = zip(
+            missing,
+            poses.translations.tolist(),
+            poses.rotations.tolist(),
+            poses.ok.tolist(),
+            strict=True,
+        )
+        for name, translation, (x, y, z, w), ok in rows:
+            self._poses[name, 0] = Pose(tuple(translation), (w, x, y, z)) if ok else None
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
         """Pose of a frame at a stamp (0: the latest common time), None if there is none."""

@@ -35,9 +35,7 @@ class Odometry(Display):
     angle_tolerance: Annotated[
         float, Prop(ge=0, unit="rad", help="or turned at least so much, since the last one.")
     ] = 0.1
-    keep: Annotated[
-        int, Prop(ge=0, help="How many of the newest poses stay; 0 is all.")
-    ] = 100
+    keep: Annotated[int, Prop(ge=0, help="How many of the newest poses stay; 0 is all.")] = 100
     shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
     covariance: Annotated[Covariance, Prop(help="How to draw uncertainty.")] = Covariance()
 

@@ -117,7 +117,7 @@ class RobotModel(Display):
             ]
         for part, node in model.drawn:
             frame = model.frames[part.link]
-            ctx.follow(frame, offset=part.pose, keep_last=True, key=part.key).add(part.key, node)
+            ctx.follow(frame, keep_last=True).add(part.key, node, part.pose)
         _report_lost(model, lost, ctx)
 
     def _choose(self, ctx: Context) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any
@@ -10,12 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from rosbags.interfaces import Nodetype
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from recording import RecordingScene
+from ros_messages import SECOND, header, serialized
 
 from webviz import Display, Frames, Pose, Status
 from webviz.display import inputs
-from webviz.messages.definitions import DEFINITIONS
 from webviz.nodes import Node
 from webviz.pipeline.background import Workers
 from webviz.pipeline.runner import Runner, Services
@@ -23,42 +21,11 @@ from webviz.sources import Offer, Publisher, Raw
 from webviz.transforms import TransformBuffer
 from webviz_displays.geometry import transformed
 
-SECOND = 1_000_000_000
 START = 100 * SECOND
 """ROS time at which every bench begins."""
 
-STORE = get_typestore(Stores.ROS2_JAZZY)
-for _name, _text in DEFINITIONS.items():
-    STORE.register(get_types_from_msg(_text, _name))
-
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-
-
-class RecordingScene:
-    """Remembers what is drawn; `webviz.scene.Scene` would send it to browsers."""
-
-    def __init__(self) -> None:
-        self.poses: dict[str, Pose] = {}
-        self.hidden: set[str] = set()
-        self.groups: dict[str, dict[str, Node]] = {}
-
-    def set_pose(self, group: str, pose: Pose) -> None:
-        self.poses[group] = pose
-
-    def set_visible(self, group: str, visible: bool) -> None:
-        (self.hidden.discard if visible else self.hidden.add)(group)
-
-    def upsert(self, group: str, key: str, node: Node) -> None:
-        self.groups.setdefault(group, {})[key] = node
-
-    def remove(self, group: str, key: str) -> None:
-        self.groups.get(group, {}).pop(key, None)
-
-    def remove_group(self, group: str) -> None:
-        self.poses.pop(group, None)
-        self.hidden.discard(group)
-        self.groups.pop(group, None)
 
 
 class Bench:
@@ -112,8 +79,7 @@ class Bench:
         """
         if frame is not None:
             values = {**values, "header": header(frame, stamp_ns or self.now_ns)}
-        cdr = bytes(STORE.serialize_cdr(message(type_name, values), type_name))
-        self.send_bytes(type_name, cdr, topic)
+        self.send_bytes(type_name, serialized(type_name, values), topic)
 
     def send_bytes(self, type_name: str, cdr: bytes, topic: str = "") -> None:
         """Publish a message as it is in a bag."""
@@ -137,15 +103,15 @@ class Bench:
 
     def nodes(self) -> dict[str, Node]:
         """What can be seen, by key; keys used in several groups get a number."""
-        return {key: node for key, (_, node) in self._visible()}
+        return {key: node for key, _, node in self.scene.visible()}
 
     def poses(self) -> dict[str, Pose]:
         """Where in the fixed frame each of `nodes` is."""
-        return {key: pose for key, (pose, _) in self._visible()}
+        return {key: pose for key, pose, _ in self.scene.visible()}
 
     def xyz(self, key: str) -> NDArray[np.float64]:
         """Positions, vertices or segments of a node in the fixed frame, wherever its group is."""
-        pose, node = next(item for name, item in self._visible() if name == key)
+        pose, node = next((p, n) for name, p, n in self.scene.visible() if name == key)
         local = np.asarray(getattr(node, fields(node)[0].name), dtype=np.float64)
         return transformed(pose, local.reshape(-1, 3)).reshape(local.shape)
 
@@ -156,44 +122,6 @@ class Bench:
     def _statuses(self) -> dict[str, Status]:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
         return self.runner.statuses(self._offers, frames, lambda topic: 0)
-
-    def _visible(self) -> Iterator[tuple[str, tuple[Pose, Node]]]:
-        numbers: dict[str, Iterator[int]] = {}
-        for group, nodes in self.scene.groups.items():
-            if group in self.scene.hidden:
-                continue
-            for key, node in nodes.items():
-                number = next(numbers.setdefault(key, itertools.count()))
-                pose = self.scene.poses.get(group, Pose())
-                yield (f"{key} {number}" if number else key), (pose, node)
-
-
-def message(type_name: str, values: Mapping[str, Any]) -> Any:
-    """A rosbags message from nested mappings."""
-    fields = STORE.fielddefs[type_name][1]
-    assert values.keys() <= {name for name, _ in fields}, f"{type_name} has no such field"
-    return STORE.types[type_name](
-        **{name: _value(description, values.get(name)) for name, description in fields}
-    )
-
-
-def _value(description: Any, value: Any) -> Any:
-    kind, detail = description
-    if kind == Nodetype.NAME:
-        return message(detail, value or {})
-    if kind == Nodetype.BASE:
-        return ("" if detail[0] == "string" else 0) if value is None else value
-    element, length = detail
-    if element[0] == Nodetype.NAME or element[1][0] == "string":
-        return [_value(element, item) for item in value or ()]
-    dtype = {"byte": "uint8", "char": "uint8"}.get(element[1][0], element[1][0])
-    return np.asarray(np.zeros(length or 0) if value is None else value, dtype)
-
-
-def header(frame: str, stamp_ns: int) -> dict[str, Any]:
-    """A std_msgs/Header as nested mappings."""
-    sec, nanosec = divmod(stamp_ns, SECOND)
-    return {"frame_id": frame, "stamp": {"sec": sec, "nanosec": nanosec}}
 
 
 @pytest.fixture

@@ -6,63 +6,15 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
 import pytest
-from rosbags.typesys import Stores, get_typestore
+from recording import RecordingScene
+from ros_messages import SECOND, header, serialized
 
 from webviz.config import Config, Settings
 from webviz.display import Display
-from webviz.nodes import Node, Pose
 from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
 from webviz.state import State
 from webviz.viewer import Viewer
-
-STORE = get_typestore(Stores.ROS2_JAZZY)
-SECOND = 1_000_000_000
-
-
-@dataclass
-class RecordingScene:
-    """Remembers what is drawn, as a browser would show it."""
-
-    nodes: dict[str, dict[str, Node]] = field(default_factory=dict)
-    poses: dict[str, Pose] = field(default_factory=dict)
-    hidden: set[str] = field(default_factory=set)
-    watched: bool = True
-    upserts: int = 0
-
-    def set_pose(self, group: str, pose: Pose) -> None:
-        self.poses[group] = pose
-
-    def set_visible(self, group: str, visible: bool) -> None:
-        (self.hidden.discard if visible else self.hidden.add)(group)
-
-    def upsert(self, group: str, key: str, node: Node) -> None:
-        self.nodes.setdefault(group, {})[key] = node
-        self.upserts += 1
-
-    def remove(self, group: str, key: str) -> None:
-        self.nodes.get(group, {}).pop(key, None)
-
-    def remove_group(self, group: str) -> None:
-        for table in (self.nodes, self.poses):
-            table.pop(group, None)
-        self.hidden.discard(group)
-
-    def flush(self) -> None:
-        pass
-
-    def has_watchers(self) -> bool:
-        return self.watched
-
-    def visible(self) -> dict[str, Node]:
-        """Every node that can be seen, by group and key."""
-        return {
-            f"{group}:{key}": node
-            for group, nodes in self.nodes.items()
-            if group not in self.hidden
-            for key, node in nodes.items()
-        }
 
 
 @dataclass
@@ -96,32 +48,6 @@ class HandFedSource:
         pass
 
 
-def message(type_name: str, values: Mapping[str, Any]) -> Any:
-    """A rosbags message from nested mappings; what is left out is zero or empty."""
-    cls = STORE.types[type_name]
-    _, fields = STORE.fielddefs[type_name]
-    return cls(**{name: _value(spec, values.get(name)) for name, spec in fields})
-
-
-def _value(spec: Any, value: Any) -> Any:
-    kind, detail = spec[0].name, spec[1]
-    if kind == "NAME":
-        return message(detail, value or {})
-    if kind == "BASE":
-        base = detail[0]
-        return value if value is not None else ("" if base == "string" else 0)
-    (item, length) = detail
-    if item[0].name == "BASE" and item[1][0] != "string":
-        dtype = np.dtype({"byte": "u1"}.get(item[1][0], item[1][0]))
-        return np.asarray(np.zeros(length or 0) if value is None else value, dtype)
-    return [_value(item, each) for each in (value or [])]
-
-
-def header(frame: str, stamp_ns: int) -> dict[str, Any]:
-    stamp = {"sec": stamp_ns // SECOND, "nanosec": stamp_ns % SECOND}
-    return {"frame_id": frame, "stamp": stamp}
-
-
 class Bench:
     """A viewer on a hand-fed source and a recording scene."""
 
@@ -142,7 +68,7 @@ class Bench:
         self.turn()
 
     def publish(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
-        cdr = bytes(STORE.serialize_cdr(message(type_name, values), type_name))
+        cdr = serialized(type_name, values)
         if topic not in self.source.known:
             publisher = Publisher("/test", type_name, "reliable", "volatile")
             policies = ("reliable", "volatile")

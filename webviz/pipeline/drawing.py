@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Protocol
 
 from webviz.context import Context, Group, Placement
@@ -21,8 +22,8 @@ class Scene(Protocol):
         """Show or hide a group."""
         ...
 
-    def upsert(self, group: str, key: str, node: Node) -> None:
-        """Draw a node, in place of the one with this key."""
+    def upsert(self, group: str, key: str, node: Node, pose: Pose) -> None:
+        """Draw a node at a pose in its group, in place of the one with this key."""
         ...
 
     def remove(self, group: str, key: str) -> None:
@@ -32,6 +33,25 @@ class Scene(Protocol):
     def remove_group(self, group: str) -> None:
         """Remove a group with all its nodes."""
         ...
+
+
+@dataclass
+class _Drawn:
+    """A group in the scene.
+
+    Args:
+        group: what the display said last.
+        origin: of the coordinates that were sent, if poses were worked into them.
+        pose: of the frame that the group follows, as last seen.
+        fixed_frame: in which that was.
+        visible: None before anything was sent.
+    """
+
+    group: Group
+    origin: Position = (0.0, 0.0, 0.0)
+    pose: Pose | None = None
+    fixed_frame: str = ""
+    visible: bool | None = None
 
 
 class Drawing:
@@ -45,91 +65,107 @@ class Drawing:
     def __init__(self, scene: Scene, prefix: str) -> None:
         self._scene = scene
         self._prefix = prefix
-        self._scopes: dict[str, dict[str, Group]] = {}
-        self._shown: dict[str, bool] = {}
-        self._origins: dict[str, Position] = {}
+        self._scopes: dict[str, dict[str, _Drawn]] = {}
 
     def replace(self, scope: str, context: Context) -> None:
         """Make a scope exactly what a context collected."""
         before = self._scopes.get(scope, {})
-        after = {key: group for key, group in context.groups.items() if group.nodes}
+        after: dict[str, _Drawn] = {}
+        for key, group in context.groups.items():
+            if not group.nodes:
+                continue
+            name, drawn = self._name(scope, key), before.get(key)
+            if drawn is None:
+                drawn = _Drawn(group)
+            else:
+                for old in drawn.group.nodes.keys() - group.nodes.keys():
+                    self._scene.remove(name, old)
+                if drawn.group.placement != group.placement:
+                    drawn.pose = None
+                drawn.group = group
+            self._put(name, drawn, context.frames)
+            after[key] = drawn
         for key in before.keys() - after.keys():
-            self._drop(self._name(scope, key))
-        for key, group in after.items():
-            name = self._name(scope, key)
-            for old in before[key].nodes.keys() - group.nodes.keys() if key in before else ():
-                self._scene.remove(name, old)
-            self._put(name, group, context.frames)
-        if after:
-            self._scopes[scope] = after
-        else:
-            self._scopes.pop(scope, None)
+            self._scene.remove_group(self._name(scope, key))
+        self._scopes[scope] = after
 
     def remove(self, scope: str) -> None:
         """Remove all that a scope drew."""
         for key in self._scopes.pop(scope, {}):
-            self._drop(self._name(scope, key))
+            self._scene.remove_group(self._name(scope, key))
 
     def clear(self) -> None:
         """Remove everything."""
         for scope in list(self._scopes):
             self.remove(scope)
 
+    def followed(self) -> set[str]:
+        """The frames whose poses `move` will ask for."""
+        return {
+            drawn.group.placement.frame
+            for groups in self._scopes.values()
+            for drawn in groups.values()
+            if drawn.group.placement.frame is not None
+        }
+
     def move(self, frames: Frames) -> None:
         """Bring all groups that follow a frame to where it is now."""
         for scope, groups in self._scopes.items():
-            for key, group in groups.items():
-                if group.placement.frame is not None:
-                    self._place(self._name(scope, key), group.placement, frames)
+            for key, drawn in groups.items():
+                if drawn.group.placement.frame is not None:
+                    self._follow(self._name(scope, key), drawn, frames)
 
     def is_empty(self) -> bool:
         """Whether nothing of the display can be seen."""
         return not any(
-            self._shown.get(self._name(scope, key))
-            for scope, groups in self._scopes.items()
-            for key, group in groups.items()
-            if any(map(has_content, group.nodes.values()))
+            drawn.visible and any(map(has_content, drawn.group.nodes.values()))
+            for groups in self._scopes.values()
+            for drawn in groups.values()
         )
 
     def lost(self, frames: Frames) -> list[str]:
         """The frames that hidden groups follow in vain."""
+        placements = [
+            drawn.group.placement for groups in self._scopes.values() for drawn in groups.values()
+        ]
         return sorted(
-            {
-                group.placement.frame
-                for groups in self._scopes.values()
-                for group in groups.values()
-                if group.placement.frame
-                and not group.placement.keep_last
-                and _pose(group.placement, frames) is None
-            }
+            {p.frame for p in placements if p.frame and not p.keep_last and not _pose(p, frames)}
         )
 
-    def _put(self, name: str, group: Group, frames: Frames) -> None:
+    def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         """Send a group that is new or changed."""
-        nodes, placement = group.nodes, group.placement
-        if placement.frame is None and all(map(can_bake, nodes.values())):
-            origin = origin_near(
-                placement.offset.position, self._origins.get(name, (0.0, 0.0, 0.0))
-            )
-            self._origins[name] = origin
-            nodes = {key: baked(node, placement.offset, origin) for key, node in nodes.items()}
-            placement = Placement(offset=Pose(origin))
-        self._place(name, placement, frames)
-        for key, node in nodes.items():
-            self._scene.upsert(name, key, node)
+        group, placement = drawn.group, drawn.group.placement
+        if placement.frame is not None:
+            self._follow(name, drawn, frames)
+        elif all(map(can_bake, group.nodes.values())):
+            drawn.origin = origin_near(placement.offset.position, drawn.origin)
+            self._scene.set_pose(name, Pose(drawn.origin))
+            self._show(name, drawn, True)
+            for key, node in group.nodes.items():
+                pose = compose(placement.offset, group.poses.get(key, Pose()))
+                self._scene.upsert(name, key, baked(node, pose, drawn.origin), Pose())
+            return
+        else:
+            self._scene.set_pose(name, placement.offset)
+            self._show(name, drawn, True)
+        for key, node in group.nodes.items():
+            self._scene.upsert(name, key, node, group.poses.get(key, Pose()))
 
-    def _drop(self, name: str) -> None:
-        self._scene.remove_group(name)
-        self._shown.pop(name, None)
-        self._origins.pop(name, None)
-
-    def _place(self, name: str, placement: Placement, frames: Frames) -> None:
+    def _follow(self, name: str, drawn: _Drawn, frames: Frames) -> None:
+        placement = drawn.group.placement
         pose = _pose(placement, frames)
-        if pose is not None:
+        if pose is None:
+            stays = placement.keep_last and drawn.fixed_frame == frames.fixed_frame
+            self._show(name, drawn, stays)
+            return
+        if pose is not drawn.pose or drawn.fixed_frame != frames.fixed_frame:
             self._scene.set_pose(name, compose(pose, placement.offset))
-        visible = pose is not None or (placement.keep_last and name in self._shown)
-        if self._shown.get(name) != visible:
-            self._shown[name] = visible
+            drawn.pose, drawn.fixed_frame = pose, frames.fixed_frame
+        self._show(name, drawn, True)
+
+    def _show(self, name: str, drawn: _Drawn, visible: bool) -> None:
+        if drawn.visible != visible:
+            drawn.visible = visible
             self._scene.set_visible(name, visible)
 
     def _name(self, scope: str, key: str) -> str:
@@ -140,6 +176,4 @@ def _pose(placement: Placement, frames: Frames) -> Pose | None:
     frame = placement.frame
     if frame is None:
         return Pose()
-    if placement.when == "latest":
-        return frames.latest(frame)
-    return frames.now(frame)
+    return frames.latest(frame) if placement.when == "latest" else frames.now(frame)

@@ -88,9 +88,7 @@ class Intake:
             if not waits:
                 arrivals.append(arrival)
                 continue
-            self._filter.add(
-                arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns
-            )
+            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns)
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:

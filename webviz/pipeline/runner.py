@@ -154,6 +154,10 @@ class Runner:
         self._redraw(frames)
         self._drawing.move(frames)
 
+    def followed(self) -> set[str]:
+        """The frames whose poses `draw` will ask for."""
+        return self._drawing.followed() if self.display.enabled else set()
+
     def statuses(
         self,
         offers: Mapping[str, Offer],

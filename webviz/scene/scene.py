@@ -32,6 +32,7 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
 }
 
 Position = tuple[float, float, float]
+_IDENTITY = Pose()
 
 
 class Scene:
@@ -72,10 +73,10 @@ class Scene:
             raise ValueError(f"The pose of {group!r} is not finite.")
         self._touch(group).pose = pose
 
-    def upsert(self, group: str, key: str, node: Node) -> None:
-        """Draws `node` as `key` of a group, instead of what had that key."""
+    def upsert(self, group: str, key: str, node: Node, pose: Pose = _IDENTITY) -> None:
+        """Draws `node` at `pose` in a group as `key`, instead of what had that key."""
         wanted = self._touch(group)
-        wanted.nodes[key] = node
+        wanted.nodes[key] = (node, pose)
         wanted.dirty[key] = None
 
     def remove(self, group: str, key: str) -> None:
@@ -148,13 +149,13 @@ class _Group:
     def __init__(self, name: str) -> None:
         self.pose = Pose()
         self.visible = True
-        self.nodes: dict[str, Node] = {}
+        self.nodes: dict[str, tuple[Node, Pose]] = {}
         self.dirty: dict[str, None] = {}
         self._name = name
         self._handle: viser.FrameHandle | None = None
         self._sent_position: Position | None = None
         self._sent_wxyz: tuple[float, float, float, float] | None = None
-        self._drawn: dict[str, tuple[Node, Drawn[Any]]] = {}
+        self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
     def send(self, link: Adapter, origin: Position) -> None:
         path = node_path(self._name)
@@ -179,21 +180,24 @@ class _Group:
                 raise
 
     def _send_node(self, link: Adapter, key: str) -> None:
-        node = self.nodes.get(key)
-        old, drawn = self._drawn.get(key, (None, None))
-        if drawn is not None and type(node) is not type(old):
-            drawn.remove()
+        wanted, sent = self.nodes.get(key), self._drawn.get(key)
+        if sent is not None and (wanted is None or type(wanted[0]) is not type(sent[0])):
+            sent[2].remove()
             link.count_removals(1)
             del self._drawn[key]
-            drawn = None
-        if node is None:
+            sent = None
+        if wanted is None:
             return
-        if drawn is None:
-            drawn = _DRAWN[type(node)](link, node_path(self._name, key))
-        elif node == old:
-            return
-        drawn.draw(node)
-        self._drawn[key] = (node, drawn)
+        node, pose = wanted
+        path = node_path(self._name, key)
+        drawn = _DRAWN[type(node)](link, path) if sent is None else sent[2]
+        is_new = sent is None or node != sent[0]
+        if is_new:
+            drawn.draw(node)
+        # Some primitives make their viser node anew when they are drawn, at the identity.
+        if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
+            link.set_pose(path, pose.position, pose.wxyz)
+        self._drawn[key] = (node, pose, drawn)
 
     def remove(self, link: Adapter) -> None:
         if self._handle is not None:
