@@ -14,7 +14,8 @@ from ruamel.yaml import YAML
 
 from webviz import config as config_file
 from webviz.config import Config, ConfigError, Unreadable, View, dump, load, parse, save
-from webviz.display import display_types, to_values
+from webviz.display import to_values
+from webviz.registry import display_types
 
 WHOLE = """\
 version: 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 
@@ -42,4 +43,11 @@ class Reset:
     """Forget transforms and messages, as RViz's Reset does."""
 
 
-Command = SetProperty | AddDisplay | RemoveDisplay | SetFixedFrame | Reset
+@dataclass(frozen=True)
+class ReloadPlugin:
+    """Load a file with displays again, after it was saved."""
+
+    path: Path
+
+
+Command = SetProperty | AddDisplay | RemoveDisplay | SetFixedFrame | Reset | ReloadPlugin

@@ -15,15 +15,8 @@ import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from webviz.display import (
-    Color,
-    Display,
-    broken_display_types,
-    default_name,
-    display_types,
-    make,
-    to_values,
-)
+from webviz.display import Color, Display, make, to_values
+from webviz.registry import broken_display_types, display_types, type_name
 
 VERSION = 1
 MAX_BYTES = 16 << 20
@@ -221,6 +214,4 @@ def _display(entry: Any, index: int) -> Display | Unreadable:
 def _entry(display: Display | Unreadable) -> Any:
     if isinstance(display, Unreadable):
         return display.values
-    cls = type(display)
-    name = next((name for name, each in display_types().items() if each is cls), default_name(cls))
-    return {"type": name, **to_values(display)}
+    return {"type": type_name(type(display)), **to_values(display)}
