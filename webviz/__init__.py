@@ -6,7 +6,7 @@ and transforms to nodes and statuses.
 
 from webviz.context import Context, Group, Placement
 from webviz.display import Color, Display, Input, Keep, Prop, Topic
-from webviz.frames import FramePoses, Frames
+from webviz.frames import FramePoses, Frames, compose
 from webviz.nodes import (
     Arrows,
     Axes,
@@ -49,4 +49,5 @@ __all__ = [
     "Sample",
     "Status",
     "Topic",
+    "compose",
 ]

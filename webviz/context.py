@@ -112,9 +112,11 @@ class Group:
         """Draw texts; see `webviz.nodes.Labels`."""
         self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height)
 
-    def image(self, key: str, rgba: NDArray[np.uint8], width: float, height: float) -> None:
+    def image(
+        self, key: str, rgba: NDArray[np.uint8], width: float, height: float, layer: int = 0
+    ) -> None:
         """Draw a flat picture; see `webviz.nodes.Image`."""
-        self.nodes[key] = nodes.Image(rgba, width, height)
+        self.nodes[key] = nodes.Image(rgba, width, height, layer)
 
 
 class Background(Protocol):
@@ -136,6 +138,7 @@ class Context(Group):
         background: see `Background`.
         state: belongs to the display, for what it must remember between calls.
         placement: of the context's own nodes.
+        order: place of the display in the list of displays; later ones lie on top.
     """
 
     def __init__(
@@ -144,8 +147,10 @@ class Context(Group):
         background: Background,
         state: dict[str, Any],
         placement: Placement = Placement(),
+        order: int = 0,
     ) -> None:
         super().__init__(placement)
+        self.order = order
         self.frames = frames
         self.background = background
         self.state = state

@@ -155,11 +155,13 @@ class Image(_Node):
     Args:
         rgba: uint8 (H, W, 4). As in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
         width, height: extent along x and y in metres; the corner of cell (0, 0) is the origin.
+        layer: of two pictures in one plane, the one of the higher layer lies on top.
     """
 
     rgba: U8
     width: float
     height: float
+    layer: int = 0
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Glb | Image

@@ -148,6 +148,13 @@ class LaserScan(Display):
         """Scans that came within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
 
+    def duration_ns(self, message: messages.LaserScan) -> int:
+        """De-skewing needs transforms up to the last beam."""
+        duration = (len(message.ranges) - 1) * message.time_increment
+        if self.deskew == "As measured" or not 0 < duration <= LONG_SCAN_S:
+            return 0
+        return round(duration * 1e9)
+
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One scan, in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message

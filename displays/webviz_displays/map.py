@@ -9,16 +9,38 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic
-from webviz_displays.geometry import multiply, transformed
+from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic, compose
 from webviz_displays.palettes import colorize, lookup_table
 from webviz_displays.tiles import Corner, GridFault, TiledGrid, tiled, updated
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
 
-BEHIND = -0.01
-"""Metres that `draw_behind` lowers a map by."""
+BEHIND = 100_000
+"""Layers that `draw_behind` lowers a map by: more than there are displays."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What turns the cells of a tile into a picture.
+
+    Args:
+        table: RGBA by cell value, uint8 (256, 4).
+        resolution: metres per cell.
+        layer: of the picture.
+    """
+
+    table: NDArray[np.uint8]
+    resolution: float
+    layer: int
+
+    def is_like(self, other: Look | None) -> bool:
+        """Whether equal cells look alike; tables are kept, so the same one is the same object."""
+        return (
+            other is not None
+            and self.table is other.table
+            and (self.resolution, self.layer) == (other.resolution, other.layer)
+        )
 
 
 @dataclass(frozen=True)
@@ -63,7 +85,7 @@ class Map(Display):
         ),
     ] = "map"
     draw_behind: Annotated[
-        bool, Prop(help="Lie a centimetre lower, behind other maps in the same plane.")
+        bool, Prop(help="Lie behind all other maps, wherever it is in the list.")
     ] = False
     use_timestamp: Annotated[
         bool,
@@ -116,7 +138,12 @@ class Map(Display):
             return
         threshold = self.binary_threshold if self.binary_representation else None
         alpha = 1.0 if self.alpha >= OPAQUE else self.alpha
-        images = _images(grid, lookup_table(self.color_scheme, alpha, threshold), ctx.state)
+        look = Look(
+            lookup_table(self.color_scheme, alpha, threshold),
+            grid.resolution,
+            ctx.order - (BEHIND if self.draw_behind else 0),
+        )
+        images = _images(grid, look, ctx.state)
         outer, frame = Pose(), grid.frame
         if self.use_timestamp:
             at_stamp = self._pose_at_stamp(samples[-1], ctx)
@@ -124,11 +151,10 @@ class Map(Display):
                 ctx.error("Transform", ctx.frames.why_not(grid.frame, samples[-1].stamp_ns))
                 return
             outer, frame = at_stamp, None
-        for (corner, image), offset in zip(
-            images.items(), self._offsets(grid, outer, list(images)), strict=True
-        ):
-            key = f"tile {corner[0]} {corner[1]}"
-            ctx.follow(frame, when="now", offset=offset, key=key).add(key, image)
+        group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
+        for (row, column), image in images.items():
+            corner = (column * grid.resolution, row * grid.resolution, 0.0)
+            group.add(f"tile {row} {column}", image, Pose(corner))
         self._report(folded, grid, ctx)
 
     def _pose_at_stamp(self, sample: Sample, ctx: Context) -> Pose | None:
@@ -138,15 +164,6 @@ class Map(Display):
             ctx.state["pose at stamp"] = (key, pose)
         known, pose = ctx.state.get("pose at stamp", (None, None))
         return pose if known == key else None
-
-    def _offsets(self, grid: TiledGrid, outer: Pose, corners: list[Corner]) -> list[Pose]:
-        """Pose of each tile; `outer` is that of the grid's frame."""
-        xyz = np.zeros((len(corners), 3))
-        xyz[:, 1::-1] = np.array(corners) * grid.resolution  # rows lie along y, columns along x
-        xyz[:, 2] = BEHIND if self.draw_behind else 0.0
-        positions = transformed(outer, transformed(grid.origin, xyz)).tolist()
-        w, x, y, z = multiply(outer.wxyz, grid.origin.wxyz).tolist()
-        return [Pose((px, py, pz), (w, x, y, z)) for px, py, pz in positions]
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
@@ -161,13 +178,10 @@ class Map(Display):
             ctx.ok("Update", f"{count} since the last whole map.")
 
 
-def _images(
-    grid: TiledGrid, table: NDArray[np.uint8], state: dict[str, Any]
-) -> dict[Corner, Image]:
+def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, Image]:
     """A node for each tile, those of the call before where nothing changed."""
-    look = (table, grid.resolution)
     before: dict[Corner, tuple[NDArray[np.int8], Image]] = {}
-    if (known := state.get("look")) and known[0] is table and known[1] == grid.resolution:
+    if look.is_like(state.get("look")):
         before = state["tiles"]
     tiles = {}
     for corner, cells in grid.tiles.items():
@@ -175,7 +189,7 @@ def _images(
         if old is None or old[0] is not cells:
             rows, columns = cells.shape
             width, height = columns * grid.resolution, rows * grid.resolution
-            old = (cells, Image(colorize(cells, table), width, height))
+            old = (cells, Image(colorize(cells, look.table), width, height, look.layer))
         tiles[corner] = old
     state["look"], state["tiles"] = look, tiles
     return {corner: image for corner, (_, image) in tiles.items()}

@@ -43,37 +43,26 @@ class Odometry(Display):
         """The newest poses that were accepted."""
         return Keep(count=self.keep)
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
-        """Whether the robot moved by one of the tolerances.
-
-        Of faulty poses in a row the first is let in, to be named in a status.
-        """
-        if not kept:
-            return True
-        last_is_faulty = fault(kept[-1].message)
-        if last_is_faulty or fault(new.message):
-            return not (last_is_faulty and fault(new.message))
-        return has_moved(
+    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+        """Whether the robot moved by one of the tolerances, or what is wrong with the pose."""
+        if problem := fault(new.message):
+            return problem
+        return not kept or has_moved(
             new.message, kept[-1].message, self.position_tolerance, self.angle_tolerance
         )
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All poses as one node, and what is uncertain as a few more."""
-        faults = [fault(sample.message) for sample in samples]
-        good = [s for s, problem in zip(samples, faults, strict=True) if not problem]
-        if good:
-            ctx.ok("Pose", f"Showing {len(good)} pose{'s' if len(good) != 1 else ''}.")
-        if samples and faults[-1]:
-            ctx.error("Pose", faults[-1])
-        if not good:
+        if not samples:
             return
-        poses = trail(good)
+        ctx.ok("Pose", f"Showing {len(samples)} pose{'s' if len(samples) != 1 else ''}.")
+        poses = trail(samples)
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)
         self._draw_poses(poses, group, ctx)
         if self.covariance.value:
-            self._draw_covariances(good, poses, group, ctx)
+            self._draw_covariances(samples, poses, group, ctx)
 
     def _draw_poses(self, poses: Trail, group: Group, ctx: Context) -> None:
         look = self.shape

@@ -283,7 +283,10 @@ def test_changes_of_the_look_show_without_a_new_message(bench) -> None:
     at.set("binary_threshold", 0)
     assert whole_picture(at).tolist() == [[[255, 0, 0, 255], [255, 0, 0, 255]]]
     at.set("draw_behind", True)
-    assert at.poses()["tile 0 0"].position[2] < 0.0
+    assert at.nodes()["tile 0 0"].layer < -1000
+    at.runner.order = 7
+    at.set("draw_behind", False)
+    assert at.nodes()["tile 0 0"].layer == 7
 
 
 def test_an_invisible_map_is_not_called_ok(bench) -> None:

@@ -209,7 +209,7 @@ def test_a_bad_pose_is_named_and_the_trail_stays(
 ) -> None:
     bench = shown(odometry(0), odometry(1), *[message] * 500)
     assert tails(bench) == [[10, 0, 0], [10, 1, 0]]
-    level, text = bench.statuses()["Pose"]
+    level, text = bench.statuses()["Message"]
     assert level == "ERROR"
     assert words in text
     bench.send(ODOMETRY, odometry(1), frame="odom")
@@ -224,7 +224,7 @@ def test_a_nearly_normalized_quaternion_is_accepted(shown: Benches) -> None:
 def test_only_bad_poses_draw_nothing(shown: Benches) -> None:
     bench = shown(odometry(NAN))
     assert bench.nodes() == {}
-    assert bench.statuses()["Pose"][0] == "ERROR"
+    assert bench.statuses()["Message"][0] == "ERROR"
 
 
 def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> None:

@@ -54,7 +54,10 @@ class Runner:
 
     def __init__(self, id: str, display: Display, services: Services) -> None:
         self.id = id
+        self._order = 0
         self.display = display
+        self.remarks: dict[str, Status] = {}
+        """What others have to say of the display, shown with its own statuses."""
         self._services = services
         self._drawing = Drawing(services.scene, id)
         self._tasks = Tasks(services.workers)
@@ -88,6 +91,35 @@ class Runner:
             self._drawing.clear()
             self._drawn.clear()
         self._is_stale = True
+
+    def replace(self, display: Display) -> None:
+        """Go on as an instance of another class, with the messages and the picture there are.
+
+        The messages are forgotten if the new class hears others or folds them.
+        """
+        old, self.display = self.display, display
+        if inputs(old) != inputs(display) or overrides(old, "fold") != overrides(display, "fold"):
+            self.reset()
+            self._intakes = self._make_intakes()
+        self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
+        self._tasks = Tasks(self._services.workers)
+        for memory in (self._state, self._statuses, self._crashes):
+            memory.clear()
+        samples = [f"sample{slot}" for slot in self._drawn]
+        for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
+            for scope in () if overrides(display, hook) else scopes:
+                self._drawing.remove(scope)
+        self._is_stale = True
+
+    @property
+    def order(self) -> int:
+        """Place of the display in the list of displays."""
+        return self._order
+
+    @order.setter
+    def order(self, order: int) -> None:
+        self._is_stale |= order != self._order
+        self._order = order
 
     def subscriptions(self) -> dict[str, Subscription]:
         """What the display needs to hear by topic, nothing while it is disabled."""
@@ -123,11 +155,11 @@ class Runner:
         counting: list[tuple[str, Intake, Arrival]] = []
         for name, intake in self._intakes.items():
             raws = batches.get(intake.name, ())
-            waits = self.display.waits(name)
+            waits = self._waits(name)
             arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
             if not arrivals:
                 continue
-            if self._every_message_counts or self.display.history() != Keep():
+            if self._every_message_counts or self._keep() != Keep():
                 counting += [(name, intake, arrival) for arrival in arrivals]
             elif name == primary:
                 self._newest = arrivals[-1]
@@ -144,11 +176,11 @@ class Runner:
             self._let_in(name, intake, arrival, frames)
         if frames.fixed_frame != self._fixed_frame:
             if self._fixed_frame:
-                timed = self.display.waits(next(iter(self._intakes), ""))
+                timed = self._waits(next(iter(self._intakes), ""))
                 self._history.move(frames, self._fixed_frame, timed)
             self._fixed_frame = frames.fixed_frame
             self._is_stale = True
-        self._history.trim(self.display.history(), frames.now_ns)
+        self._history.trim(self._keep(), frames.now_ns)
         if self._tasks.has_news():
             self._is_stale = True
         self._redraw(frames)
@@ -179,6 +211,7 @@ class Runner:
             result |= said
         for text in self._crashes.values():
             result["Display"] = Status(Level.ERROR, text)
+        result |= self.remarks
         if worst(result.values()) is Level.OK and self._drawing.is_empty():
             result["Display"] = Status(Level.WARN, "There is nothing to draw.")
         return result
@@ -199,11 +232,18 @@ class Runner:
             result[name] = Intake(spec, topic, full, problem)
         return result
 
+    def _keep(self) -> Keep:
+        keep = self._guard("history", self.display.history)
+        return keep if isinstance(keep, Keep) else Keep()
+
+    def _waits(self, name: str) -> bool:
+        return self._guard("waits", self.display.waits, name) is not False
+
     def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
         """Decode a message and hold it, if the display wants it."""
         if not arrival.frame:
             pose = Pose()
-        elif self.display.waits(name):
+        elif self._waits(name):
             pose = frames.at(arrival.frame, arrival.stamp_ns)
         else:
             pose = frames.now(arrival.frame) or Pose()
@@ -227,7 +267,7 @@ class Runner:
         if isinstance(verdict, str):
             intake.refuse(verdict)
         elif verdict is True:
-            self._history.add(sample, self.display.history())
+            self._history.add(sample, self._keep())
 
     def _fold(self, name: str, sample: Sample) -> None:
         folded = self._guard("fold", self.display.fold, name, sample, self._folded)
@@ -243,7 +283,7 @@ class Runner:
                 sample.number,
                 sample.pose,
             ),
-            self.display.history(),
+            self._keep(),
         )
 
     def _redraw(self, frames: Frames) -> None:
@@ -280,7 +320,7 @@ class Runner:
         placement: Placement = Placement(),
     ) -> None:
         """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
-        context = Context(frames, self._tasks, self._state, placement)
+        context = Context(frames, self._tasks, self._state, placement, self._order)
         if self._guard(scope, hook, *args, context) is _CRASHED:
             return
         self._drawing.replace(scope, context)

@@ -18,6 +18,9 @@ TILE = 1024
 # The page recognises pictures by this in their names (see page.py); no key has it when escaped.
 TILE_PREFIX = "%tile "
 
+Tile = tuple[int, int, int]
+"""Layer, and row and column of the first cell. The page reads the layer from the name."""
+
 _BLANK = np.zeros((1, 1, 4), np.uint8)
 
 
@@ -33,14 +36,14 @@ class ImageDrawn:
         self._link = link
         self._name = name
         self._frame = link.server.scene.add_frame(name, show_axes=False)
-        self._tiles: dict[tuple[int, int], ImageHandle] = {}
+        self._tiles: dict[Tile, ImageHandle] = {}
         self._sent: Image | None = None
 
     def draw(self, node: Image) -> None:
         """Sends the tiles that changed."""
         old, self._sent = self._sent, node
         rows, columns = node.rgba.shape[:2]
-        wanted = [(y, x) for y in range(0, rows, TILE) for x in range(0, columns, TILE)]
+        wanted = [(node.layer, y, x) for y in range(0, rows, TILE) for x in range(0, columns, TILE)]
         for corner in set(self._tiles) - set(wanted):
             self._tiles.pop(corner).remove()
             self._link.count_removals(1)
@@ -52,8 +55,8 @@ class ImageDrawn:
         self._link.count_removals(len(self._tiles))
         self._frame.remove()
 
-    def _draw_tile(self, corner: tuple[int, int], node: Image, old: Image | None) -> None:
-        name = f"{self._name}/{TILE_PREFIX}{corner[0]} {corner[1]}"
+    def _draw_tile(self, corner: Tile, node: Image, old: Image | None) -> None:
+        name = f"{self._name}/{TILE_PREFIX}{corner[0]} {corner[1]} {corner[2]}"
         cells = _cells(node, corner)
         is_new = corner not in self._tiles
         if is_new:
@@ -76,16 +79,14 @@ def encode_png(rgba: U8) -> bytes:
     return file.getvalue()
 
 
-def _cells(node: Image, corner: tuple[int, int]) -> U8:
-    y, x = corner
+def _cells(node: Image, corner: Tile) -> U8:
+    _, y, x = corner
     return node.rgba[y : y + TILE, x : x + TILE]
 
 
-def _extent(
-    node: Image, corner: tuple[int, int]
-) -> tuple[tuple[float, float], tuple[float, float]]:
+def _extent(node: Image, corner: Tile) -> tuple[tuple[float, float], tuple[float, float]]:
     """Centre and size of a tile in metres."""
     height, width = _cells(node, corner).shape[:2]
     dx, dy = node.width / node.rgba.shape[1], node.height / node.rgba.shape[0]
-    centre = ((corner[1] + width / 2) * dx, (corner[0] + height / 2) * dy)
+    centre = ((corner[2] + width / 2) * dx, (corner[1] + height / 2) * dy)
     return centre, (width * dx, height * dy)

@@ -16,10 +16,10 @@ PAGE_SCRIPT = """
   // Colours as they were sent: no film curve (viser's page turns ACES on).
   Object.defineProperty(root.getState().gl, "toneMapping", { get: () => 0, set: () => {} });
 
-  // Pictures: sharp cells; behind lines and meshes of the same plane, over pictures added before;
+  // Pictures: sharp cells; behind lines and meshes of the same plane, and by layer over each other;
   // never hiding what is blended later; not a white sheet while the first texture is decoded.
-  let order = -1e6;
   const refs = window.__viserMutable.nodeRefFromName;
+  const layerOf = (name) => parseInt(name.split("/TILE")[1]);
   const before = scene.onBeforeRender;
   scene.onBeforeRender = function (...args) {
     for (const name in refs) {
@@ -34,7 +34,7 @@ PAGE_SCRIPT = """
           texture.needsUpdate = true;
         }
         if (!material.polygonOffset) {
-          object.renderOrder = order++;
+          object.renderOrder = layerOf(name) - 1e6;
           material.depthWrite = false;
           material.polygonOffset = true;
           material.polygonOffsetFactor = 2;
