@@ -12,13 +12,23 @@ from typing import Protocol
 import msgspec
 
 from webviz import config as config_file
-from webviz.commands import AddDisplay, Command, RemoveDisplay, Reset, SetFixedFrame, SetProperty
+from webviz import plugins
+from webviz.commands import (
+    AddDisplay,
+    Command,
+    ReloadPlugin,
+    RemoveDisplay,
+    Reset,
+    SetFixedFrame,
+    SetProperty,
+)
 from webviz.config import Config, Unreadable
-from webviz.display import Display, Topic, display_types, make
+from webviz.display import Display, Topic, make
 from webviz.frames import Frames
 from webviz.messages import MessageError, TFMessage, decode
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
+from webviz.registry import display_types, type_name
 from webviz.sources import Source, Subscription
 from webviz.state import Row, State
 from webviz.status import Level, Status
@@ -70,6 +80,7 @@ class Viewer:
     ) -> None:
         self.settings = config.settings
         self.buffer = TransformBuffer()
+        self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
         self._source = source
         self._scene = scene
         self._show = show
@@ -125,12 +136,13 @@ class Viewer:
         for topic, is_static in TF_TOPICS.items():
             for raw in batches.get(topic, ()):
                 self._take_transforms(raw.cdr, is_static)
-        frames = Frames(self.buffer, self.settings.fixed_frame, now_ns)
+        frames = self._frames = self._frames.next(self.settings.fixed_frame, now_ns)
         offers = self._source.offers()
         runners = self._runners()
         for runner in runners:
             runner.take(batches, frames, offers)
         if self._scene.has_watchers():
+            frames.prepare(set().union(*(runner.followed() for runner in runners)))
             for runner in runners:
                 runner.draw(frames)
             self._flush()
@@ -142,13 +154,12 @@ class Viewer:
     def state(self, frames: Frames) -> State:
         """A snapshot for a panel."""
         offers = self._source.offers()
-        names = {cls: name for name, cls in display_types().items()}
         rows = []
         for entry in self._entries:
             if isinstance(entry, Runner):
                 display = entry.display
                 statuses = self._statuses_of(entry, frames)
-                name = names.get(type(display), type(display).__name__)
+                name = type_name(type(display))
                 rows.append(Row(entry.id, name, display, display.name, statuses))
             else:
                 id, lost = entry
@@ -197,10 +208,13 @@ class Viewer:
                     if runner.id == id:
                         runner.close()
                 self._entries = [e for e in self._entries if _id(e) != id]
+                self._number()
             case SetFixedFrame(frame):
                 self.settings = msgspec.structs.replace(self.settings, fixed_frame=frame)
             case Reset():
                 self._reset()
+            case ReloadPlugin(path):
+                plugins.reload(path, self._runners())
 
     def _append(self, display: Display | Unreadable) -> None:
         self._made += 1
@@ -210,6 +224,13 @@ class Viewer:
             self._entries.append((id, display))
         else:
             self._entries.append(Runner(id, display, self._services))
+            self._number()
+
+    def _number(self) -> None:
+        """Tell every display its place in the list."""
+        for order, entry in enumerate(self._entries):
+            if isinstance(entry, Runner):
+                entry.order = order
 
     def _reset(self) -> None:
         self.buffer.clear()
@@ -224,10 +245,13 @@ class Viewer:
     def _flush(self) -> None:
         try:
             self._scene.flush()
-        except Exception:  # a display made a malformed node; the scene has dropped it
+        except Exception as error:  # a display made a malformed node; the scene has dropped it
             if self._services.strict:
                 raise
-            log.exception("Something could not be drawn")
+            text = " ".join([str(error), *getattr(error, "__notes__", ())])
+            if "Scene" not in self._statuses or text not in self._statuses["Scene"].text:
+                log.exception("A node could not be drawn")
+            self._statuses["Scene"] = Status(Level.ERROR, f"A node could not be drawn: {text}")
 
     def _take_transforms(self, cdr: bytes, is_static: bool) -> None:
         topic = "/tf_static" if is_static else "/tf"

@@ -286,3 +286,17 @@ def test_a_text_that_is_no_unicode_is_sent_with_question_marks(
     scene.flush()
     labels = [m for m in call().replay() if m["type"] == "LabelMessage"]
     assert [m["props"]["text"] for m in labels] == ["caf?", "基座"]
+
+
+def test_a_node_has_a_pose_in_its_group_and_only_changes_are_sent(scene: Scene) -> None:
+    mesh = Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.uint32), (1, 2, 3))
+    glb_pose = Pose((1.0, 2.0, 3.0), (0.0, 1.0, 0.0, 0.0))
+    scene.upsert("robot", "link", mesh, glb_pose)
+    scene.flush()
+    sent = scene.link.queued_messages
+    scene.upsert("robot", "link", mesh, glb_pose)
+    scene.flush()
+    assert scene.link.queued_messages == sent
+    scene.upsert("robot", "link", mesh, Pose((1.0, 2.0, 4.0), glb_pose.wxyz))
+    scene.flush()
+    assert 0 < scene.link.queued_messages - sent <= 2

@@ -196,7 +196,8 @@ class _Group:
             drawn.draw(node)
         # Some primitives make their viser node anew when they are drawn, at the identity.
         if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
-            link.set_pose(path, pose.position, pose.wxyz)
+            link.set_position(path, pose.position)
+            link.set_orientation(path, pose.wxyz)
         self._drawn[key] = (node, pose, drawn)
 
     def remove(self, link: Adapter) -> None:
