@@ -18,6 +18,7 @@ from pathlib import Path
 import msgspec
 
 from webviz import config as config_file
+from webviz import plugins
 from webviz.config import Config, ConfigError
 
 DEMO = Path(__file__).parent / "demo.yaml"
@@ -25,6 +26,7 @@ EPILOG = """\
 examples:
   webviz                          show the usual topics of the robots around
   webviz -d lab.yaml -f odom      open a saved config, in another fixed frame
+  webviz --plugin my_display.py   with displays of your own, see the README
   webviz demo                     a simulated robot, nothing else needed
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
 """
@@ -53,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _serve(options, ros)
         else:
             _serve(options, ros)
-    except (UserError, ConfigError) as error:
+    except (UserError, ConfigError, plugins.PluginError) as error:
         print(f"webviz: {error}", file=sys.stderr)
         return 1
     return 0
@@ -83,6 +85,14 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("command", nargs="?", choices=["demo"], help="demo: start a simulated robot as well")
     add("-d", "--display-config", type=Path, metavar="FILE", help="config file to open (YAML)")
+    add(
+        "--plugin",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="Python file with displays, loaded again whenever it is saved (repeatable)",
+    )
     add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
     add("--port", type=int, default=8080, help="port of the page (default: 8080; 0: any free one)")
     add(
@@ -105,6 +115,9 @@ def _parser() -> argparse.ArgumentParser:
 
 def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
     """Show the page until Ctrl-C or SIGTERM."""
+    watcher = plugins.Watcher(options.plugin)
+    for path in options.plugin:
+        plugins.load(path)
     config = _config(options)
     with contextlib.ExitStack() as stack:
         # viser takes a while to import; --help and errors in the config come before.
@@ -125,6 +138,8 @@ def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
         panel = Panel(server, viewer.enqueue)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: viewer.stop())
+        watcher.start(viewer.enqueue)
+        stack.callback(watcher.stop)
         _announce(options, server.get_port())
         viewer.run()
         print("\nwebviz: stopped.")

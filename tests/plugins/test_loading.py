@@ -1,0 +1,118 @@
+"""What `--plugin FILE.py` makes of a file, and its one sentence for every mistake."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from webviz import registry
+from webviz.config import dump, parse
+from webviz.plugins import PluginError, Watcher, load
+
+ROOT = Path(__file__).parents[2]
+CLASS = "class Polygon(Display):\n"
+IMPORT = "from webviz import Display\n"
+
+
+def refused(path: Path) -> str:
+    """The sentence with which a file is refused."""
+    with pytest.raises(PluginError) as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_the_example_of_the_readme_is_the_one_tested_here() -> None:
+    section = (ROOT / "README.md").read_text().split("## A display of your own")[1]
+    code = section.split("```python\n")[1].split("```")[0]
+    assert code == Path(__file__).with_name("polygon.py").read_text()
+
+
+def test_a_display_of_a_file_is_one_like_any_other(plugin: Any) -> None:
+    cls = plugin.load()
+    assert registry.display_types()["Polygon"] is cls
+    text = "version: 1\ndisplays:\n- type: Polygon\n  topic: /fence\n  color: [1, 2, 3]\n"
+    config = parse(text, "x.yaml")
+    assert type(config.displays[0]) is cls
+    again: Any = parse(dump(config), "x.yaml").displays[0]
+    assert (again.topic.name, again.color) == ("/fence", (1, 2, 3))
+
+
+def test_every_display_that_the_file_itself_defines_counts(plugin: Any) -> None:
+    plugin.path.write_text(
+        "from __future__ import annotations\n"
+        "from webviz_displays.grid import Grid\n"
+        f"{IMPORT}\n"
+        "class _Base(Display):\n    width: float = 1.0\n\n"
+        "class Fence(_Base):\n    height: float = 2.0\n\n"
+        "class Zone(_Base):\n    pass\n"
+    )
+    assert set(load(plugin.path)) == {"Fence", "Zone"}
+
+
+def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
+    path = tmp_path / "none.py"
+    assert refused(path) == f"Cannot read {path}: No such file or directory."
+    assert refused(tmp_path) == f"Cannot read {tmp_path}: Is a directory."
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("x = 1\ndef (:\n", ":2 is not valid Python: invalid syntax."),
+        ("x = (\n", ":1 is not valid Python: '(' was never closed."),
+        ("x = 1\0\n", " is not valid Python: "),
+        ("\n\nimport nowhere_at_all\n", ":3 does not load: ModuleNotFoundError: No module named"),
+        ("def f():\n    raise ValueError\nf()\n", ":2 does not load: ValueError."),
+        ("import sys\nsys.exit('bye')\n", ":2 does not load: SystemExit: bye."),
+        ("x = 1\n", " has no display: no subclass of webviz.Display is defined in it."),
+        ("from webviz_displays.grid import Grid\n", " has no display: "),
+        (
+            f"{IMPORT}class Grid(Display): pass\n",
+            " cannot be used: an installed package has a display named Grid; rename the class.",
+        ),
+        (
+            f"from __future__ import annotations\n{IMPORT}class A(Display):\n    b: Nothing = 1\n",
+            " does not load: NameError: name 'Nothing' is not defined.",
+        ),
+        (
+            f"{IMPORT}class A(Display):\n    count: int = 'three'\n",
+            " does not load: ValidationError: Expected `int`, got `str` - at `$.count`.",
+        ),
+    ],
+)
+def test_a_mistake_is_one_sentence_with_its_line(plugin: Any, text: str, reason: str) -> None:
+    plugin.path.write_text(text)
+    types = registry.display_types()
+    assert refused(plugin.path).startswith(f"{plugin.path}{reason}")
+    assert registry.display_types() == types
+
+
+def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path) -> None:
+    plugin.load()
+    other = tmp_path / "other.py"
+    other.write_text(plugin.path.read_text())
+    sentence = refused(other)
+    assert sentence.startswith(f"{other} cannot be used: {plugin.path} has a display named Polygon")
+
+
+def test_a_save_is_noticed_once(plugin: Any) -> None:
+    watcher = Watcher([plugin.path])
+    assert watcher.look() == []
+    plugin.edit(("25, 255, 0", "25, 255, 128"))
+    assert watcher.look() == [plugin.path]
+    assert watcher.look() == []
+
+
+def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Any, tmp_path: Path) -> None:
+    watcher = Watcher([plugin.path])
+    fresh = tmp_path / "fresh"
+    fresh.write_text(plugin.path.read_text())
+    fresh.replace(plugin.path)
+    assert watcher.look() == [plugin.path]
+    plugin.path.unlink()
+    assert watcher.look() == [plugin.path]
+    plugin.path.write_text("")
+    assert watcher.look() == [plugin.path]

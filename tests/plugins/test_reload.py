@@ -1,0 +1,265 @@
+"""What becomes of a display while its file is edited."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from webviz import Topic
+from webviz.commands import AddDisplay, Reset, SetProperty
+from webviz.config import dump
+from webviz.display import make
+from webviz.plugins import ReloadPlugin
+
+TYPE = "geometry_msgs/msg/PolygonStamped"
+CORNERS = [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)]
+GREEN, BLUE = (25, 255, 0), (0, 0, 255)
+COLOR = "    color: Annotated"
+WIDTH = "    width: Annotated[float, Prop(gt=0)] = 4.0\n"
+
+
+def publish(b: Any, corners: list[tuple[float, float]] = CORNERS, topic: str = "/polygon") -> None:
+    polygon = {"points": [{"x": x, "y": y} for x, y in corners]}
+    b.publish(topic, TYPE, {"header": {"frame_id": "map"}, "polygon": polygon})
+    b.turn()
+
+
+def outlines(b: Any) -> list[tuple[Any, float]]:
+    """Colour and width of every outline that can be seen."""
+    return [(node.colors, node.width) for _, _, node in b.scene.visible()]
+
+
+def shown(b: Any, plugin: Any) -> Any:
+    """The display at work after a reload of its file."""
+    b.viewer.enqueue(ReloadPlugin(plugin.path))
+    b.turn()
+    return b.viewer.config().displays[0]
+
+
+@pytest.fixture
+def b(plugin: Any, bench: Callable[..., Any]) -> Any:
+    """A viewer that has heard one polygon, never to be published again."""
+    b = bench(make(plugin.load(), {}), strict=False)
+    publish(b)
+    assert outlines(b) == [(GREEN, 1.0)]
+    return b
+
+
+def test_the_example_draws_the_outline_and_says_so(b: Any) -> None:
+    assert b.statuses()["Polygon"] == ("OK", "3 corners.")
+    publish(b, CORNERS[:2])
+    assert b.statuses()["Polygon"][0] == "WARN"
+    assert outlines(b) == []
+
+
+def test_new_code_draws_what_was_heard_before(b: Any, plugin: Any) -> None:
+    plugin.edit(("self.color)", "self.color, 5.0)"))
+    shown(b, plugin)
+    assert outlines(b) == [(GREEN, 5.0)]
+
+
+def test_values_are_kept_and_defaults_follow_the_file(b: Any, plugin: Any) -> None:
+    plugin.edit(("= (25, 255, 0)", "= (0, 0, 255)"))
+    assert shown(b, plugin).color == BLUE
+    assert outlines(b) == [(BLUE, 1.0)]
+    for path, value in (("color", (9, 9, 9)), ("name", "Fence"), ("topic.depth", 7)):
+        b.viewer.enqueue(SetProperty("display1", path, value))
+    plugin.edit(("= (0, 0, 255)", "= (255, 0, 0)"))
+    display = shown(b, plugin)
+    assert (display.color, display.name) == ((9, 9, 9), "Fence")
+    assert display.topic == Topic("/polygon", depth=7)
+
+
+def test_a_changed_display_stays_where_it_is_in_the_list(
+    plugin: Any, bench: Callable[..., Any]
+) -> None:
+    cls = plugin.load()
+    displays = [make(cls, {"name": name}) for name in ("A", "B", "C")]
+    b = bench(*displays)
+    plugin.edit(("outline of", "shape of"))
+    shown(b, plugin)
+    b.statuses()
+    rows = b.states[-1].rows
+    assert [(row.id, row.name) for row in rows] == [
+        ("display1", "A"),
+        ("display2", "B"),
+        ("display3", "C"),
+    ]
+    assert all(type(row.display).__doc__ == "The shape of a polygon." for row in rows)
+
+
+def test_a_new_property_appears_and_works(b: Any, plugin: Any) -> None:
+    plugin.edit((COLOR, WIDTH + COLOR), ("self.color)", "self.color, self.width)"))
+    shown(b, plugin)
+    assert outlines(b) == [(GREEN, 4.0)]
+    b.viewer.enqueue(SetProperty("display1", "width", 8.0))
+    b.turn()
+    assert outlines(b) == [(GREEN, 8.0)]
+    b.viewer.enqueue(SetProperty("display1", "width", -1.0))
+    b.turn()
+    assert outlines(b) == [(GREEN, 8.0)]
+
+
+def test_a_removed_property_is_dropped_with_a_warning(
+    b: Any, plugin: Any, caplog: pytest.LogCaptureFixture
+) -> None:
+    b.viewer.enqueue(SetProperty("display1", "color", BLUE))
+    plugin.edit((COLOR, "    paint: Annotated"), ("self.color", "self.paint"))
+    display = shown(b, plugin)
+    assert not hasattr(display, "color")
+    assert outlines(b) == [(GREEN, 1.0)]
+    level, text = b.statuses()["Plugin"]
+    assert level == "WARN"
+    assert "color = (0, 0, 255) (no such property)" in text
+    assert text in caplog.text
+    shown(b, plugin)
+    assert "Plugin" not in b.statuses()
+
+
+def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(b: Any, plugin: Any) -> None:
+    plugin.edit((COLOR, WIDTH + COLOR))
+    shown(b, plugin)
+    b.viewer.enqueue(SetProperty("display1", "width", 9.0))
+    b.viewer.enqueue(SetProperty("display1", "color", BLUE))
+    plugin.edit(("gt=0", "gt=0, lt=5"))
+    display = shown(b, plugin)
+    assert (display.width, display.color) == (4.0, BLUE)
+    assert "width = 9.0 (Expected `float` < 5.0" in b.statuses()["Plugin"][1]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("def draw(self", "def draw(self(", "is not valid Python"),
+        ("from typing import", "import nowhere_at_all\nfrom typing import", "ModuleNotFoundError"),
+        ("class Polygon(Display)", "class Grid(Display)", "display named Grid; rename the class"),
+    ],
+)
+def test_a_broken_save_keeps_the_picture_and_says_what_is_wrong(
+    b: Any, plugin: Any, old: str, new: str, reason: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    plugin.edit((old, new))
+    before = b.viewer.config().displays[0]
+    assert shown(b, plugin) is before
+    assert outlines(b) == [(GREEN, 1.0)]
+    level, text = b.statuses()["Plugin"]
+    assert (level, reason in text) == ("ERROR", True)
+    assert text in caplog.text
+    publish(b, [*CORNERS, (1.0, 1.0)])
+    assert b.statuses()["Polygon"] == ("OK", "4 corners.")
+    plugin.edit((new, old))
+    assert shown(b, plugin) is not before
+    assert "Plugin" not in b.statuses()
+    assert outlines(b) == [(GREEN, 1.0)]
+
+
+def test_a_deleted_file_keeps_the_picture_until_it_is_back(b: Any, plugin: Any) -> None:
+    text = plugin.path.read_text()
+    plugin.path.unlink()
+    shown(b, plugin)
+    assert b.statuses()["Plugin"] == (
+        "ERROR",
+        f"Cannot read {plugin.path}: No such file or directory.",
+    )
+    assert outlines(b) == [(GREEN, 1.0)]
+    plugin.path.write_text(text)
+    shown(b, plugin)
+    assert "Plugin" not in b.statuses()
+
+
+def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Any, plugin: Any) -> None:
+    plugin.edit(("class Polygon", "class Fence"))
+    old = shown(b, plugin)
+    level, text = b.statuses()["Plugin"]
+    assert (level, "has no display Polygon any more" in text) == ("ERROR", True)
+    assert outlines(b) == [(GREEN, 1.0)]
+    assert "type: Polygon" in dump(b.viewer.config())
+    b.viewer.enqueue(AddDisplay("Fence"))
+    b.viewer.enqueue(AddDisplay("Polygon"))  # there is no such type any more
+    b.turn()
+    assert [type(d).__name__ for d in b.viewer.config().displays] == ["Polygon", "Fence"]
+    plugin.edit(("class Fence", "class Polygon"))
+    assert shown(b, plugin) is not old
+    assert "Plugin" not in b.statuses(0)
+    assert "has no display Fence any more" in b.statuses(1)["Plugin"][1]
+
+
+def test_code_that_raises_is_a_status_and_the_old_picture_stays(
+    b: Any, plugin: Any, caplog: pytest.LogCaptureFixture
+) -> None:
+    plugin.edit(
+        ("        ctx.strip", "        raise RuntimeError('out of ink')\n        ctx.strip")
+    )
+    shown(b, plugin)
+    assert b.statuses()["Display"] == ("ERROR", "Polygon failed: RuntimeError: out of ink")
+    assert outlines(b) == [(GREEN, 1.0)]
+    assert "out of ink" in caplog.text
+    plugin.edit(("        raise RuntimeError('out of ink')\n", ""))
+    shown(b, plugin)
+    assert "Display" not in b.statuses()
+
+
+@pytest.mark.parametrize("hook", ["history(self)", "waits(self, name)", "accept(self, new, kept)"])
+def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
+    b: Any, plugin: Any, hook: str
+) -> None:
+    for body in ("raise RuntimeError('out of ink')", "return object()"):
+        text = plugin.path.read_text()
+        plugin.path.write_text(f"{text}\n    def {hook}:\n        {body}\n")
+        shown(b, plugin)
+        publish(b)
+        if "raise" in body:
+            assert b.statuses()["Display"] == ("ERROR", "Polygon failed: RuntimeError: out of ink")
+        plugin.path.write_text(text)
+        shown(b, plugin)
+        publish(b, [*CORNERS, (1.0, 1.0)])
+        assert b.statuses()["Polygon"] == ("OK", "4 corners.")
+        assert "Display" not in b.statuses()
+
+
+def test_what_a_hook_drew_goes_with_the_hook(b: Any, plugin: Any) -> None:
+    plugin.edit(
+        ("sample: Sample, ctx: Context", "samples, ctx: Context"),
+        ("def draw", "def draw_all"),
+        ("        corners =", "        if not samples:\n            return\n        corners ="),
+        ("sample.message", "samples[-1].message"),
+    )
+    shown(b, plugin)
+    assert outlines(b) == [(GREEN, 1.0)]
+    plugin.edit(("def draw_all", "def sketch"))
+    shown(b, plugin)
+    assert outlines(b) == []
+
+
+def test_another_topic_in_the_file_is_listened_to(b: Any, plugin: Any) -> None:
+    plugin.edit(('Topic("/polygon")', 'Topic("/fence")'))
+    shown(b, plugin)
+    assert "/fence" in b.source.wanted
+    assert "/polygon" not in b.source.wanted
+    assert outlines(b) == []
+    publish(b, topic="/fence")
+    assert outlines(b) == [(GREEN, 1.0)]
+
+
+def test_work_of_the_old_code_is_not_drawn_by_the_new(b: Any, plugin: Any) -> None:
+    plugin.edit(
+        ("        corners =", '        n = ctx.state.setdefault("n", WIDTH)\n        corners ='),
+        ("self.color)", "self.color, n)"),
+        ("\n\nclass", "\nWIDTH = 3.0\n\n\nclass"),
+    )
+    shown(b, plugin)
+    assert outlines(b) == [(GREEN, 3.0)]
+    plugin.edit(("WIDTH = 3.0", "WIDTH = 6.0"))
+    shown(b, plugin)
+    assert outlines(b) == [(GREEN, 6.0)]
+
+
+def test_a_reset_after_a_reload_forgets_as_ever(b: Any, plugin: Any) -> None:
+    shown(b, plugin)
+    b.viewer.enqueue(Reset())
+    b.turn()
+    assert outlines(b) == []
+    publish(b)
+    assert outlines(b) == [(GREEN, 1.0)]
