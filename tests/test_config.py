@@ -16,6 +16,8 @@ from webviz import config as config_file
 from webviz.config import Config, ConfigError, Unreadable, View, dump, load, parse, save
 from webviz.display import to_values
 from webviz.registry import display_types
+from webviz_displays.grid import Grid
+from webviz_displays.laser_scan import LaserScan
 
 WHOLE = """\
 version: 1
@@ -39,6 +41,9 @@ def test_what_a_file_says_is_what_the_config_holds() -> None:
     assert config.settings.background == (10, 20, 30)
     assert config.settings.view == View(distance=4.0, yaw=0.5, focal_point=(1.0, 2.0, 0.0))
     floor, front, rear = config.displays
+    assert isinstance(floor, Grid)
+    assert isinstance(front, LaserScan)
+    assert isinstance(rear, LaserScan)
     assert to_values(floor) == {"name": "Floor", "plane_cell_count": 20}
     assert (front.topic.name, front.topic.reliability, front.size) == ("/front", "reliable", 0.05)
     assert (rear.topic.name, rear.enabled) == ("/rear", False)

@@ -91,7 +91,8 @@ def Prop(
     """
     extra = {"unit": unit, "rviz": rviz, "when": when, "widget": widget}
     extra = {key: value for key, value in extra.items() if value}
-    return msgspec.Meta(description=help or None, extra=extra, gt=gt, ge=ge, lt=lt, le=le)
+    bounds: dict[str, Any] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
+    return msgspec.Meta(description=help or None, extra=extra, **bounds)
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         return 0
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether a new sample joins the kept ones (oldest first); text says what is wrong with it."""
+        """Whether a new sample joins the kept ones (oldest first); text: what is wrong with it."""
         return True
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
