@@ -127,7 +127,29 @@ def parse(text: str, where: str) -> Config:
     entries = document.get("displays") or []
     if not isinstance(entries, list):
         raise ConfigError(f"{where}: displays: expected a list, each entry with a `type`.")
-    return Config(settings, [_display(entry, i) for i, entry in enumerate(entries)])
+    return Config(settings, [read_display(entry, i) for i, entry in enumerate(entries)])
+
+
+def read_display(entry: Any, index: int) -> Display | Unreadable:
+    """A display from an entry of the list in a config file, the one at `index`."""
+    place = f"displays[{index}]"
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
+        return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
+    types = display_types()
+    cls = types.get(entry["type"])
+    if entry["type"] in broken_display_types():
+        return Unreadable(entry, f"{place}: {broken_display_types()[entry['type']]}")
+    if cls is None:
+        hint = nearest(entry["type"], types)
+        return Unreadable(entry, f"{place}: no display type `{entry['type']}` here, {hint}")
+    values = {key: value for key, value in entry.items() if key != "type"}
+    try:
+        _refuse_unknown(values, cls.__struct_fields__, place)
+        return make(cls, values)
+    except ConfigError as error:
+        return Unreadable(entry, str(error))
+    except msgspec.ValidationError as error:
+        return Unreadable(entry, f"{place}.{describe(error)}")
 
 
 def dump(config: Config) -> str:
@@ -188,27 +210,6 @@ def _refuse_unknown(values: Mapping[str, Any], valid: Iterable[str], where: str)
     for key in values:
         if key not in valid:
             raise ConfigError(f"{where}: unknown key `{key}`, {nearest(key, valid)}")
-
-
-def _display(entry: Any, index: int) -> Display | Unreadable:
-    place = f"displays[{index}]"
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
-        return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
-    types = display_types()
-    cls = types.get(entry["type"])
-    if entry["type"] in broken_display_types():
-        return Unreadable(entry, f"{place}: {broken_display_types()[entry['type']]}")
-    if cls is None:
-        hint = nearest(entry["type"], types)
-        return Unreadable(entry, f"{place}: no display type `{entry['type']}` here, {hint}")
-    values = {key: value for key, value in entry.items() if key != "type"}
-    try:
-        _refuse_unknown(values, cls.__struct_fields__, place)
-        return make(cls, values)
-    except ConfigError as error:
-        return Unreadable(entry, str(error))
-    except msgspec.ValidationError as error:
-        return Unreadable(entry, f"{place}.{describe(error)}")
 
 
 def _entry(display: Display | Unreadable) -> Any:

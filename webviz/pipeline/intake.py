@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from webviz.display import Input, Topic
+from webviz.display import Display, Input, Topic, inputs
 from webviz.frames import Frames
 from webviz.messages import MessageError, peek_header
 from webviz.sources import Offer, Raw, Subscription
@@ -209,3 +209,24 @@ class Intake:
 
 def _words(reliability: str, durability: str) -> str:
     return f"{reliability}, {durability}".replace("_", " ")
+
+
+def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Intake]:
+    """Intakes for all inputs of a display, by property name.
+
+    Args:
+        display: as its properties are now.
+        resolve: the full name of a topic; raises ValueError.
+    """
+    result: dict[str, Intake] = {}
+    for name, spec, topic in inputs(display):
+        full, problem = "", ""
+        first = next(iter(result.values()), None)
+        wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
+        try:
+            full = resolve(wish) if wish else ""
+            problem = "" if full else "No topic is chosen."
+        except ValueError as error:
+            problem = str(error)
+        result[name] = Intake(spec, topic, full, problem)
+    return result

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import logging
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from webviz.context import Context, Placement
@@ -15,13 +14,12 @@ from webviz.messages import MessageError, decode
 from webviz.nodes import Pose
 from webviz.pipeline.background import Tasks, Workers
 from webviz.pipeline.drawing import Drawing, Scene
+from webviz.pipeline.guard import CRASHED, Guard
 from webviz.pipeline.history import Held, History
-from webviz.pipeline.intake import Arrival, Intake
+from webviz.pipeline.intake import Arrival, Intake, intakes_of
 from webviz.sample import Sample
 from webviz.sources import Offer, Raw, Subscription
 from webviz.status import Level, Status, worst
-
-log = logging.getLogger("webviz")
 
 
 @dataclass(frozen=True)
@@ -63,14 +61,14 @@ class Runner:
         self._tasks = Tasks(services.workers)
         self._state: dict[str, Any] = {}
         self._statuses: dict[str, dict[str, Status]] = {}
-        self._crashes: dict[str, str] = {}
+        self._guard = Guard(display, services.strict)
         self._history = History()
         self._newest: Arrival | None = None
         self._folded: Any = None
         self._drawn: dict[int, Sample] = {}
         self._fixed_frame = ""
         self._is_stale = True
-        self._intakes = self._make_intakes()
+        self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
 
     # Configuration
@@ -86,7 +84,7 @@ class Runner:
         set_property(self.display, path, value)
         if topics != {name: topic for name, _, topic in inputs(self.display)}:
             self.reset()
-            self._intakes = self._make_intakes()
+            self._intakes = intakes_of(self.display, self._services.resolve)
         if not self.display.enabled:
             self._drawing.clear()
             self._drawn.clear()
@@ -100,11 +98,12 @@ class Runner:
         old, self.display = self.display, display
         if inputs(old) != inputs(display) or overrides(old, "fold") != overrides(display, "fold"):
             self.reset()
-            self._intakes = self._make_intakes()
+            self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
         self._tasks = Tasks(self._services.workers)
-        for memory in (self._state, self._statuses, self._crashes):
-            memory.clear()
+        self._guard = Guard(display, self._services.strict)
+        self._state.clear()
+        self._statuses.clear()
         samples = [f"sample{slot}" for slot in self._drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
@@ -209,7 +208,7 @@ class Runner:
             result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
         for said in self._statuses.values():
             result |= said
-        for text in self._crashes.values():
+        for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
         if worst(result.values()) is Level.OK and self._drawing.is_empty():
@@ -217,20 +216,6 @@ class Runner:
         return result
 
     # Inside
-
-    def _make_intakes(self) -> dict[str, Intake]:
-        result: dict[str, Intake] = {}
-        for name, spec, topic in inputs(self.display):
-            full, problem = "", ""
-            first = next(iter(result.values()), None)
-            wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
-            try:
-                full = self._services.resolve(wish) if wish else ""
-                problem = "" if full else "No topic is chosen."
-            except ValueError as error:
-                problem = str(error)
-            result[name] = Intake(spec, topic, full, problem)
-        return result
 
     def _keep(self) -> Keep:
         keep = self._guard("history", self.display.history)
@@ -271,20 +256,10 @@ class Runner:
 
     def _fold(self, name: str, sample: Sample) -> None:
         folded = self._guard("fold", self.display.fold, name, sample, self._folded)
-        if folded is None or folded is _CRASHED:
+        if folded is None or folded is CRASHED:
             return
         self._folded = folded
-        self._history.add(
-            Sample(
-                folded,
-                sample.frame,
-                sample.stamp_ns,
-                sample.received_ns,
-                sample.number,
-                sample.pose,
-            ),
-            self._keep(),
-        )
+        self._history.add(replace(sample, message=folded), self._keep())
 
     def _redraw(self, frames: Frames) -> None:
         display = self.display
@@ -321,26 +296,8 @@ class Runner:
     ) -> None:
         """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
         context = Context(frames, self._tasks, self._state, placement, self._order)
-        if self._guard(scope, hook, *args, context) is _CRASHED:
+        if self._guard(scope, hook, *args, context) is CRASHED:
             return
         self._drawing.replace(scope, context)
         # All samples speak with one voice, the newest one's.
         self._statuses["sample" if scope.startswith("sample") else scope] = context.statuses
-
-    def _guard(self, scope: str, hook: Callable[..., Any], *args: Any) -> Any:
-        """Call into a display; what it raises becomes its status and is logged once."""
-        try:
-            result = hook(*args)
-        except Exception as error:
-            if self._services.strict:
-                raise
-            text = f"{type(self.display).__name__} failed: {type(error).__name__}: {error}"
-            if self._crashes.get(scope) != text:
-                log.exception("%s (%s)", text, self.display.name)
-            self._crashes[scope] = text
-            return _CRASHED
-        self._crashes.pop(scope, None)
-        return result
-
-
-_CRASHED = object()
