@@ -48,7 +48,13 @@ class Group:
         self.poses: dict[str, Pose] = {}
 
     def add(self, key: str, node: Node, pose: Pose | None = None) -> None:
-        """Draw a ready-made node, at a pose in the coordinates of the group."""
+        """Draw a ready-made node, at a pose in the coordinates of the group.
+
+        Raises:
+            TypeError: it is none of the nodes of `webviz.nodes`.
+        """
+        if not isinstance(node, Node):
+            raise TypeError(f"{key!r} is no node: {node!r:.80}")
         self.nodes[key] = node
         if pose is not None:
             self.poses[key] = pose

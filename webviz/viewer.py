@@ -215,6 +215,7 @@ class Viewer:
                 self._reset()
             case ReloadPlugin(path):
                 plugins.reload(path, self._runners())
+                self._read_again()
 
     def _append(self, display: Display | Unreadable) -> None:
         self._made += 1
@@ -225,6 +226,17 @@ class Viewer:
         else:
             self._entries.append(Runner(id, display, self._services))
             self._number()
+
+    def _read_again(self) -> None:
+        """Show the entries that can be read now, since a plug-in has their type or property."""
+        for index, entry in enumerate(self._entries):
+            if not isinstance(entry, Runner):
+                id, lost = entry
+                display = config_file.read_display(lost.values, index)
+                is_lost = isinstance(display, Unreadable)
+                again = (id, display) if is_lost else Runner(id, display, self._services)
+                self._entries[index] = again
+        self._number()
 
     def _number(self) -> None:
         """Tell every display its place in the list."""

@@ -9,7 +9,7 @@ import pytest
 
 from webviz import Topic
 from webviz.commands import AddDisplay, Reset, SetProperty
-from webviz.config import dump
+from webviz.config import dump, parse
 from webviz.display import make
 from webviz.plugins import ReloadPlugin
 
@@ -217,6 +217,28 @@ def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
         publish(b, [*CORNERS, (1.0, 1.0)])
         assert b.statuses()["Polygon"] == ("OK", "4 corners.")
         assert "Display" not in b.statuses()
+
+
+def test_an_entry_of_the_config_comes_to_life_with_its_property(
+    plugin: Any, bench: Callable[..., Any]
+) -> None:
+    plugin.load()
+    text = "displays: [{type: Polygon, width: 7.0}, {type: Nowhere}]"
+    b = bench(*parse(text, "x.yaml").displays)
+    assert "unknown key `width`" in b.statuses()["Config"][1]
+    plugin.edit((COLOR, WIDTH + COLOR), ("self.color)", "self.color, self.width)"))
+    shown(b, plugin)
+    publish(b)
+    assert outlines(b) == [(GREEN, 7.0)]
+    assert b.states[-1].rows[0].id == "display1"
+    assert "no display type `Nowhere`" in b.statuses(1)["Config"][1]
+
+
+def test_a_node_that_cannot_be_drawn_is_a_status(b: Any, plugin: Any) -> None:
+    plugin.edit(("        ctx.ok", "        ctx.add('nothing', None)\n        ctx.ok"))
+    shown(b, plugin)
+    assert b.statuses()["Display"][1] == "Polygon failed: TypeError: 'nothing' is no node: None"
+    assert outlines(b) == [(GREEN, 1.0)]
 
 
 def test_what_a_hook_drew_goes_with_the_hook(b: Any, plugin: Any) -> None:
