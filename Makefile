@@ -1,6 +1,6 @@
-# The commands of the README: `make demo` and `make test`. Both set up what they need in .venv.
+# `make` sets up .venv, `make test` checks and tests everything in it.
 SHELL := /bin/bash
-.DEFAULT_GOAL := demo
+.DEFAULT_GOAL := install
 
 # The first Python that fits; the default one comes first, since an apt ROS belongs to it.
 PYTHON := $(shell for p in python3 python3.12 python3.13 python3.11; do \
@@ -11,10 +11,9 @@ VENV := .venv
 ROS := $(shell $(PYTHON) -c 'import rclpy' 2>/dev/null || echo ros)
 comma := ,
 
-.PHONY: demo test check browser
+.PHONY: install test check browser
 
-demo: $(VENV)/ready
-	@exec $(VENV)/bin/webviz demo $(ARGS)
+install: $(VENV)/ready
 
 test: $(VENV)/ready-to-test check
 	@$(VENV)/bin/python -m pytest $(ARGS)
