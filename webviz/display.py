@@ -17,7 +17,6 @@ is the framework's.
 from __future__ import annotations
 
 import functools
-import importlib.metadata
 import math
 import typing
 from collections.abc import Sequence
@@ -29,8 +28,6 @@ import msgspec
 if TYPE_CHECKING:
     from webviz.context import Context
     from webviz.sample import Sample
-
-ENTRY_POINT_GROUP = "webviz.displays"
 
 Byte = Annotated[int, msgspec.Meta(ge=0, le=255)]
 Color = tuple[Byte, Byte, Byte]
@@ -272,25 +269,3 @@ def _difference(values: dict[str, Any], defaults: dict[str, Any]) -> dict[str, A
         elif value != default:
             result[key] = value
     return result
-
-
-def display_types() -> dict[str, type[Display]]:
-    """Every installed display class by the name it has in config files."""
-    return _installed()[0]
-
-
-def broken_display_types() -> dict[str, str]:
-    """Installed display types that cannot be loaded, with the reason."""
-    return _installed()[1]
-
-
-@functools.cache
-def _installed() -> tuple[dict[str, type[Display]], dict[str, str]]:
-    types, broken = {}, {}
-    points = importlib.metadata.entry_points(group=ENTRY_POINT_GROUP)
-    for point in sorted(points, key=lambda p: p.name):
-        try:
-            types[point.name] = point.load()
-        except Exception as error:  # somebody else's module may raise anything
-            broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
-    return types, broken

@@ -8,8 +8,9 @@ from typing import Any
 import viser
 
 from webviz.commands import AddDisplay, RemoveDisplay, Reset, SetFixedFrame, SetProperty
-from webviz.display import Topic, display_types
+from webviz.display import Topic
 from webviz.gui import Panel
+from webviz.registry import display_types
 from webviz.state import Row
 from webviz.status import Level, Status
 

@@ -8,9 +8,10 @@ import msgspec
 import pytest
 import viser
 
-from webviz.display import Display, Prop, display_types, make, set_property
+from webviz.display import Display, Prop, make, set_property
 from webviz.gui.controls import add_control
 from webviz.gui.properties import Property, properties_of
+from webviz.registry import display_types
 
 
 class Nested(msgspec.Struct, frozen=True):

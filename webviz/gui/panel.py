@@ -7,12 +7,12 @@ from collections.abc import Callable
 import viser
 
 from webviz.commands import AddDisplay, Command, Reset, SetFixedFrame
-from webviz.display import display_types
 from webviz.gui.control import Choice
 from webviz.gui.display_list import DisplayList
 from webviz.gui.editor import Editor
 from webviz.gui.style import row_style
 from webviz.gui.text import StatusLines
+from webviz.registry import display_types
 from webviz.state import Row, State
 
 WIDTH_PX = 340
