@@ -7,8 +7,13 @@ PYTHON := $(shell for p in python3 python3.12 python3.13 python3.11; do \
 	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null \
 	&& { command -v $$p; break; }; done)
 VENV := .venv
-# rclpy from PyPI, unless a sourced ROS brings its own.
-ROS := $(shell $(PYTHON) -c 'import rclpy' 2>/dev/null || echo ros)
+# A sourced ROS brings its own rclpy, which needs the system's numpy 1.26 and yaml; else PyPI's.
+ifeq ($(shell $(PYTHON) -c 'import rclpy; print("sourced")' 2>/dev/null),sourced)
+  VENV_OPTIONS := --system-site-packages
+  NUMPY := "numpy<2"
+else
+  ROS := ros
+endif
 comma := ,
 
 .PHONY: install test check browser
@@ -34,14 +39,14 @@ $(VENV)/ready: pyproject.toml setup.py
 	@if [ -z "$(PYTHON)" ]; then \
 		echo "webviz needs Python 3.11, 3.12 or 3.13: install one (apt install python3 python3-venv)." >&2; exit 1; fi
 	@echo "Setting up $(VENV) with $(PYTHON), some minutes the first time ..."
-	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+	@$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV) || { rm -rf $(VENV); \
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
-	@$(VENV)/bin/python -m pip install --editable ".$(if $(ROS),[ros])" || { \
+	@$(VENV)/bin/python -m pip install --editable ".$(if $(ROS),[ros])" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
 	@touch $@
 
 $(VENV)/ready-to-test: $(VENV)/ready
-	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros)]" || { \
+	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@$(MAKE) --no-print-directory browser
 	@touch $@
