@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,6 @@ from webviz.config import dump, parse
 from webviz.plugins import PluginError, Watcher, load
 
 ROOT = Path(__file__).parents[2]
-CLASS = "class Polygon(Display):\n"
 IMPORT = "from webviz import Display\n"
 
 
@@ -78,6 +79,10 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
             " does not load: NameError: name 'Nothing' is not defined.",
         ),
         (
+            f"{IMPORT}class A(Display):\n    b: Nothing = 1\n",
+            ":3 does not load: NameError: name 'Nothing' is not defined.",
+        ),
+        (
             f"{IMPORT}class A(Display):\n    count: int = 'three'\n",
             " does not load: ValidationError: Expected `int`, got `str` - at `$.count`.",
         ),
@@ -88,6 +93,13 @@ def test_a_mistake_is_one_sentence_with_its_line(plugin: Any, text: str, reason:
     types = registry.display_types()
     assert refused(plugin.path).startswith(f"{plugin.path}{reason}")
     assert registry.display_types() == types
+
+
+def test_a_refused_file_leaves_the_module_of_the_last_good_one(plugin: Any) -> None:
+    cls = plugin.load()
+    plugin.edit(("class Polygon(Display)", "class Grid(Display)"))
+    refused(plugin.path)
+    assert sys.modules[cls.__module__].Polygon is cls
 
 
 def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path) -> None:
@@ -104,6 +116,14 @@ def test_a_save_is_noticed_once(plugin: Any) -> None:
     plugin.edit(("25, 255, 0", "25, 255, 128"))
     assert watcher.look() == [plugin.path]
     assert watcher.look() == []
+
+
+def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Any) -> None:
+    watcher = Watcher([plugin.path])
+    time = plugin.path.stat().st_mtime_ns
+    plugin.edit(("25, 255, 0", "25, 255, 128"))
+    os.utime(plugin.path, ns=(time, time))
+    assert watcher.look() == [plugin.path]
 
 
 def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Any, tmp_path: Path) -> None:
