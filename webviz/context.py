@@ -118,6 +118,22 @@ class Group:
         """Draw texts; see `webviz.nodes.Labels`."""
         self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height)
 
+    def instances(
+        self,
+        key: str,
+        shape: Literal["box", "sphere", "cylinder"],
+        positions: ArrayLike,
+        scales: ArrayLike,
+        colors: ArrayLike | Rgb,
+        wxyzs: ArrayLike | None = None,
+        opacity: float | NDArray[np.float32] = 1.0,
+    ) -> None:
+        """Draw many solids; `scales` may be one size for all. See `webviz.nodes.Instances`."""
+        xyz = _f32(positions, 3)
+        sizes = np.ascontiguousarray(np.broadcast_to(np.asarray(scales, np.float32), xyz.shape))
+        turns = None if wxyzs is None else _f32(wxyzs, 4)
+        self.nodes[key] = nodes.Instances(xyz, sizes, _colors(colors), shape, turns, opacity)
+
     def image(
         self, key: str, rgba: NDArray[np.uint8], width: float, height: float, layer: int = 0
     ) -> None:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.nodes import Arrows, Axes, Labels, Lines, Mesh, Points, Pose
+from webviz.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Points, Pose
 from webviz.pipeline.baking import REACH_M, baked, can_bake, origin_near
 
 coordinate = st.floats(-REACH_M, REACH_M, width=32)
@@ -54,6 +54,22 @@ def test_axes_are_turned(pose: Pose, inner: Pose) -> None:
     expected = outer * Rotation.from_quat(np.roll(inner.wxyz, -1))
     found = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
     assert (expected.inv() * found).magnitude() < 1e-5
+
+
+@given(poses(), poses())
+def test_instances_are_moved_and_turned(pose: Pose, inner: Pose) -> None:
+    place, size = np.array([inner.position], np.float32), np.ones((1, 3), np.float32)
+    turn = np.array([inner.wxyz], np.float32)
+    outer = Rotation.from_quat(np.roll(pose.wxyz, -1))
+    for wxyzs in (turn, None):
+        moved = baked(Instances(place, size, (1, 2, 3), wxyzs=wxyzs), pose, (0.0, 0.0, 0.0))
+        assert isinstance(moved, Instances)
+        assert moved.wxyzs is not None
+        own = Rotation.identity() if wxyzs is None else Rotation.from_quat(np.roll(inner.wxyz, -1))
+        found = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
+        assert ((outer * own).inv() * found).magnitude() < 1e-5
+        expected = outer.apply(place.astype(float)) + pose.position
+        np.testing.assert_allclose(moved.positions, expected, atol=2e-3)
 
 
 def test_the_identity_keeps_the_very_arrays() -> None:

@@ -13,12 +13,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.nodes import F32, Arrows, Axes, Labels, Lines, Node, Points, Pose
+from webviz.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Node, Points, Pose
 
 Position = tuple[float, float, float]
 
 REACH_M = 1000.0
 """float32 resolves 0.06 mm so far from the origin."""
+
+_UNTURNED = np.array((1.0, 0.0, 0.0, 0.0), np.float32)
 
 
 def origin_near(position: Position, former: Position) -> Position:
@@ -31,7 +33,7 @@ def origin_near(position: Position, former: Position) -> Position:
 
 def can_bake(node: Node) -> bool:
     """Whether a node is made of coordinates that can be moved one by one."""
-    return isinstance(node, Points | Lines | Arrows | Axes | Labels)
+    return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances)
 
 
 def baked(node: Node, pose: Pose, origin: Position) -> Node:
@@ -62,6 +64,10 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
             return replace(
                 node, positions=move(node.positions), wxyzs=_turned(pose.wxyz, node.wxyzs)
             )
+        case Instances():
+            unturned = np.tile(_UNTURNED, (len(node.positions), 1))
+            wxyzs = _turned(pose.wxyz, unturned if node.wxyzs is None else node.wxyzs)
+            return replace(node, positions=move(node.positions), wxyzs=wxyzs)
     raise TypeError(f"{type(node).__name__} has no coordinates of its own")
 
 

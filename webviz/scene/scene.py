@@ -8,11 +8,24 @@ from typing import Any
 
 import viser
 
-from webviz.nodes import Arrows, Axes, Glb, Image, Labels, Lines, Mesh, Node, Points, Pose
+from webviz.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Node,
+    Points,
+    Pose,
+)
 from webviz.scene.adapter import Adapter
 from webviz.scene.axes import AxesDrawn
 from webviz.scene.drawn import Drawn
 from webviz.scene.images import ImageDrawn
+from webviz.scene.instances import InstancesDrawn
 from webviz.scene.labels import LabelsDrawn
 from webviz.scene.lines import ArrowsDrawn, LinesDrawn
 from webviz.scene.meshes import GlbDrawn, MeshDrawn
@@ -27,6 +40,7 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Axes: AxesDrawn,
     Labels: LabelsDrawn,
     Mesh: MeshDrawn,
+    Instances: InstancesDrawn,
     Glb: GlbDrawn,
     Image: ImageDrawn,
 }

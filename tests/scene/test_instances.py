@@ -1,0 +1,105 @@
+"""Many solids as one node, as a real browser draws them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.nodes import Instances, Pose
+from webviz.scene.server import BACKGROUND
+from webviz.scene.solids import SOLIDS
+
+COLOR = (200, 100, 50)
+RED, GREEN, BLUE = (200, 0, 0), (0, 200, 0), (0, 0, 200)
+
+
+def floats(*values: Any) -> np.ndarray:
+    return np.array(values, dtype=np.float32)
+
+
+ORIGIN, UNIT = floats((0, 0, 0)), floats((1, 1, 1))
+
+
+def is_near(color: tuple[int, int, int], wanted: tuple[int, int, int], by: int = 20) -> bool:
+    return bool(np.abs(np.subtract(color, wanted)).max() <= by)
+
+
+@pytest.mark.parametrize("shape", ["box", "cylinder", "sphere"])
+def test_a_solid_has_its_colour_where_it_stands(shape: Any, view: Any) -> None:
+    view.scene.set_pose("room", Pose((1.0, 0.5, 0.0)))
+    view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, COLOR, shape))
+    view.show()
+    assert is_near(view.color_at((1.0, 0.5, 0.0)), COLOR)
+    assert view.color_at((0.0, -1.0, 0.0)) == BACKGROUND
+
+
+def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
+    quarter = floats((1, 0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    centers, sizes = floats((-1, 0, 0), (1.5, 0, 0)), floats((0.4, 2, 0.1), (0.4, 2, 0.1))
+    colors = np.array((RED, GREEN), np.uint8)
+    view.scene.upsert("room", "solids", Instances(centers, sizes, colors, "box", quarter))
+    view.show()
+    assert is_near(view.color_at((-1.0, 0.9, 0.0)), RED)
+    assert view.color_at((-0.6, 0.0, 0.0)) == BACKGROUND
+    assert is_near(view.color_at((2.4, 0.0, 0.0)), GREEN)
+    assert view.color_at((1.5, 0.9, 0.0)) == BACKGROUND
+
+
+def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
+    for count in (1, 5, 0, 3):
+        places = floats(*[(x, 0, 0) for x in range(count)]).reshape(-1, 3)
+        colors = np.array([RED, GREEN, BLUE, GREEN, RED][:count], np.uint8).reshape(-1, 3)
+        view.scene.upsert("room", "solids", Instances(places, np.full_like(places, 0.5), colors))
+        view.show()
+        shown = [view.color_at((x, 0.0, 0.0)) != BACKGROUND for x in (0.0, 1.0, 2.0, 3.0, 4.0)]
+        assert shown == [True] * count + [False] * (5 - count)
+    assert is_near(view.color_at((2.0, 0.0, 0.0)), BLUE)
+    corner = (0.45, 0.45, 0.0)
+    view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, RED, "box"))
+    view.show()
+    assert is_near(view.color_at(corner), RED)
+    view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, RED, "sphere"))
+    view.show()
+    assert view.color_at(corner) == BACKGROUND
+
+
+def test_opacity_of_all_or_of_each_shows_what_is_behind(view: Any) -> None:
+    places, sizes = floats((-1, 0, 0), (1, 0, 0)), floats((1, 1, 1), (1, 1, 1))
+    white = (255, 255, 255)
+    view.scene.upsert("room", "solids", Instances(places, sizes, white, opacity=0.5))
+    view.show()
+    assert 100 < view.color_at((-1.0, 0.0, 0.0))[0] < 220
+    each = floats(1.0, 0.5)
+    view.scene.upsert("room", "solids", Instances(places, sizes, white, opacity=each))
+    view.show()
+    opaque, faint = view.color_at((-1.0, 0.0, 0.0)), view.color_at((1.0, 0.0, 0.0))
+    assert opaque[0] > 230
+    assert 100 < faint[0] < 220
+    view.scene.upsert("room", "solids", Instances(places, sizes, white))
+    view.show()
+    assert view.color_at((1.0, 0.0, 0.0))[0] > 230
+
+
+def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(view: Any) -> None:
+    places = floats((0, 0, np.nan), (1, 0, 0))
+    colors = np.array((RED, GREEN), np.uint8)
+    node = Instances(places, floats((1, 1, 1), (1, 1, 1)), colors, opacity=floats(1.0, 1.0))
+    view.scene.upsert("room", "solids", node)
+    view.show()
+    assert is_near(view.color_at((1.0, 0.0, 0.0)), GREEN)
+    assert view.color_at((-1.0, 0.0, 0.0)) == BACKGROUND
+
+
+@pytest.mark.parametrize(
+    ("shape", "volume"), [("box", 1), ("sphere", np.pi / 6), ("cylinder", np.pi / 4)]
+)
+def test_solids_are_of_size_1_and_not_inside_out(shape: str, volume: float) -> None:
+    vertices, faces = SOLIDS[shape]
+    a, b, c = np.swapaxes(vertices[faces].astype(float), 0, 1)
+    assert np.ptp(vertices, axis=0) == pytest.approx((1, 1, 1))
+    # The sum of the signed volumes of tetrahedra from the origin; round ones are cut corners.
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(volume, rel=0.07)
+    outwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c)
+    assert outwards.min() >= -1e-9
