@@ -8,7 +8,7 @@ import stat
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
@@ -138,12 +138,14 @@ def test_a_failed_save_leaves_the_old_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+@settings(deadline=None)
 @given(st.text())
 def test_any_text_is_a_config_or_one_sentence(text: str) -> None:
     with contextlib.suppress(ConfigError):
         parse(text, "x.yaml")
 
 
+@settings(deadline=None)
 @given(
     st.dictionaries(
         st.sampled_from(["fixed_frame", "version", "background", "view", "displays", "frame_rate"]),

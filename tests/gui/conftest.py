@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import queue
-import shutil
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Annotated, Any, Literal
@@ -19,19 +18,6 @@ from webviz.gui import Panel
 from webviz.scene import open_server
 from webviz.state import Row, State
 from webviz.status import Status
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-# WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
-FLAGS = (
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
 
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -159,18 +145,6 @@ def server() -> Iterator[viser.ViserServer]:
 @pytest.fixture
 def loop(server: viser.ViserServer) -> Loop:
     return Loop(server)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[playwright.Browser]:
-    """One headless Chromium for all tests."""
-    executable = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if executable is None:
-        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is on PATH")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

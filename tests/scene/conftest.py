@@ -2,38 +2,21 @@
 
 from __future__ import annotations
 
-import base64
-import io
-import shutil
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import msgspec
-import numpy as np
-import PIL.Image
 import playwright.sync_api as playwright
 import pytest
 import viser
 import websockets.sync.client
 import zstandard
+from page import Page
 
 from webviz.scene import Scene, open_server
 
 Point = tuple[float, float, float]
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-# WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
-FLAGS = (
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
 
 
 @pytest.fixture
@@ -46,18 +29,6 @@ def server() -> Iterator[viser.ViserServer]:
 @pytest.fixture
 def scene(server: viser.ViserServer) -> Scene:
     return Scene(server)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[playwright.Browser]:
-    """One headless Chromium for all tests."""
-    executable = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if executable is None:
-        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is on PATH")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")
@@ -80,23 +51,15 @@ def view(tab: View) -> Iterator[View]:
     assert tab.errors == []
 
 
-class View:
+class View(Page):
     """One browser tab of 320 x 240 pixels with the scene."""
 
     def __init__(self, browser: playwright.Browser, scene: Scene) -> None:
         self.scene = scene
-        self.errors: list[str] = []
-        others = set(scene.link.server.get_clients())
-        self._context = browser.new_context(viewport={"width": 320, "height": 240})
-        self._page = self._context.new_page()
-        self._page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self._page.goto(f"http://127.0.0.1:{scene.link.server.get_port()}/?fixedDpr=1")
-        self._page.wait_for_function("window.__viserMutable?.scene?.webviz")
-        self.wait_for(lambda: set(scene.link.server.get_clients()) > others)
-
-    def close(self) -> None:
-        """Closes the tab."""
-        self._context.close()
+        server = scene.link.server
+        others = set(server.get_clients())
+        super().__init__(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
+        self.wait_for(lambda: set(server.get_clients()) > others, "the server knows the tab")
 
     def look(self, position: Point, at: Point) -> None:
         """Puts the camera at `position`."""
@@ -110,47 +73,18 @@ class View:
         """Sends what was changed and waits until it is drawn."""
         self.scene.flush()
         # The driver must keep running while the browser answers, so wait in slices of its time.
-        self.wait_for(self._acknowledged)
-        self.frames(3)
-
-    def frames(self, count: int) -> None:
-        """Lets the page draw some frames."""
-        self.evaluate(
-            """async (count) => {
-              for (let i = 0; i < count; i++) {
-                window.__viserMutable.requestRender();
-                await new Promise(requestAnimationFrame);
-              }
-            }""",
-            count,
-        )
-
-    def pixels(self) -> np.ndarray:
-        """The canvas as drawn last: uint8 (height, width, 3)."""
-        url = self.evaluate("() => window.__viserMutable.canvas.toDataURL('image/png')")
-        png = base64.b64decode(url.split(",")[1])
-        return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGB"))
-
-    def pixel_of(self, point: Point) -> tuple[int, int]:
-        """Row and column at which a point of the scene (without its origin) is drawn."""
-        column, row = self.evaluate(
-            """(point) => {
-              const {scene, camera, canvas, nodeRefFromName} = window.__viserMutable;
-              const root = nodeRefFromName["/webviz"];
-              root.updateWorldMatrix(true, false);
-              camera.updateMatrixWorld();
-              const p = root.position.clone().set(...point).applyMatrix4(root.matrixWorld);
-              p.project(camera);
-              return [(p.x + 1) / 2 * canvas.width, (1 - p.y) / 2 * canvas.height];
-            }""",
-            list(point),
-        )
-        return int(row), int(column)
+        self.wait_for(self._acknowledged, "the tab has applied everything")
+        self.draw()
 
     def color_at(self, point: Point) -> tuple[int, int, int]:
-        """The colour drawn where a point of the scene is."""
-        red, green, blue = self.pixels()[self.pixel_of(point)].tolist()
+        """The colour drawn where a point of the scene (without its origin) is."""
+        red, green, blue = self.pixels()[self.row_column(point)].tolist()
         return red, green, blue
+
+    def row_column(self, point: Point) -> tuple[int, int]:
+        """Where a point of the scene (without its origin) is drawn."""
+        column, row = self.pixel_of(*point)
+        return int(row), int(column)
 
     def nodes(self) -> set[str]:
         """Names of the scene nodes in the page, below the root."""
@@ -159,18 +93,6 @@ class View:
               .filter(([name, node]) => node !== undefined).map(([name]) => name)"""
         )
         return {name for name in names if name.startswith("/webviz/")}
-
-    def evaluate(self, source: str, argument: Any = None) -> Any:
-        """Calls a JavaScript function in the page."""
-        return self._page.evaluate(source, argument)
-
-    def wait_for(self, condition: Callable[[], bool], timeout: float = 30.0) -> None:
-        """Waits until `condition` holds while the page runs."""
-        for _ in range(int(timeout / 0.02)):
-            if condition():
-                return
-            self._page.wait_for_timeout(20)
-        raise AssertionError("timed out")
 
     def _acknowledged(self) -> bool:
         self.scene.link.acknowledge(timeout=30)

@@ -42,10 +42,10 @@ def test_200_updates_take_no_more_of_the_graphics_card_than_ten(view: Any) -> No
         for key, make in EVERYTHING.items():
             view.scene.upsert("base_link", key, make(n))
         view.scene.flush()
-        view.frames(1)
+        view.draw(1)
         if n in (9, 199):
             view.show()
-            view.frames(5)
+            view.draw(5)
             counts.append(resources(view))
     assert counts[1] == counts[0]
 
@@ -72,7 +72,5 @@ def test_a_browser_that_joins_late_sees_the_same(view: Any, browser: Any) -> Non
     view.show()
     other = type(view)(browser, view.scene)
     other.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-    other.wait_for(
-        lambda: other.frames(2) or bool((other.pixels() == view.pixels()).mean() > 0.999)
-    )
+    other.wait_for(lambda: other.draw(2) or bool((other.pixels() == view.pixels()).mean() > 0.999))
     other.close()

@@ -32,7 +32,7 @@ def test_cell_0_0_of_a_picture_is_at_its_origin_with_columns_along_x_and_rows_al
     view.scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
     view.scene.set_pose("map", Pose((-1.0, -2.0, 0.0)))
     view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((-0.5, -1.5, 0.0)) == RED)
+    view.wait_for(lambda: view.draw(1) or view.color_at((-0.5, -1.5, 0.0)) == RED)
     assert view.color_at((2.5, -1.5, 0.0)) == GREEN
     assert view.color_at((-0.5, 1.5, 0.0)) == BLUE
     assert view.color_at((2.5, 1.5, 0.0)) == BACKGROUND
@@ -42,9 +42,9 @@ def test_cell_0_0_of_a_picture_is_at_its_origin_with_columns_along_x_and_rows_al
 def test_the_cells_of_a_picture_are_sharp(view: Any) -> None:
     view.scene.upsert("map", "grid", Image(checker(), 4.0, 4.0))
     view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.5, 0.5, 0.0)) == RED)
-    row, left = view.pixel_of((0.2, 0.5, 0.0))
-    _, right = view.pixel_of((1.8, 0.5, 0.0))
+    view.wait_for(lambda: view.draw(1) or view.color_at((0.5, 0.5, 0.0)) == RED)
+    row, left = view.row_column((0.2, 0.5, 0.0))
+    _, right = view.row_column((1.8, 0.5, 0.0))
     colors = {tuple(color) for color in view.pixels()[row, left:right].tolist()}
     assert colors == {RED, COLOR}
 
@@ -54,9 +54,9 @@ def test_a_picture_of_several_tiles_is_seamless(view: Any) -> None:
     view.scene.set_pose("map", Pose((-3.0, -1.0, 0.0)))
     view.scene.upsert("map", "grid", Image(rgba, 6.0, 2.0))
     view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((2.9, 0.0, 0.0)) == COLOR)
-    row, left = view.pixel_of((-2.9, 0.0, 0.0))
-    _, right = view.pixel_of((2.9, 0.0, 0.0))
+    view.wait_for(lambda: view.draw(1) or view.color_at((2.9, 0.0, 0.0)) == COLOR)
+    row, left = view.row_column((-2.9, 0.0, 0.0))
+    _, right = view.row_column((2.9, 0.0, 0.0))
     assert (view.pixels()[row, left:right] == COLOR).all()
 
 
@@ -65,8 +65,8 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
     view.scene.set_pose("map", Pose((-1.0, -1.0, 0.0)))
     view.scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
     view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 0.0, 0.0)) == BLUE)
-    row, column = view.pixel_of((0.0, 0.0, 0.0))
+    view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.0, 0.0)) == BLUE)
+    row, column = view.row_column((0.0, 0.0, 0.0))
     view.evaluate(
         """([column, row]) => {
           const {canvas, scene} = window.__viserMutable;
@@ -85,7 +85,7 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
         cells[..., 1] = green
         view.scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
         view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 0.0, 0.0)) == (0, 200, 255))
+    view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.0, 0.0)) == (0, 200, 255))
     seen = view.evaluate("() => window.seen")
     assert len(seen) > 20
     assert {(red, blue) for red, _, blue in seen} == {(0, 255)}
@@ -96,19 +96,21 @@ def test_lines_in_the_plane_of_a_picture_are_drawn_over_it(view: Any) -> None:
     view.scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
     view.scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
     view.look((4.0, -6.0, 2.0), (0.0, 0.0, 0.0))
-    view.wait_for(lambda: view.frames(1) or view.color_at((0.0, 1.0, 0.0)) == RED)
+    view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 1.0, 0.0)) == RED)
     along = [view.color_at((x, 0.0, 0.0)) for x in np.linspace(-2.5, 2.5, 9).tolist()]
     assert along == [GREEN] * 9
 
 
-def test_of_two_pictures_in_one_plane_the_later_one_is_on_top_from_everywhere(view: Any) -> None:
-    for name, color, corner in (("map", RED, -2.0), ("costmap", BLUE, -1.0)):
+def test_of_two_pictures_in_one_plane_the_higher_layer_is_on_top_from_everywhere(
+    view: Any,
+) -> None:
+    for name, color, corner, layer in (("costmap", BLUE, -1.0, 3), ("map", RED, -2.0, -100_000)):
         view.scene.set_pose(name, Pose((corner, corner, 0.0)))
         cells = np.full((8, 8, 4), (*color, 255), np.uint8)
-        view.scene.upsert(name, "grid", Image(cells, 2.0, 2.0))
+        view.scene.upsert(name, "grid", Image(cells, 2.0, 2.0, layer))
         view.scene.flush()
     for position in ((0.0, -0.01, 10.0), (6.0, 6.0, 3.0), (-6.0, -6.0, 3.0)):
         view.look(position, (0.0, 0.0, 0.0))
-        view.wait_for(lambda: view.frames(1) or view.color_at((0.5, 0.5, 0.0)) == BLUE)
+        view.wait_for(lambda: view.draw(1) or view.color_at((0.5, 0.5, 0.0)) == BLUE)
         assert view.color_at((-0.5, -0.5, 0.0)) == BLUE
         assert view.color_at((-1.5, -1.5, 0.0)) == RED

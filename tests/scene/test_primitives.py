@@ -117,7 +117,7 @@ def test_a_node_has_its_colour_where_its_group_stands(
     view.scene.set_pose("base_link", Pose(corner if isinstance(node, Image) else place))
     view.scene.upsert("base_link", "it", node)
     view.show()
-    view.wait_for(lambda: view.frames(1) or view.color_at(place) != BACKGROUND)
+    view.wait_for(lambda: view.draw(1) or view.color_at(place) != BACKGROUND)
     assert np.abs(np.subtract(view.color_at(place), COLOR)).max() <= tolerance
     assert view.color_at((-2.0, -1.0, 0.0)) == BACKGROUND
 
@@ -134,10 +134,10 @@ def test_axes_are_red_green_blue_along_x_y_z(view: Any) -> None:
 def test_a_text_is_centred_and_its_capitals_have_the_height_asked_for(view: Any) -> None:
     view.scene.upsert("base_link", "name", Labels(floats((0, 0, 0)), ("HHH",), 2.0))
     view.show()
-    view.wait_for(lambda: view.frames(1) or (view.pixels() < 20).any())
+    view.wait_for(lambda: view.draw(1) or (view.pixels() < 20).any())
     rows, columns = np.nonzero((view.pixels() < 20).all(axis=2))
-    top, _ = view.pixel_of((0.0, 1.0, 0.0))
-    bottom, middle = view.pixel_of((0.0, -1.0, 0.0))
+    top, _ = view.row_column((0.0, 1.0, 0.0))
+    bottom, middle = view.row_column((0.0, -1.0, 0.0))
     assert np.ptp(rows) == pytest.approx(bottom - top, rel=0.1)  # fonts differ
     assert np.mean(columns) == pytest.approx(middle, abs=2)
 
@@ -232,9 +232,9 @@ def test_far_from_home_the_scene_looks_the_same_at_its_origin(view: Any) -> None
 
 def test_the_background_can_be_changed(view: Any) -> None:
     set_background(view.scene.link.server, (10, 20, 30))
-    view.wait_for(lambda: view.frames(1) or (view.pixels() == (10, 20, 30)).all())
+    view.wait_for(lambda: view.draw(1) or (view.pixels() == (10, 20, 30)).all())
     set_background(view.scene.link.server, BACKGROUND)
-    view.wait_for(lambda: view.frames(1) or (view.pixels() == BACKGROUND).all())
+    view.wait_for(lambda: view.draw(1) or (view.pixels() == BACKGROUND).all())
 
 
 def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:

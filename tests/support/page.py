@@ -69,7 +69,9 @@ class Page:
         """Call a JavaScript function in the page."""
         return self.tab.evaluate(source, argument)
 
-    def wait_for(self, condition: Callable[[], Any], what: str, seconds: float = 30.0) -> Any:
+    def wait_for(
+        self, condition: Callable[[], Any], what: str = "it", seconds: float = 30.0
+    ) -> Any:
         """Wait until a condition holds while the page runs, and return it."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
