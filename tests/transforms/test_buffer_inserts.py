@@ -177,28 +177,6 @@ def test_after_a_clear_older_data_is_welcome(buffer: TransformBuffer, put: Put) 
     assert put("map", "odom", 1.0)
 
 
-def test_two_publishers_of_one_frame_are_told_from_a_restart(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "odom", 1.0, authority="amcl")
-    put("map", "odom", 1.1, authority="amcl again")
-    put("map", "odom", 1.2, authority="amcl again")
-    assert buffer.publishers["odom"].contested_ns is None
-    put("map", "odom", 1.3, authority="amcl")
-    assert buffer.publishers["odom"].contested_ns == 1_300_000_000
-    assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
-
-
-def test_two_static_publishers_quarrel_only_if_they_disagree(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("base", "laser", x=1.0, is_static=True, authority="first")
-    put("base", "laser", x=1.0, is_static=True, authority="second")
-    assert buffer.publishers["laser"].contested_ns is None
-    put("base", "laser", x=2.0, is_static=True, authority="first")
-    assert buffer.publishers["laser"].contested_ns is not None
-
-
 def test_the_structure_version_stands_while_only_poses_of_moving_frames_change(
     buffer: TransformBuffer, put: Put
 ) -> None:

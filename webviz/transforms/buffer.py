@@ -9,17 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.transforms.cache import Cache, StaticCache, TimeCache
-from webviz.transforms.errors import (
-    NS_PER_S,
-    TransformException,
-    format_stamp,
-)
+from webviz.transforms.errors import NS_PER_S
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
 from webviz.transforms.listing import frames_as_yaml
 from webviz.transforms.many_frames import FramesIn, poses_in
 from webviz.transforms.many_stamps import lookup_many
 from webviz.transforms.publishers import Publishers
-from webviz.transforms.records import Rejection, Transform
+from webviz.transforms.records import Rejection, Transform, fault_of, too_old
 from webviz.transforms.tree import FrameTree
 
 QUATERNION_TOLERANCE = 10e-3
@@ -113,31 +109,33 @@ class TransformBuffer:
             or isnan(z)
             or not abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) < QUATERNION_TOLERANCE
         ):
-            return self._reject(child, stamp_ns, *_fault_of(parent, child, translation))
+            fault = fault_of(parent, child, translation)
+            return self._reject(child, stamp_ns, received_ns, fault)
 
         tree = self._tree
         cache = tree.caches.get(child)
         if cache is None or cache.is_static != is_static:
-            cache = self._new_cache(parent, child, stamp_ns, is_static, authority)
+            cache = self._new_cache(parent, child, is_static)
         elif parent not in tree.names:
             tree.names[parent] = None
             self.structure_version += 1
         before = cache.newest
-        if not cache.insert(stamp_ns, ((x, y, z, qx, qy, qz, qw), parent)):
-            sentence = (
-                f"its stamp {format_stamp(stamp_ns)} is older than the newest, "
-                f"{format_stamp(cache.newest_stamp)}, by more than the buffer keeps"
-            )
-            return self._reject(child, stamp_ns, "TF_OLD_DATA", sentence)
+        sample = ((x, y, z, qx, qy, qz, qw), parent)
+        if not cache.insert(stamp_ns, sample):
+            fault = too_old(stamp_ns, cache.newest_stamp)
+            return self._reject(child, stamp_ns, received_ns, fault)
         after = cache.newest
         assert after is not None
-        changed_static = is_static and before != after
-        if before is None or before[1] != after[1] or changed_static:
+        if before is None or before[1] != after[1] or (is_static and before != after):
             self.structure_version += 1
-        publishers = self._publishers[child]
-        if publishers.current != authority:
+        claim = sample if is_static else authority
+        publishers = self._publishers.get(child)
+        if publishers is None:
+            publishers = self._publishers[child] = Publishers(authority, claim)
+        elif publishers.claim != claim:
             horizon_ns = cache.newest_stamp - self.cache_time_ns
-            publishers.switch(authority, stamp_ns, horizon_ns, changed_static)
+            publishers.take_over(authority, claim, stamp_ns, horizon_ns)
+        publishers.current = authority
         if received_ns:
             publishers.delay_ns = received_ns - stamp_ns
         self.version += 1
@@ -171,12 +169,6 @@ class TransformBuffer:
             Translations float64 (N, 3) in metres, rotations float64 (N, 4) as (x, y, z, w), and
             bool (N,): whether `lookup` would succeed. Where it would not, the poses are NaN.
         """
-        count = len(stamps_ns)
-        if target == source:
-            rotations = np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))
-            return np.zeros((count, 3)), rotations, np.ones(count, bool)
-        if self._tree.fault(target) or self._tree.fault(source):
-            return np.full((count, 3), np.nan), np.full((count, 4), np.nan), np.zeros(count, bool)
         return lookup_many(self._tree, target, source, stamps_ns)
 
     def poses_in(
@@ -217,20 +209,7 @@ class TransformBuffer:
 
     def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
         """The text of tf2's canTransform, or None if the transform is available."""
-        if target == source:
-            return None
-        for argument, frame in (("target", target), ("source", source)):
-            fault = self._tree.fault(frame)
-            if fault:
-                return (
-                    f'Invalid frame ID "{frame}" passed to canTransform argument '
-                    f"{argument}_frame - {fault}"
-                )
-        try:
-            self._tree.resolve(target, source, stamp_ns)
-        except TransformException as error:
-            return str(error)
-        return None
+        return self._tree.can_transform_error(target, source, stamp_ns)
 
     def latest_common_time(self, target: str, source: str) -> int:
         """The newest time at which every link between the frames has data, as tf2 computes it.
@@ -250,8 +229,14 @@ class TransformBuffer:
         for cache in self._tree.caches.values():
             cache.clear()
         self._rejections.clear()
+        self.forget_publishers()
         self.version += 1
         self.structure_version += 1
+
+    def forget_publishers(self) -> None:
+        """Forget who quarrelled over which frame, as when publishers came or went."""
+        for publishers in self._publishers.values():
+            publishers.forget()
 
     def rigid_root(self, frame: str) -> str:
         """The uppermost frame that static transforms join with this one; itself if there is none.
@@ -282,39 +267,19 @@ class TransformBuffer:
         self._tree.validate("lookupTransform argument source_frame", source)
         return self._tree.resolve(target, source, stamp_ns)
 
-    def _new_cache(
-        self, parent: str, child: str, stamp_ns: int, is_static: bool, authority: str
-    ) -> Cache:
+    def _new_cache(self, parent: str, child: str, is_static: bool) -> Cache:
         cache = StaticCache() if is_static else TimeCache(self.cache_time_ns)
         tree = self._tree
         tree.caches[child] = cache
         tree.names.setdefault(child)
         tree.names.setdefault(parent)
-        publishers = self._publishers.get(child)
-        if publishers is None:
-            self._publishers[child] = Publishers(authority)
-        else:
-            publishers.contested_ns = stamp_ns
         return cache
 
-    def _reject(self, child: str, stamp_ns: int, reason: str, sentence: str) -> bool:
+    def _reject(self, child: str, stamp_ns: int, received_ns: int, fault: tuple[str, str]) -> bool:
         last = self._rejections.get(child)
         count = last.count + 1 if last else 1
-        self._rejections[child] = Rejection(reason, sentence, count, stamp_ns)
+        self._rejections[child] = Rejection(*fault, count, stamp_ns, received_ns)
         return False
-
-
-def _fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
-    """Why a transform is refused whatever its time."""
-    if child == parent:
-        return "TF_SELF_TRANSFORM", "the frame is its own parent"
-    if not child:
-        return "TF_NO_CHILD_FRAME_ID", "its child frame id is empty"
-    if not parent:
-        return "TF_NO_FRAME_ID", "its parent frame id is empty"
-    if any(isnan(value) for value in translation):
-        return "TF_NAN_INPUT", "its translation holds a NaN"
-    return "TF_NAN_INPUT", "its rotation holds a NaN or has length zero"
 
 
 def _transform(pose: Pose, stamp_ns: int) -> Transform:

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.cache import Cache, TimeCache
 from webviz.transforms.errors import NS_PER_S
+from webviz.transforms.quarrels import quarrels
 from webviz.transforms.reasons import in_words
 from webviz.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
 STALE_PERIODS = 5
 """A moving frame is stale if nothing came for a second and for five of its periods."""
-
-RECENT = 100
-"""Newest samples searched for signs of two publishers."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +158,7 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
-    problems = [*_quarrels(buffer, frame, cache)]
+    problems = [*quarrels(buffer, frame)]
     if newest is None:
         problems.append(f'No transform of "{frame}" has come since the transforms were cleared.')
     if age_ns is not None and age_ns > STALE_NS and age_ns * rate_hz > STALE_PERIODS * NS_PER_S:
@@ -188,31 +185,3 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
         history_ns=history_ns,
         problems=tuple(problems),
     )
-
-
-def _quarrels(buffer: TransformBuffer, frame: str, cache: Cache) -> Iterator[str]:
-    """Signs of two publishers, whether their names are known or not."""
-    publishers = buffer.publishers[frame]
-    since = publishers.contested_ns
-    if since is not None and (
-        cache.is_static or cache.newest_stamp - since <= buffer.cache_time_ns
-    ):
-        names = " and ".join(name or "an unknown node" for name in publishers.names())
-        yield f'"{frame}" has more than one publisher, or two kinds of transform: {names}.'
-    if not isinstance(cache, TimeCache):
-        return
-    samples, stamps = cache.samples[-RECENT:], cache.stamps[-RECENT:]
-    parents = [parent for _, parent in samples]
-    changes = sum(a != b for a, b in pairwise(parents))
-    if changes > 1:
-        both = " and ".join(f'"{name}"' for name in sorted(set(parents)))
-        yield (
-            f'"{frame}" changed its parent {changes} times between {both}: two publishers give it '
-            "different parents, stop one of them."
-        )
-    twins = sum(a == b for a, b in pairwise(stamps))
-    if twins > 1:
-        yield (
-            f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
-            "or one whose clock stands still."
-        )

@@ -35,14 +35,20 @@ BLOCK = 2048
 def lookup_many(
     tree: FrameTree, target: str, source: str, stamps_ns: I64
 ) -> tuple[F64, F64, NDArray[np.bool_]]:
-    """`TransformBuffer.lookup_many` for two known frames that differ."""
+    """`TransformBuffer.lookup_many`."""
     stamps_ns = np.asarray(stamps_ns, np.int64)
+    count = len(stamps_ns)
+    if target == source:
+        rotations = np.tile(IDENTITY[3:], (count, 1))
+        return np.zeros((count, 3)), rotations, np.ones(count, bool)
+    if tree.fault(target) or tree.fault(source):
+        return np.full((count, 3), np.nan), np.full((count, 4), np.nan), np.zeros(count, bool)
     order = None
     ascending = stamps_ns
     if (np.diff(stamps_ns) < 0).any():
         order = np.argsort(stamps_ns)
         ascending = stamps_ns[order]
-    poses = np.full((7, len(stamps_ns)), np.nan)
+    poses = np.full((7, count), np.nan)
     histories = _Histories(tree, ascending)
     for start in range(0, len(ascending), BLOCK):
         block = poses[:, start : start + BLOCK]

@@ -7,6 +7,7 @@ from webviz.transforms.errors import (
     ConnectivityException,
     InvalidArgumentException,
     LookupException,
+    TransformException,
 )
 from webviz.transforms.geometry import IDENTITY, Pose, compose, inverse
 
@@ -142,6 +143,23 @@ class FrameTree:
                 raise extrapolation(stale, target, source, stamp_ns)
             raise unconnected(target, source)
         return compose(inverse(target_pose), pose), stamp_ns
+
+    def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
+        """`TransformBuffer.can_transform_error`."""
+        if target == source:
+            return None
+        for argument, frame in (("target", target), ("source", source)):
+            fault = self.fault(frame)
+            if fault:
+                return (
+                    f'Invalid frame ID "{frame}" passed to canTransform argument '
+                    f"{argument}_frame - {fault}"
+                )
+        try:
+            self.resolve(target, source, stamp_ns)
+        except TransformException as error:
+            return str(error)
+        return None
 
     def rigid_root(self, frame: str) -> str:
         """`TransformBuffer.rigid_root`."""

@@ -1,0 +1,129 @@
+"""Two publishers of one frame: told from a restart, named as far as known, and forgotten."""
+
+from collections.abc import Callable
+
+import pytest
+
+from webviz.transforms import TransformBuffer
+from webviz.transforms.publishers import Contest
+from webviz.transforms.quarrels import quarrels
+
+S = 1_000_000_000
+Put = Callable[..., bool]
+
+
+def contest(buffer: TransformBuffer, frame: str) -> Contest | None:
+    return buffer.publishers[frame].contest
+
+
+def test_two_authorities_that_take_turns_are_told_from_a_restart(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.0, authority="amcl")
+    put("map", "odom", 1.1, authority="amcl again")
+    put("map", "odom", 1.2, authority="amcl again")
+    assert contest(buffer, "odom") is None
+    put("map", "odom", 1.3, authority="amcl")
+    assert contest(buffer, "odom") == Contest(("amcl again", "amcl"), 1_300_000_000)
+    assert set(buffer.publishers["odom"].names()) == {"amcl", "amcl again"}
+    assert list(quarrels(buffer, "odom")) == [
+        '"odom" has two publishers, amcl again and amcl: stop one of them.'
+    ]
+
+
+def test_a_contest_of_authorities_is_over_when_one_is_silent_for_the_cache_time(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(4):
+        put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam")[i % 2])
+    put("map", "odom", 11.2, authority="slam")
+    assert len(list(quarrels(buffer, "odom"))) == 1
+    put("map", "odom", 11.4, authority="slam")
+    assert list(quarrels(buffer, "odom")) == []
+
+
+def test_a_static_publisher_that_restarts_with_another_pose_is_not_contested(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("base", "laser", x=1.0, is_static=True, authority="first")
+    put("base", "laser", x=2.0, is_static=True, authority="second")
+    put("base", "laser", x=2.0, is_static=True, authority="second")
+    assert contest(buffer, "laser") is None
+    assert buffer.publishers["laser"].changes == 1
+
+
+def test_static_publishers_that_agree_are_not_contested(buffer: TransformBuffer, put: Put) -> None:
+    for name in ("first", "second", "first", "second"):
+        put("base", "laser", x=1.0, is_static=True, authority=name)
+    assert contest(buffer, "laser") is None
+    assert buffer.publishers["laser"].changes == 0
+    assert buffer.publishers["laser"].current == "second"
+
+
+@pytest.mark.parametrize(
+    ("other", "x", "words"),
+    [
+        ("camera", 1.0, 'two parents by static transforms, "base" and "camera"'),
+        ("base", 1.25, 'two static poses in "base", 0.250 m apart'),
+    ],
+)
+def test_a_static_transform_that_returns_names_both_sides_though_nobody_is_named(
+    buffer: TransformBuffer, put: Put, other: str, x: float, words: str
+) -> None:
+    for _ in range(2):
+        put("base", "laser", x=1.0, is_static=True)
+        put(other, "laser", x=x, is_static=True)
+    (sentence,) = quarrels(buffer, "laser")
+    assert words in sentence
+
+
+def test_three_static_publishers_are_contested_as_well(buffer: TransformBuffer, put: Put) -> None:
+    for parent in ("a", "b", "c", "a"):
+        put(parent, "laser", is_static=True)
+    assert contest(buffer, "laser") is not None
+
+
+def test_a_frame_that_is_static_and_moving_in_turn_is_contested(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("base", "laser", is_static=True)
+    put("base", "laser", 1.0)
+    assert contest(buffer, "laser") is None
+    put("base", "laser", is_static=True)
+    put("base", "laser", 50.0)
+    (sentence,) = quarrels(buffer, "laser")
+    assert 'published on /tf and as a static transform in "base"' in sentence
+
+
+def test_quarrels_are_forgotten_when_publishers_came_or_went(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for parent in ("a", "b", "a"):
+        put(parent, "laser", is_static=True)
+    buffer.forget_publishers()
+    assert list(quarrels(buffer, "laser")) == []
+    put("b", "laser", is_static=True)
+    assert contest(buffer, "laser") is None
+    put("a", "laser", is_static=True)
+    buffer.clear()
+    assert contest(buffer, "laser") is None
+
+
+def test_poses_that_leap_to_and_fro_betray_two_publishers_without_names(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(20):
+        put("map", "odom", 1.0 + i / 10, x=0.01 * i + (3.0 if i % 2 else 0.0))
+    (sentence,) = quarrels(buffer, "odom")
+    assert "leaps to and fro between two poses" in sentence
+
+
+def test_neither_a_drive_nor_a_leap_nor_standing_still_is_a_quarrel(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    for i in range(30):
+        put("map", "drive", 1.0 + i / 10, x=0.1 * i)
+        put("map", "leap", 1.0 + i / 10, x=0.1 * i + (5.0 if i > 20 else 0.0))
+        put("map", "stand", 1.0 + i / 10, x=1.0)
+        put("map", "tick", 1.0 + i / 10, x=0.001 * (i % 2))
+    assert [list(quarrels(buffer, f)) for f in ("drive", "leap", "stand", "tick")] == [[]] * 4
