@@ -60,6 +60,11 @@ def multiply(a: ArrayLike, b: ArrayLike) -> F64:
     )
 
 
+def conjugate(wxyz: ArrayLike) -> F64:
+    """The inverse rotations of unit quaternions (..., 4)."""
+    return np.asarray(wxyz, dtype=np.float64) * (1.0, -1.0, -1.0, -1.0)
+
+
 def transformed(pose: Pose, xyz: ArrayLike) -> F64:
     """Points (N, 3) given in the coordinates of `pose`, in those the pose is given in."""
     return np.asarray(xyz, dtype=np.float64) @ matrices(pose.wxyz).T + pose.position

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Display, Input, Keep, Prop, Sample, Topic, messages
 from webviz_displays import beams
 from webviz_displays.colors import bounds, faded, fractions, rainbow, ramp
-from webviz_displays.geometry import transformed
+from webviz_displays.geometry import conjugate, transformed
 
 F64 = NDArray[np.float64]
 U8 = NDArray[np.uint8]
@@ -21,6 +21,8 @@ LONG_SCAN_S = 1.0
 
 _ENDLESS_SCAN_S = 3600.0
 """What takes longer is no scan, and its stamps may overflow."""
+
+_SOLIDS: dict[str, Literal["box", "sphere"]] = {"Boxes": "box", "Spheres": "sphere"}
 
 _AXES = ("X", "Y", "Z")
 _LEAST_SPAN = 1e-3
@@ -49,7 +51,7 @@ class LaserScan(Display):
     ] = Topic("/scan")
     style: Annotated[
         Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"],
-        Prop(help="Shape of each point; Squares, Boxes and Tiles face the camera here."),
+        Prop(help="Shape of each point; Squares and Tiles face the camera here."),
     ] = "Flat Squares"
     size: Annotated[
         float, Prop(gt=0, unit="m", rviz="Size (m)", help="Edge or diameter of each point.")
@@ -70,7 +72,8 @@ class LaserScan(Display):
             ge=0,
             le=1,
             widget="slider",
-            help="Points are opaque in the browser; alpha fades them towards dark grey.",
+            help="Opacity of Spheres and Boxes; what is flat is opaque in the browser and fades "
+            "towards dark grey.",
         ),
     ] = 1.0
     decay_time: Annotated[
@@ -170,18 +173,22 @@ class LaserScan(Display):
         if scan.angle_increment == 0 and hits.total > 1:
             ctx.warn("Angles", "angle_increment is 0: all beams lie on one line.")
         xyz = self._place(hits, sample, ctx)
-        colors = faded(self._colors(scan, hits, xyz, sample, ctx), self.alpha)
+        colors = self._colors(scan, hits, xyz, sample, ctx)
+        if self.style in _SOLIDS:
+            # As in RViz the sides of boxes lie along the axes of the fixed frame.
+            upright = np.tile(conjugate(sample.pose.wxyz), (len(xyz), 1))
+            shape, size = _SOLIDS[self.style], self.size
+            ctx.instances("solids", shape, xyz, size, colors, upright, self.alpha)
+            return
+        colors = faded(colors, self.alpha)
         if self.style == "Points":
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
             both_ends = np.repeat(colors[:, None], 2, axis=1)
             ctx.lines("points", dots, both_ends, self.size_pixels)
             return
-        if self.style in ("Squares", "Boxes", "Tiles"):
+        if self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
-        elif self.style == "Spheres":
-            ctx.ok("Style", "Spheres are drawn as flat discs that face the camera.")
-        shape = "circle" if self.style == "Spheres" else "square"
-        ctx.points("points", xyz, colors, self.size, shape)
+        ctx.points("points", xyz, colors, self.size)
 
     def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""

@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.nodes import Lines, Points
+from webviz.nodes import Instances, Lines, Points
 from webviz_displays.laser_scan import LaserScan
 
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -176,8 +176,32 @@ def test_alpha_fades_points(lab: Benches) -> None:
 # Styles
 
 
-def test_spheres_are_discs(lab: Benches) -> None:
-    assert lab(scan([1]), style="Spheres", size=0.2).nodes()["points"].shape == "circle"
+@pytest.mark.parametrize(("style", "shape"), [("Spheres", "sphere"), ("Boxes", "box")])
+def test_spheres_and_boxes_are_solids_and_really_transparent(
+    lab: Benches, style: str, shape: str
+) -> None:
+    bench = lab(
+        scan([1, 2]),
+        style=style,
+        size=0.2,
+        alpha=0.5,
+        color_transformer="FlatColor",
+        color=(1, 2, 3),
+    )
+    node = bench.nodes()["solids"]
+    assert isinstance(node, Instances)
+    assert (node.shape, node.opacity) == (shape, 0.5)
+    np.testing.assert_allclose(bench.xyz("solids"), [(1, 0, 1), (0, 2, 1)], atol=1e-6)
+    np.testing.assert_allclose(node.scales, 0.2)
+    assert node.colors.tolist() == [[1, 2, 3]] * 2
+
+
+def test_boxes_stand_upright_in_the_fixed_frame_however_the_laser_is_tilted(bench: Benches) -> None:
+    made = bench(LaserScan(style="Boxes"))
+    made.transform("map", "laser", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
+    made.send(SCAN, scan([1, 1]), frame="laser")
+    made.turn()
+    np.testing.assert_allclose(np.abs(made.nodes()["solids"].wxyzs), [(1, 0, 0, 0)] * 2, atol=1e-6)
 
 
 def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
@@ -189,9 +213,9 @@ def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
 
 
 def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
-    bench = lab(scan([1]), style="Boxes")
+    bench = lab(scan([1]), style="Tiles")
     assert isinstance(bench.nodes()["points"], Points)
-    assert bench.statuses()["Style"][1].startswith("Boxes are drawn as")
+    assert bench.statuses()["Style"][1].startswith("Tiles are drawn as")
 
 
 # Time
