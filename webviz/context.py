@@ -31,12 +31,14 @@ class Placement:
         when: the time at which the transform to the fixed frame is taken.
         offset: pose of the group in `frame`.
         keep_last: stay at the last pose while there is no transform, instead of being hidden.
+        interval_s: least time between moves; 0 is on every frame of the loop.
     """
 
     frame: str | None = None
     when: When = "latest"
     offset: Pose = Pose()
     keep_last: bool = False
+    interval_s: float = 0.0
 
 
 class Group:
@@ -186,16 +188,17 @@ class Context(Group):
         when: When = "latest",
         offset: Pose = Pose(),
         keep_last: bool = False,
+        interval_s: float = 0.0,
         key: str = "",
     ) -> Group:
         """A group of nodes that moves with a frame; see `Placement`.
 
         Args:
             frame: frame id; None or "" is the fixed frame.
-            when, offset, keep_last: see `Placement`.
+            when, offset, keep_last, interval_s: see `Placement`.
             key: tells groups of one frame apart.
         """
-        placement = Placement(frame or None, when, offset, keep_last)
+        placement = Placement(frame or None, when, offset, keep_last, interval_s)
         return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
 
     def ok(self, key: str, text: str) -> None:

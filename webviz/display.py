@@ -118,6 +118,13 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         """How much history to hold; every held sample stays drawn."""
         return Keep()
 
+    def listens(self, name: str) -> bool:
+        """Whether the input `name` has a meaning as the properties are; else it is not subscribed.
+
+        What was heard before is kept.
+        """
+        return True
+
     def waits(self, name: str) -> bool:
         """Whether messages of the input `name` wait for the transform at their stamp.
 
@@ -144,6 +151,15 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         makes every message count: none is skipped for a newer one.
         """
         return sample.message
+
+    def depends(self, ctx: Context) -> object:
+        """What drawing depends on besides properties and messages, such as which frames are lost.
+
+        Called on every frame of the loop; when the result is another than before, all is drawn
+        anew. So a display that seldom changes draws in `draw_all` and costs little meanwhile.
+        What is drawn or said here is ignored.
+        """
+        return None
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw one sample in its own frame; called once per sample and property change."""

@@ -10,6 +10,8 @@ from webviz.frames import Frames, compose
 from webviz.nodes import Node, Pose, has_content
 from webviz.pipeline.baking import Position, baked, can_bake, origin_near
 
+_IDENTITY = Pose()
+
 
 class Scene(Protocol):
     """Draws groups of nodes; see `webviz.scene.Scene`."""
@@ -43,6 +45,7 @@ class _Drawn:
         group: what the display said last.
         origin: of the coordinates that were sent, if poses were worked into them.
         pose: of the frame that the group follows, as last seen.
+        moved_ns: when that was.
         fixed_frame: in which that was.
         visible: None before anything was sent.
     """
@@ -50,6 +53,7 @@ class _Drawn:
     group: Group
     origin: Position = (0.0, 0.0, 0.0)
     pose: Pose | None = None
+    moved_ns: int = 0
     fixed_frame: str = ""
     visible: bool | None = None
 
@@ -153,14 +157,20 @@ class Drawing:
 
     def _follow(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         placement = drawn.group.placement
+        is_placed = drawn.pose is not None and drawn.fixed_frame == frames.fixed_frame
+        rest = drawn.moved_ns + placement.interval_s * 1e9 - frames.now_ns
+        if is_placed and placement.interval_s and rest > 0:
+            return
         pose = _pose(placement, frames)
         if pose is None:
             stays = placement.keep_last and drawn.fixed_frame == frames.fixed_frame
             self._show(name, drawn, stays)
             return
-        if pose is not drawn.pose or drawn.fixed_frame != frames.fixed_frame:
-            self._scene.set_pose(name, compose(pose, placement.offset))
+        if pose is not drawn.pose or not is_placed:
+            offset = placement.offset
+            self._scene.set_pose(name, pose if offset == _IDENTITY else compose(pose, offset))
             drawn.pose, drawn.fixed_frame = pose, frames.fixed_frame
+        drawn.moved_ns = frames.now_ns
         self._show(name, drawn, True)
 
     def _show(self, name: str, drawn: _Drawn, visible: bool) -> None:

@@ -67,6 +67,7 @@ class Runner:
         self._folded: Any = None
         self._drawn: dict[int, Sample] = {}
         self._fixed_frame = ""
+        self._depended: object = None
         self._is_stale = True
         self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
@@ -124,7 +125,7 @@ class Runner:
         """What the display needs to hear by topic, nothing while it is disabled."""
         if not self.display.enabled:
             return {}
-        return {i.name: i.subscription() for i in self._intakes.values() if i.name}
+        return {i.name: i.subscription() for i in self._heard().values() if i.name}
 
     def reset(self) -> None:
         """Forget all messages, as after a jump of time."""
@@ -152,7 +153,7 @@ class Runner:
         clock = self._services.clock()
         primary = next(iter(self._intakes), "")
         counting: list[tuple[str, Intake, Arrival]] = []
-        for name, intake in self._intakes.items():
+        for name, intake in self._heard().items():
             raws = batches.get(intake.name, ())
             waits = self._waits(name)
             arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
@@ -180,7 +181,7 @@ class Runner:
             self._fixed_frame = frames.fixed_frame
             self._is_stale = True
         self._history.trim(self._keep(), frames.now_ns)
-        if self._tasks.has_news():
+        if self._tasks.has_news() or self._depends_on_news(frames):
             self._is_stale = True
         self._redraw(frames)
         self._drawing.move(frames)
@@ -200,7 +201,7 @@ class Runner:
             return {}
         result: dict[str, Status] = {}
         clock = self._services.clock()
-        for name, intake in self._intakes.items():
+        for name, intake in self._heard().items():
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
@@ -221,8 +222,25 @@ class Runner:
         keep = self._guard("history", self.display.history)
         return keep if isinstance(keep, Keep) else Keep()
 
+    def _heard(self) -> dict[str, Intake]:
+        if not overrides(self.display, "listens"):
+            return self._intakes
+        listens = self.display.listens
+        heard = {name: self._guard("listens", listens, name) for name in self._intakes}
+        return {name: i for name, i in self._intakes.items() if heard[name] is not False}
+
     def _waits(self, name: str) -> bool:
         return self._guard("waits", self.display.waits, name) is not False
+
+    def _depends_on_news(self, frames: Frames) -> bool:
+        if not overrides(self.display, "depends"):
+            return False
+        context = Context(frames, self._tasks, self._state, order=self._order)
+        before, self._depended = (
+            self._depended,
+            self._guard("depends", self.display.depends, context),
+        )
+        return self._depended != before
 
     def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
         """Decode a message and hold it, if the display wants it."""
