@@ -7,6 +7,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Protocol
 
 import msgspec
@@ -23,21 +24,20 @@ from webviz.commands import (
     SetProperty,
 )
 from webviz.config import Config, Unreadable
-from webviz.display import Display, Topic, make
+from webviz.display import Display, make
 from webviz.frames import Frames
-from webviz.messages import MessageError, TFMessage, decode
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
+from webviz.pipeline.listener import TransformListener
+from webviz.pipeline.ros_time import RosTime
 from webviz.registry import display_types, type_name
-from webviz.sources import Source, Subscription
+from webviz.sources import Offer, Source, Subscription
 from webviz.state import Row, State
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer
 
 log = logging.getLogger("webviz")
 
-TF_TOPICS = {"/tf": False, "/tf_static": True}
-TF_TYPE = "tf2_msgs/msg/TFMessage"
 IDLE_S = 0.25
 """How often to look around when nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
@@ -80,6 +80,8 @@ class Viewer:
     ) -> None:
         self.settings = config.settings
         self.buffer = TransformBuffer()
+        self._listener = TransformListener(self.buffer, clock)
+        self._time = RosTime(clock)
         self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
         self._source = source
         self._scene = scene
@@ -91,7 +93,6 @@ class Viewer:
         self._made = 0
         self._entries: list[Runner | tuple[str, Unreadable]] = []
         self._statuses: dict[str, Status] = {}
-        self._last_now_ns = 0
         self._next_panel = 0.0
         for display in config.displays:
             self._append(display)
@@ -128,16 +129,15 @@ class Viewer:
         """One turn of the frame loop."""
         commanded = self._obey()
         batches = self._source.inbox.drain()
-        now_ns = self._source.now_ns()
-        if now_ns < self._last_now_ns:
-            log.warning("Time went back by %.3f s: reset.", (self._last_now_ns - now_ns) / 1e9)
+        now_ns, offers = self._source.now_ns(), self._source.offers()
+        if self._time.step(now_ns):
+            # What arrived with it may be older or newer; what is latched is asked for again.
+            batches = {}
             self._reset()
-        self._last_now_ns = now_ns
-        for topic, is_static in TF_TOPICS.items():
-            for raw in batches.get(topic, ()):
-                self._take_transforms(raw.cdr, is_static)
+        if self._listener.take(batches, offers):
+            self._time.tell("The transforms started over in the past: everything was reset.")
+            self._reset()
         frames = self._frames = self._frames.next(self.settings.fixed_frame, now_ns)
-        offers = self._source.offers()
         runners = self._runners()
         for runner in runners:
             runner.take(batches, frames, offers)
@@ -174,7 +174,7 @@ class Viewer:
             self.settings.fixed_frame,
             tuple(sorted(self.buffer.frames())),
             topics,
-            {"Fixed Frame": self._fixed_frame_status(), **self._statuses},
+            {"Fixed Frame": self._fixed_frame_status(), **self._global_statuses(offers, frames)},
         )
 
     def config(self) -> Config:
@@ -245,7 +245,7 @@ class Viewer:
                 entry.order = order
 
     def _reset(self) -> None:
-        self.buffer.clear()
+        self._listener.reset()
         for runner in self._runners():
             runner.reset()
 
@@ -265,32 +265,22 @@ class Viewer:
                 log.exception("A node could not be drawn")
             self._statuses["Scene"] = Status(Level.ERROR, f"A node could not be drawn: {text}")
 
-    def _take_transforms(self, cdr: bytes, is_static: bool) -> None:
-        topic = "/tf_static" if is_static else "/tf"
-        try:
-            message: TFMessage = decode(TF_TYPE, cdr)
-        except MessageError as error:
-            self._statuses[topic] = Status(Level.ERROR, f"{topic}: {error}")
-            return
-        self._statuses.pop(topic, None)
-        for t in message.transforms:
-            self.buffer.set_transform(
-                t.parent, t.child, t.stamp_ns, t.translation, t.rotation, is_static, topic
-            )
-
     def _wanted(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic. The first display decides on the type and QoS of a topic."""
-        wanted = {
-            topic: Subscription(TF_TYPE, Topic(topic), latched=is_static)
-            for topic, is_static in TF_TOPICS.items()
-        }
+        wanted = self._listener.subscriptions()
         for runner in self._runners():
             for name, subscription in runner.subscriptions().items():
-                wanted.setdefault(name, subscription)
+                first = wanted.setdefault(name, subscription)
+                wanted[name] = replace(first, asked=max(first.asked, subscription.asked))
         return wanted
 
     def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
         return runner.statuses(self._source.offers(), frames, self._source.inbox.dropped)
+
+    def _global_statuses(self, offers: Mapping[str, Offer], frames: Frames) -> Mapping[str, Status]:
+        time_status = self._time.status(offers)
+        times = {"Time": time_status} if time_status else {}
+        return times | self._listener.statuses(offers, frames.now_ns) | self._statuses
 
     def _fixed_frame_status(self) -> Status:
         fixed_frame, known = self.settings.fixed_frame, self.buffer.frames()

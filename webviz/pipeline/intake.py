@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -15,6 +16,10 @@ from webviz.transforms import MessageFilter
 
 PATIENCE_S = 1.0
 """A message that waits for its transform so long is worth a word; TF is often 30 ms late."""
+
+
+_ASKED = itertools.count(1)
+"""Every new listener, and every one that forgot, asks for what is latched."""
 
 
 @dataclass(frozen=True)
@@ -50,10 +55,11 @@ class Intake:
         self.duration_ns = 0
         self._placed_at = 0.0
         self._waiting_since: float | None = None
+        self._asked = next(_ASKED)
 
     def subscription(self) -> Subscription:
         """What to ask the source for."""
-        return Subscription(self.spec.type, self.topic, self.spec.latched)
+        return Subscription(self.spec.type, self.topic, self.spec.latched, self._asked)
 
     def take(
         self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
@@ -109,7 +115,8 @@ class Intake:
         """Forget what waits; after a jump of time its stamps mean nothing."""
         self._filter.clear()
         self._times.clear()
-        self._waiting_since = None
+        self._waiting_since = self._last = None
+        self._asked = next(_ASKED)
 
     def statuses(
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float

@@ -7,6 +7,7 @@ import functools
 import threading
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import rclpy
 from rclpy.clock import ROSClock
@@ -153,7 +154,10 @@ class RosSource:
             if publishers and all(p.type != wish.type for p in publishers):
                 self._release(topic)  # nothing could arrive, and the name has to stay free
                 continue
-            fitting = _Held(wish, qos.adapt(wish, publishers), qos.is_mixed(wish, publishers))
+            policies, is_mixed = qos.adapt(wish, publishers), qos.is_mixed(wish, publishers)
+            if policies[1] == "volatile" and not is_mixed:
+                wish = replace(wish, asked=0)  # nothing is latched that could be repeated
+            fitting = _Held(wish, policies, is_mixed)
             if self._held.get(topic) != fitting:
                 self._release(topic)
                 self._subscribe(topic, fitting)

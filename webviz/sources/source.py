@@ -21,11 +21,13 @@ class Subscription:
         type: the message type, such as "nav_msgs/msg/Path".
         topic: the name, fully resolved, and the QoS the user chose.
         latched: transient local, whatever publishers offer.
+        asked: a higher number than before asks the publishers to repeat what they latched.
     """
 
     type: str
     topic: Topic
     latched: bool = False
+    asked: int = 0
 
 
 @dataclass(frozen=True)
