@@ -10,6 +10,7 @@ setup(
         ],
         "webviz.displays": [
             "Axes = webviz_displays.axes:Axes",
+            "Group = webviz.group:Group",
             "Grid = webviz_displays.grid:Grid",
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Map = webviz_displays.map:Map",

@@ -18,10 +18,11 @@ class SetProperty:
 
 @dataclass(frozen=True)
 class AddDisplay:
-    """Add a display at the end of the list."""
+    """Add a display at the end of the list, or of a group."""
 
     type: str
     values: dict[str, Any] = field(default_factory=dict)
+    group: str = ""
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,13 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
 from webviz.display import Color, Display, make, to_values
+from webviz.group import Group
 from webviz.registry import broken_display_types, display_types, type_name
 
 VERSION = 1
 MAX_BYTES = 16 << 20
+MAX_VALUES = 200_000
+"""In one file; YAML's aliases can make a few lines endless."""
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 """What is shown when nobody says what to show."""
 
@@ -69,11 +72,23 @@ class Unreadable:
 
 
 @dataclass
+class Branch:
+    """A group and what is in it, in order."""
+
+    group: Group
+    displays: list[Item]
+
+
+Item = Display | Unreadable | Branch
+"""What a list of displays consists of."""
+
+
+@dataclass
 class Config:
     """A whole config: settings and displays in order."""
 
     settings: Settings = field(default_factory=Settings)
-    displays: list[Display | Unreadable] = field(default_factory=list)
+    displays: list[Item] = field(default_factory=list)
 
 
 def standard() -> Config:
@@ -111,6 +126,8 @@ def parse(text: str, where: str) -> Config:
         raise ConfigError(f"{place} is not valid YAML: {problem}.") from error
     except (ValueError, RecursionError) as error:  # such as a date that does not exist
         raise ConfigError(f"{where} is not valid YAML: {error}.") from error
+    if _is_endless(document):
+        raise ConfigError(f"{where} holds more than {MAX_VALUES} values, aliases counted.")
     if not isinstance(document, Mapping):
         raise ConfigError(f"{where} holds no settings such as `fixed_frame: map`.")
     version = document.get("version", VERSION)
@@ -127,16 +144,17 @@ def parse(text: str, where: str) -> Config:
     entries = document.get("displays") or []
     if not isinstance(entries, list):
         raise ConfigError(f"{where}: displays: expected a list, each entry with a `type`.")
-    return Config(settings, [read_display(entry, i) for i, entry in enumerate(entries)])
+    return Config(settings, [read_display(e, f"displays[{i}]") for i, e in enumerate(entries)])
 
 
-def read_display(entry: Any, index: int) -> Display | Unreadable:
-    """A display from an entry of the list in a config file, the one at `index`."""
-    place = f"displays[{index}]"
+def read_display(entry: Any, place: str) -> Item:
+    """A display or group from an entry of a list in a config file, which is at `place`."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
     types = display_types()
     cls = types.get(entry["type"])
+    if cls is Group:
+        return _read_group(entry, place)
     if entry["type"] in broken_display_types():
         return Unreadable(entry, f"{place}: {broken_display_types()[entry['type']]}")
     if cls is None:
@@ -150,6 +168,36 @@ def read_display(entry: Any, index: int) -> Display | Unreadable:
         return Unreadable(entry, str(error))
     except msgspec.ValidationError as error:
         return Unreadable(entry, f"{place}.{describe(error)}")
+
+
+def _read_group(entry: Mapping[str, Any], place: str) -> Branch | Unreadable:
+    inner = entry.get("displays") or []
+    if not isinstance(inner, list):
+        return Unreadable(entry, f"{place}.displays: expected a list, each entry with a `type`.")
+    values = {key: value for key, value in entry.items() if key not in ("type", "displays")}
+    try:
+        _refuse_unknown(values, [*Group.__struct_fields__, "displays"], place)
+        group = make(Group, values)
+    except ConfigError as error:
+        return Unreadable(entry, str(error))
+    except msgspec.ValidationError as error:
+        return Unreadable(entry, f"{place}.{describe(error)}")
+    return Branch(group, [read_display(e, f"{place}.displays[{i}]") for i, e in enumerate(inner)])
+
+
+def _is_endless(document: Any) -> bool:
+    """Whether a document has too many values, such as an alias for what it stands in."""
+    waiting, count = [document], 0
+    while waiting:
+        value = waiting.pop()
+        count += 1
+        if count > MAX_VALUES:
+            return True
+        if isinstance(value, Mapping):
+            waiting.extend(value.values())
+        elif isinstance(value, list):
+            waiting.extend(value)
+    return False
 
 
 def dump(config: Config) -> str:
@@ -212,7 +260,10 @@ def _refuse_unknown(values: Mapping[str, Any], valid: Iterable[str], where: str)
             raise ConfigError(f"{where}: unknown key `{key}`, {nearest(key, valid)}")
 
 
-def _entry(display: Display | Unreadable) -> Any:
+def _entry(display: Item) -> Any:
     if isinstance(display, Unreadable):
         return display.values
+    if isinstance(display, Branch):
+        inner = [_entry(each) for each in display.displays]
+        return _entry(display.group) | ({"displays": inner} if inner else {})
     return {"type": type_name(type(display)), **to_values(display)}

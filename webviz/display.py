@@ -21,7 +21,7 @@ import math
 import typing
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, TypeVar
 
 import msgspec
 
@@ -171,6 +171,9 @@ class Display(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False
         """Draw what follows transforms or time; called on every frame of the loop."""
 
 
+D = TypeVar("D", bound=Display)
+
+
 def overrides(display: Display, hook: str) -> bool:
     """Whether a display's class has its own version of a hook."""
     return getattr(type(display), hook) is not getattr(Display, hook)
@@ -197,7 +200,7 @@ def default_name(cls: type[Display]) -> str:
     return cls.__name__
 
 
-def make(cls: type[Display], values: dict[str, Any]) -> Display:
+def make(cls: type[D], values: dict[str, Any]) -> D:
     """A display from plain values, as a config file has them.
 
     A topic may be its bare name. A nested setting given in part keeps the display's own defaults

@@ -19,6 +19,7 @@ class Row:
         display: its properties, to read; None if the entry of the config cannot be shown.
         name: as shown.
         statuses: sentences by key.
+        depth: in how many groups it is.
     """
 
     id: str
@@ -26,6 +27,7 @@ class Row:
     display: Display | None
     name: str
     statuses: Mapping[str, Status]
+    depth: int = 0
 
     @property
     def level(self) -> Level:

@@ -23,16 +23,17 @@ from webviz.commands import (
     SetFixedFrame,
     SetProperty,
 )
-from webviz.config import Config, Unreadable
-from webviz.display import Display, make
+from webviz.config import Config
+from webviz.display import make
+from webviz.display_list import DisplayList
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
 from webviz.pipeline.listener import TransformListener
 from webviz.pipeline.ros_time import RosTime
-from webviz.registry import display_types, type_name
+from webviz.registry import display_types
 from webviz.sources import Offer, Source, Subscription
-from webviz.state import Row, State
+from webviz.state import State
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer
 
@@ -90,12 +91,11 @@ class Viewer:
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
         self._commands: queue.Queue[Command] = queue.Queue(MAX_COMMANDS)
         self._stop = threading.Event()
-        self._made = 0
-        self._entries: list[Runner | tuple[str, Unreadable]] = []
+        self._list = DisplayList(self._services)
         self._statuses: dict[str, Status] = {}
         self._next_panel = 0.0
-        for display in config.displays:
-            self._append(display)
+        for item in config.displays:
+            self._list.add(item)
 
     def enqueue(self, command: Command) -> None:
         """Ask for a change from any thread; it is done on the next turn of the loop."""
@@ -138,7 +138,7 @@ class Viewer:
             self._time.tell("The transforms started over in the past: everything was reset.")
             self._reset()
         frames = self._frames = self._frames.next(self.settings.fixed_frame, now_ns)
-        runners = self._runners()
+        runners = self._list.active()
         for runner in runners:
             runner.take(batches, frames, offers)
         if self._scene.has_watchers():
@@ -154,23 +154,12 @@ class Viewer:
     def state(self, frames: Frames) -> State:
         """A snapshot for a panel."""
         offers = self._source.offers()
-        rows = []
-        for entry in self._entries:
-            if isinstance(entry, Runner):
-                display = entry.display
-                statuses = self._statuses_of(entry, frames)
-                name = type_name(type(display))
-                rows.append(Row(entry.id, name, display, display.name, statuses))
-            else:
-                id, lost = entry
-                status = {"Config": Status(Level.ERROR, lost.reason)}
-                rows.append(Row(id, "", None, lost.name, status))
         topics = {
             topic: tuple(sorted({p.type for p in offer.publishers}))
             for topic, offer in offers.items()
         }
         return State(
-            tuple(rows),
+            self._list.rows(lambda runner: self._statuses_of(runner, frames)),
             self.settings.fixed_frame,
             tuple(sorted(self.buffer.frames())),
             topics,
@@ -179,8 +168,7 @@ class Viewer:
 
     def config(self) -> Config:
         """What to save to come back to this."""
-        displays = [e.display if isinstance(e, Runner) else e[1] for e in self._entries]
-        return Config(self.settings, displays)
+        return Config(self.settings, self._list.items())
 
     # Commands
 
@@ -198,61 +186,25 @@ class Viewer:
     def _do(self, command: Command) -> None:
         match command:
             case SetProperty(id, path, value):
-                for runner in self._runners():
-                    if runner.id == id:
-                        runner.set(path, value)
-            case AddDisplay(type, values):
-                self._append(make(display_types()[type], values))
+                self._list.set(id, path, value)
+            case AddDisplay(type, values, group):
+                self._list.add(make(display_types()[type], values), self._list.find(group))
             case RemoveDisplay(id):
-                for runner in self._runners():
-                    if runner.id == id:
-                        runner.close()
-                self._entries = [e for e in self._entries if _id(e) != id]
-                self._number()
+                self._list.remove(id)
             case SetFixedFrame(frame):
                 self.settings = msgspec.structs.replace(self.settings, fixed_frame=frame)
             case Reset():
                 self._reset()
             case ReloadPlugin(path):
-                plugins.reload(path, self._runners())
-                self._read_again()
-
-    def _append(self, display: Display | Unreadable) -> None:
-        self._made += 1
-        id = f"display{self._made}"
-        if isinstance(display, Unreadable):
-            log.warning("%s", display.reason)
-            self._entries.append((id, display))
-        else:
-            self._entries.append(Runner(id, display, self._services))
-            self._number()
-
-    def _read_again(self) -> None:
-        """Show the entries that can be read now, since a plug-in has their type or property."""
-        for index, entry in enumerate(self._entries):
-            if not isinstance(entry, Runner):
-                id, lost = entry
-                display = config_file.read_display(lost.values, index)
-                is_lost = isinstance(display, Unreadable)
-                again = (id, display) if is_lost else Runner(id, display, self._services)
-                self._entries[index] = again
-        self._number()
-
-    def _number(self) -> None:
-        """Tell every display its place in the list."""
-        for order, entry in enumerate(self._entries):
-            if isinstance(entry, Runner):
-                entry.order = order
+                plugins.reload(path, self._list.runners())
+                self._list.read_again()
 
     def _reset(self) -> None:
         self._listener.reset()
-        for runner in self._runners():
+        for runner in self._list.runners():
             runner.reset()
 
     # Parts of a turn
-
-    def _runners(self) -> list[Runner]:
-        return [entry for entry in self._entries if isinstance(entry, Runner)]
 
     def _flush(self) -> None:
         try:
@@ -268,7 +220,7 @@ class Viewer:
     def _wanted(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic. The first display decides on the type and QoS of a topic."""
         wanted = self._listener.subscriptions()
-        for runner in self._runners():
+        for runner in self._list.active():
             for name, subscription in runner.subscriptions().items():
                 first = wanted.setdefault(name, subscription)
                 wanted[name] = replace(first, asked=max(first.asked, subscription.asked))
@@ -295,7 +247,3 @@ class Viewer:
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()
-
-
-def _id(entry: Runner | tuple[str, Unreadable]) -> str:
-    return entry.id if isinstance(entry, Runner) else entry[0]

@@ -87,8 +87,7 @@ class Runner:
             self.reset()
             self._intakes = intakes_of(self.display, self._services.resolve)
         if not self.display.enabled:
-            self._drawing.clear()
-            self._drawn.clear()
+            self.hide()
         self._is_stale = True
 
     def replace(self, display: Display) -> None:
@@ -120,6 +119,12 @@ class Runner:
     def order(self, order: int) -> None:
         self._is_stale |= order != self._order
         self._order = order
+
+    def hide(self) -> None:
+        """Draw nothing until `draw` is called again, and forget nothing."""
+        self._drawing.clear()
+        self._drawn.clear()
+        self._is_stale = True
 
     def subscriptions(self) -> dict[str, Subscription]:
         """What the display needs to hear by topic, nothing while it is disabled."""

@@ -1,0 +1,105 @@
+"""Groups: displays that are switched together, in the config, the frame loop and the list."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from webviz.commands import AddDisplay, RemoveDisplay, SetProperty
+from webviz.config import Branch, ConfigError, Unreadable, dump, parse
+from webviz.group import Group
+from webviz_displays.axes import Axes
+
+NESTED = """\
+version: 1
+displays:
+- {type: Grid}
+- type: Group
+  name: Robot
+  displays:
+  - {type: TF}
+  - type: Group
+    name: Inner
+    enabled: false
+    displays:
+    - {type: Axes, length: 2.0}
+    - {type: Nonsense}
+- {type: Path}
+"""
+
+
+def names(b: Any) -> list[tuple[str, int]]:
+    b.turn()
+    return [(row.name, row.depth) for row in b.states[-1].rows]
+
+
+def test_groups_come_back_from_a_file_as_they_were() -> None:
+    config = parse(NESTED, "x.yaml")
+    _, robot, _ = config.displays
+    assert isinstance(robot, Branch)
+    assert robot.group.name == "Robot"
+    assert dump(parse(dump(config), "x.yaml")) == dump(config) == NESTED
+
+
+def test_a_bad_entry_in_a_group_names_its_whole_path() -> None:
+    robot = parse(NESTED, "x.yaml").displays[1]
+    assert isinstance(robot, Branch)
+    inner = robot.displays[1]
+    assert isinstance(inner, Branch)
+    bad = inner.displays[1]
+    assert isinstance(bad, Unreadable)
+    assert bad.reason.startswith("displays[1].displays[1].displays[1]: no display type `Nonsense`")
+
+
+@pytest.mark.parametrize(
+    "entry", ["{type: Group, displays: 3}", "{type: Group, colour: 3}", "{type: Group, name: 3}"]
+)
+def test_a_bad_group_is_kept_as_it_was_written(entry: str) -> None:
+    (bad,) = parse(f"displays: [{entry}]", "x.yaml").displays
+    assert isinstance(bad, Unreadable)
+    assert "displays[0]" in bad.reason
+
+
+def test_a_group_that_holds_itself_is_refused() -> None:
+    with pytest.raises(ConfigError, match="values, aliases counted"):
+        parse("displays: &a\n- {type: Group, displays: *a}\n", "x.yaml")
+
+
+def test_the_list_shows_groups_before_what_is_in_them(bench: Callable[..., Any]) -> None:
+    b = bench(*parse(NESTED, "x.yaml").displays)
+    assert [depth for _, depth in names(b)] == [0, 0, 1, 1, 2, 2, 0]
+    assert b.viewer.config().displays == [] or dump(b.viewer.config()) == NESTED
+
+
+def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Branch(Group(name="Group"), [Axes(name="A"), Axes(name="B", enabled=False)]))
+    b.turn()
+    assert len(list(b.scene.visible())) == 1
+    b.viewer.enqueue(SetProperty("display1", "enabled", False))
+    b.turn()
+    assert list(b.scene.visible()) == []
+    assert b.states[-1].rows[1].statuses == {}
+    b.viewer.enqueue(SetProperty("display1", "enabled", True))
+    b.turn()
+    assert len(list(b.scene.visible())) == 1
+
+
+def test_a_group_is_as_well_as_the_worst_display_in_it(bench: Callable[..., Any]) -> None:
+    b = bench(Branch(Group(name="Group"), [Axes(name="Lost", reference_frame="nowhere")]))
+    level, text = b.statuses(0)["Lost"]
+    assert level == "ERROR"
+    assert "nowhere" in text
+
+
+def test_displays_are_added_to_groups_and_go_with_them(bench: Callable[..., Any]) -> None:
+    b = bench(Group(name="Robot"), Axes(name="A"))
+    b.viewer.enqueue(AddDisplay("Axes", {"name": "In"}, group="display1"))
+    b.viewer.enqueue(AddDisplay("Group", {"name": "Deep"}, group="display1"))
+    assert names(b) == [("Robot", 0), ("In", 1), ("Deep", 1), ("A", 0)]
+    b.viewer.enqueue(RemoveDisplay("display1"))
+    assert names(b) == [("A", 0)]
+    assert len(list(b.scene.visible())) == 1
