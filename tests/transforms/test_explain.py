@@ -121,6 +121,30 @@ def test_a_stamp_in_the_future_blames_the_clock_of_the_data(
     assert "4.0 s ahead of the present" in found.sentence
 
 
+def test_transforms_that_come_stamped_late_are_told_from_those_that_stopped(
+    buffer: TransformBuffer,
+) -> None:
+    for stamp in (10 * S, 11 * S):
+        buffer.set_transform(
+            "map", "odom", stamp, (0, 0, 0), (0, 0, 0, 1), received_ns=stamp + 2 * S
+        )
+    found = why(buffer, "odom", 13.0, 13.0)
+    assert found.kind == Kind.CLOCKS
+    assert not found.is_catching_up
+    assert 'transform "map" → "odom", which comes stamped 2.0 s in the past' in found.sentence
+    assert "which has stopped: its last is 7.0 s old" in why(buffer, "odom", 18.0, 18.0).sentence
+
+
+def test_transforms_refused_long_ago_are_not_the_reason_now(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 100.0)
+    assert not put("map", "odom", 1.0)
+    for stamp in range(101, 121):
+        put("map", "odom", float(stamp))
+    assert why(buffer, "odom", 105.0, 120.0).kind == Kind.BEHIND
+
+
 def test_a_stamp_older_than_the_cache_says_by_how_much(buffer: TransformBuffer, put: Put) -> None:
     for stamp in range(100, 111):
         put("map", "odom", float(stamp))

@@ -102,9 +102,16 @@ def _ahead(
         return Explanation(
             Kind.AHEAD,
             f"{text}; it is even {in_words(stamp_ns - now_ns)} ahead of the present: the clock of "
-            "the data's publisher is fast.",
+            "the data's publisher is fast, synchronise the clocks of the machines.",
             lag,
-            is_catching_up=True,
+        )
+    delay = buffer.publishers[child].delay_ns or 0
+    if now_ns and delay > STALE_NS and age - delay < STALE_NS:
+        return Explanation(
+            Kind.CLOCKS,
+            f"{text}, which comes stamped {in_words(delay)} in the past: the clock of its "
+            "publisher is slow, or it takes so long. Synchronise the clocks of the machines.",
+            lag,
         )
     if now_ns and age > STALE_NS:
         return Explanation(
@@ -130,7 +137,8 @@ def _behind(
         return clocks
     link = _link(buffer, child)
     rejection = buffer.rejections.get(child)
-    if rejection and rejection.reason == "TF_OLD_DATA":
+    is_recent = rejection and abs(rejection.stamp_ns - stamp_ns) < buffer.cache_time_ns
+    if rejection and rejection.reason == "TF_OLD_DATA" and is_recent:
         return Explanation(
             Kind.JUMPED_BACK,
             f"Time jumped back: the stamp is {in_words(newest_ns - stamp_ns)} older than the "

@@ -1,0 +1,249 @@
+"""Time that has not begun, stands still or goes back, and transforms that contradict each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+from webviz import Context, Display, Input, Keep, Sample, Topic
+from webviz.sources import Offer, Publisher
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+
+
+class Dot(Display):
+    """A dot where a pose is, for as long as it lasts."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+
+    def history(self) -> Keep:
+        return Keep(0, 3.0)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("dot", [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
+
+
+def statuses(b: Any) -> dict[str, tuple[str, str]]:
+    """Level and sentence by key of the viewer as a whole, a second later."""
+    b.clock += 1.1
+    b.statuses()
+    return {key: (s.level.name, s.text) for key, s in b.states[-1].statuses.items()}
+
+
+def shown(b: Any) -> list[float]:
+    return sorted(pose.position[0] + float(node.xyz[0][0]) for _, pose, node in b.scene.visible())
+
+
+def publishes(b: Any, topic: str, *nodes: str) -> None:
+    b.source.known[topic] = Offer(tuple(Publisher(n, "", "reliable", "volatile") for n in nodes))
+
+
+def test_before_the_first_clock_the_viewer_waits_and_says_for_what(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.source.now = 0
+    level, text = statuses(b)["Time"]
+    assert level == "WARN"
+    assert "Waiting for /clock: use_sim_time is set, but nobody publishes it" in text
+    publishes(b, "/clock", "/gazebo")
+    assert "/gazebo has not published it yet" in statuses(b)["Time"][1]
+    b.clock += 20.0
+    b.source.now = T
+    assert "Time" not in statuses(b)
+
+
+def test_paused_time_is_told_and_nothing_fades(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    publishes(b, "/clock", "/gazebo")
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.clock += 60.0
+    assert statuses(b)["Time"] == (
+        "OK",
+        "Simulated time stands still at 100.0 s: /gazebo is paused.",
+    )
+    assert shown(b) == [1.0]
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+    publishes(b, "/clock")
+    assert statuses(b)["Time"][0] == "WARN"
+    b.source.now += SECOND
+    assert "Time" not in statuses(b)
+
+
+def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("base", "laser", T, 10.0, static=True)
+    b.transform("map", "base", T)
+    b.pose("/pose", "laser", T, 1.0)
+    b.turn()
+    assert shown(b) == [11.0]
+    b.source.now -= 50 * SECOND
+    b.turn()
+    assert shown(b) == []
+    assert statuses(b)["Time"] == ("OK", "Time went back by 50.0 s: everything was reset.")
+    b.transform("map", "base", T - 50 * SECOND)
+    b.pose("/pose", "laser", T - 50 * SECOND, 2.0)
+    b.turn()
+    assert shown(b) == [12.0]
+    b.clock += 20.0
+    b.source.now += 20
+    assert "Time" not in statuses(b)
+
+
+def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T)
+    b.turn()
+    b.transform("map", "base", T + SECOND)
+    b.source.now -= 50 * SECOND
+    b.turn()
+    b.transform("map", "base", T - 50 * SECOND)
+    b.pose("/pose", "base", T - 50 * SECOND, 2.0)
+    b.turn()
+    assert shown(b) == [2.0]
+
+
+def test_a_clock_that_is_set_right_by_a_little_resets_nothing(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.source.now -= SECOND // 20
+    b.turn()
+    assert shown(b) == [1.0]
+
+
+def test_after_a_reset_what_is_latched_is_asked_for_again_and_welcome(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    policies = ("reliable", "transient_local")
+    b.source.known["/pose"] = Offer(
+        (Publisher("/map_server", "geometry_msgs/msg/PoseStamped", *policies),), policies
+    )
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    asked = {topic: wish.asked for topic, wish in b.source.wanted.items()}
+    b.source.now -= 50 * SECOND
+    b.turn()
+    again = {topic: wish.asked for topic, wish in b.source.wanted.items()}
+    assert again["/pose"] > asked["/pose"]
+    assert again["/tf_static"] > asked["/tf_static"]
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    assert shown(b) == [1.0]
+
+
+def loop(b: Any, first: int, last: int, *frames: str) -> None:
+    """Half-second steps of a bag without /clock: wall time goes on, the stamps are the bag's."""
+    for half in range(2 * first, 2 * last):
+        for frame in frames:
+            b.transform("map", frame, half * SECOND // 2, half / 2)
+        b.pose("/pose", frames[0], half * SECOND // 2)
+        b.clock += 0.1
+        b.source.now += SECOND // 10
+        b.turn()
+
+
+def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    loop(b, 10, 40, "base")
+    assert shown(b)[-1] == 39.5
+    loop(b, 10, 13, "base")
+    assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
+    text = statuses(b)["Transforms"][1]
+    assert 'transforms of "base" were refused' in text
+    assert "if a bag started again, press Reset" in text
+    loop(b, 13, 24, "base")
+    assert shown(b)[-1] == 23.5
+    assert statuses(b)["Time"][1].startswith("The transforms started over in the past")
+    assert "Transforms" not in statuses(b)
+
+
+def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    loop(b, 10, 40, "base", "arm")
+    for half in range(80, 140):
+        b.transform("map", "base", half * SECOND // 2)
+        b.transform("map", "arm", (half - 60) * SECOND // 2, (half - 60) / 2)
+        b.clock += 0.1
+        b.source.now += SECOND // 10
+        b.turn()
+    assert b.viewer.buffer.tree.caches["base"].newest_stamp == 69.5 * SECOND
+    text = statuses(b)["Transforms"][1]
+    assert 'transforms of "arm" were refused' in text
+    assert "TF_OLD" not in text
+    b.source.now += 6 * SECOND
+    b.clock += 6.0
+    assert "Transforms" not in statuses(b)
+
+
+def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "odom", T)
+    b.transform("odom", "camera", T + 2 * SECOND)
+    level, text = statuses(b)["Clocks"]
+    assert level == "WARN"
+    assert (
+        'The transforms of "camera" are stamped 2.0 s ahead of the clock of this computer' in text
+    )
+    b.source.now += 20 * SECOND
+    b.clock += 20.0
+    assert "Clocks" not in statuses(b)
+
+
+def test_a_second_static_publisher_is_found_by_asking_again(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    publishes(b, "/tf_static", "/first", "/second")
+    b.turn()
+    for _ in range(2):
+        asked = b.source.wanted["/tf_static"].asked
+        b.transform("base", "laser", T, static=True)
+        b.transform("camera", "laser", T, static=True)
+        b.clock += 5.0
+        b.turn()
+        b.turn()
+        if "Transforms" in statuses(b):
+            break
+        assert b.source.wanted["/tf_static"].asked > asked
+    level, text = statuses(b)["Transforms"]
+    assert level == "WARN"
+    assert '"laser" is given two parents by static transforms, "base" and "camera"' in text
+    assert "/tf_static: /first, /second" in text
+    publishes(b, "/tf_static", "/second")
+    b.turn()
+    b.transform("camera", "laser", T, static=True)
+    b.clock += 5.0
+    assert "Transforms" not in statuses(b)
+
+
+def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    for x in (1.0, 2.0):
+        b.transform("base", "laser", T, x, static=True)
+        b.clock += 5.0
+        b.turn()
+    b.transform("base", "laser", T, 2.0, static=True)
+    b.clock += 5.0
+    assert "Transforms" not in statuses(b)
+    asked = b.source.wanted["/tf_static"].asked
+    b.clock += 60.0
+    b.turn()
+    b.turn()
+    assert b.source.wanted["/tf_static"].asked == asked

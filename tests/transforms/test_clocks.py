@@ -1,0 +1,60 @@
+"""Clocks of publishers that disagree with ours, told in a sentence with the offset."""
+
+import pytest
+
+from webviz.transforms import TransformBuffer
+from webviz.transforms.clocks import clock_problem
+
+S = 1_000_000_000
+NOW = 1_700_000_000 * S
+
+
+def hear(buffer: TransformBuffer, child: str, offset_s: float, received_ns: int = NOW) -> None:
+    """A transform whose publisher's clock is ahead of ours by an offset."""
+    stamp_ns = received_ns + round(offset_s * S)
+    identity = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
+    buffer.set_transform("map", child, stamp_ns, *identity, received_ns=received_ns)
+
+
+@pytest.mark.parametrize("offset_s", [-1.0, -0.03, 0.0, 1.0])
+def test_usual_delays_and_amcls_tolerance_are_no_fault(
+    buffer: TransformBuffer, offset_s: float
+) -> None:
+    hear(buffer, "odom", offset_s)
+    assert clock_problem(buffer, NOW) == ""
+
+
+@pytest.mark.parametrize(("offset_s", "words"), [(2.0, "ahead of"), (-2.0, "behind")])
+def test_one_machine_that_is_off_is_named_with_its_offset(
+    buffer: TransformBuffer, offset_s: float, words: str
+) -> None:
+    hear(buffer, "odom", -0.01)
+    hear(buffer, "camera", offset_s)
+    assert clock_problem(buffer, NOW) == (
+        f'The transforms of "camera" are stamped 2.0 s {words} the clock of this computer, the '
+        "others are not: synchronise the clocks of the machines (chrony, NTP)."
+    )
+
+
+def test_if_all_are_off_no_frame_is_blamed(buffer: TransformBuffer) -> None:
+    for child in ("odom", "camera"):
+        hear(buffer, child, 3.0)
+    assert clock_problem(buffer, NOW).startswith("All transforms are stamped 3.0 s ahead of")
+
+
+def test_a_replayed_bag_comes_with_the_way_to_follow_its_time(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", -3 * 86400.0)
+    sentence = clock_problem(buffer, NOW)
+    assert "stamped 3 days behind the time of this computer" in sentence
+    assert "use_sim_time:=true" in sentence
+
+
+def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", 2.0)
+    assert clock_problem(buffer, NOW + 5 * S)
+    assert clock_problem(buffer, NOW + 11 * S) == ""
+
+
+def test_without_a_time_nothing_can_be_said(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", 2.0, received_ns=0)
+    assert clock_problem(buffer, 0) == ""
