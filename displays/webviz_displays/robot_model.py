@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import msgspec
 
-from webviz import Context, Display, Input, Node, Prop, Sample, Topic
+from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
 from webviz_displays.robot_loading import Description, Loading, describe_file
-from webviz_displays.robot_parts import Choices, LinkSettings, Paint, Part, parts_of
-from webviz_urdf import Missing, Robot, RobotDescriptionError
+from webviz_displays.robot_parts import Choices, JointSettings, LinkSettings, Paint, parts_of
+from webviz_displays.robot_statuses import (
+    NAMED,
+    report_joint,
+    report_link,
+    report_places,
+    report_robot,
+    report_strangers,
+)
+from webviz_displays.trails import Trails
+from webviz_urdf import Robot, RobotDescriptionError
 
 SECOND = 1_000_000_000
-NAMED = 3
-"""Missing meshes, warnings and lost links that a status names; the rest is counted."""
 
 
 class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -25,27 +32,30 @@ class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     inertia: Annotated[bool, Prop(help="The box that has each link's moments of inertia.")] = False
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class _Model:
-    """A loaded robot as it is drawn.
+    """A loaded robot.
 
     Args:
-        frames: frame id of each link that is drawn or would be.
-        parts: what is drawn.
-        paint: of the parts.
-        seen: frames that ever had a transform; a link without has no place to be drawn at.
-        lost: links without a transform when `drawn` was chosen.
-        drawn: the parts with a place, and their nodes, grey where the link is lost.
-        reason: why a link is lost, behind what and when that was asked for.
+        robot: without collision shapes.
+        full: with them, None while nobody wants them or they are being loaded.
+        prefix: of frame ids.
+        shown: links that are switched on.
     """
 
-    frames: dict[str, str]
-    parts: list[Part]
-    paint: Paint
-    seen: set[str]
-    lost: list[str] | None = None
-    drawn: list[tuple[Part, Node]] = field(default_factory=list)
-    reason: tuple[object, str] = (None, "")
+    robot: Robot
+    full: Robot | None
+    prefix: str
+    shown: tuple[str, ...]
+
+    def frame(self, link: str) -> str:
+        """The frame id of a link."""
+        return self.prefix + link
+
+    def lost(self, frames: Frames) -> list[str]:
+        """Links that should be drawn and have no transform."""
+        latest, prefix = frames.latest, self.prefix
+        return [link for link in self.shown if latest(prefix + link) is None]
 
 
 class RobotModel(Display):
@@ -77,6 +87,9 @@ class RobotModel(Display):
     mass_properties: Annotated[MassProperties, Prop(help="Draw masses and inertias.")] = (
         MassProperties()
     )
+    update_interval: Annotated[
+        float, Prop(ge=0, unit="s", help="Least time between moves; 0 is as often as possible.")
+    ] = 0.0
     alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")] = 1.0
     tf_prefix: Annotated[
         str,
@@ -89,81 +102,115 @@ class RobotModel(Display):
     links: Annotated[dict[str, LinkSettings], Prop(help="Settings of single links, by name.")] = (
         msgspec.field(default_factory=dict)
     )
+    joints: Annotated[
+        dict[str, JointSettings], Prop(help="Settings of single joints, by name.")
+    ] = msgspec.field(default_factory=dict)
+
+    def listens(self, name: str) -> bool:
+        """A description from a file needs no topic."""
+        return self.description_source == "Topic"
+
+    def depends(self, ctx: Context) -> object:
+        """How far loading is, and which links are lost; those turn grey."""
+        model: _Model | None = ctx.state.get("model")
+        progress = [loading.text for loading in ctx.state.get("loading", {}).values()]
+        return progress, model.lost(ctx.frames) if model else []
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """Properties or the description changed: `tick` loads and chooses anew."""
-        ctx.state["text"] = samples[-1].message.data if samples else None
-        ctx.state["said"] = None
+        """Draw the robot there is; each link moves with its frame."""
+        model = ctx.state["model"] = self._model(samples, ctx)
+        if model is None:
+            return
+        report_robot(model.robot, model.full, ctx)
+        if not (self.visual_enabled or self.collision_enabled):
+            ctx.warn("Shapes", "Neither visual nor collision shapes are switched on.")
+        report_strangers("Link", list(self.links), list(model.robot.links), ctx)
+        report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)
+        for name in [joint for joint in self.joints if joint in model.robot.joints][:NAMED]:
+            report_joint(model.robot.joints[name], ctx)
+        paint: Paint = ctx.state.setdefault("paint", Paint())
+        paint.begin()
+        lost = set(model.lost(ctx.frames))
+        for part in parts_of(model.robot, model.full, self._choices(), paint):
+            group = ctx.follow(
+                model.frame(part.link), keep_last=True, interval_s=self.update_interval
+            )
+            group.add(part.key, paint(part.node, grey=part.link in lost), part.pose)
 
     def tick(self, ctx: Context) -> None:
-        """Place the parts; those of links without a transform turn grey and stay."""
-        if ctx.state["said"] is None or ctx.state["loading"]:
-            self._choose(ctx)
-            ctx.state["said"] = dict(ctx.statuses)
-        ctx.statuses.update(ctx.state["said"])
+        """Say where links are, and draw their trails."""
         model: _Model | None = ctx.state.get("model")
         if model is None:
             return
-        latest = ctx.frames.latest
-        lost = [link for link, frame in model.frames.items() if latest(frame) is None]
-        if lost != model.lost:
-            gone = set(lost)
-            model.lost = lost
-            model.seen.update(frame for link, frame in model.frames.items() if link not in gone)
-            model.drawn = [
-                (part, model.paint(part.node, grey=True) if part.link in gone else part.node)
-                for part in model.parts
-                if model.frames[part.link] in model.seen
-            ]
-        for part, node in model.drawn:
-            frame = model.frames[part.link]
-            ctx.follow(frame, keep_last=True).add(part.key, node, part.pose)
-        _report_lost(model, lost, ctx)
+        lost = model.lost(ctx.frames)
+        report_places(len(model.shown), lost, self._reasons(model, lost, ctx), ctx)
+        chosen = {link: self.links[link] for link in model.shown if link in self.links}
+        for link in [link for link, chosen in chosen.items() if chosen.show_axes][:NAMED]:
+            if pose := ctx.frames.latest(model.frame(link)):
+                report_link(link, pose, ctx)
+        self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
 
-    def _choose(self, ctx: Context) -> None:
-        """Load what is new, and choose what to draw of it."""
-        before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
-        description = self._description(ctx)
-        if description is None:
-            ctx.state.pop("model", None)
-            return
-        try:
-            robot = _load(description, False, before, ctx)
-            full = _load(description, True, before, ctx) if self.collision_enabled else None
-        except RobotDescriptionError as error:
-            ctx.state.pop("model", None)
-            ctx.error("URDF", str(error))
-            return
-        if robot is None:
-            return  # until the new robot is there, the old one stays
-        _report(robot, full, ctx)
-        if not (self.visual_enabled or self.collision_enabled):
-            ctx.warn("Shapes", "Neither visual nor collision shapes are switched on.")
-        choices = Choices(
+    def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> list[str]:
+        """Why the first lost links are; the texts hold times, so they are renewed every second."""
+        moment = (lost, ctx.frames.now_ns // SECOND)
+        known, reasons = ctx.state.get("reasons", (None, []))
+        if known != moment:
+            reasons = [ctx.frames.why_not(model.frame(link)) for link in lost[:NAMED]]
+            ctx.state["reasons"] = (moment, reasons)
+        return reasons
+
+    def _draw_trails(self, model: _Model, links: list[str], ctx: Context) -> None:
+        fixed, trails = ctx.state.get("trails", ("", None))
+        if fixed != ctx.frames.fixed_frame or trails is None:
+            trails = Trails()
+            ctx.state["trails"] = (ctx.frames.fixed_frame, trails)
+        poses = {link: ctx.frames.latest(model.frame(link)) for link in links}
+        trails.update({link: pose and pose.position for link, pose in poses.items()})
+        trails.draw(ctx)
+
+    def _choices(self) -> Choices:
+        return Choices(
             self.visual_enabled,
             self.collision_enabled,
             self.mass_properties.mass,
             self.mass_properties.inertia,
             self.alpha,
             self.links,
+            self.joints,
             self.all_links_enabled,
         )
-        paint: Paint = ctx.state.setdefault("paint", Paint())
-        paint.begin()
-        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
-        frames = {link: f"{prefix}{link}" for link in robot.links if choices.of(link).enabled}
-        parts = parts_of(robot, full, choices, paint)
-        ctx.state["model"] = _Model(frames, parts, paint, ctx.state.setdefault("seen", set()))
 
-    def _description(self, ctx: Context) -> Description | None:
+    def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
+        """The robot as described; until a new one is loaded, the one there was."""
+        before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
+        description = self._description(samples, ctx)
+        if description is None:
+            return None
+        try:
+            robot = _load(description, False, before, ctx)
+            full = _load(description, True, before, ctx) if self.collision_enabled else None
+        except RobotDescriptionError as error:
+            ctx.error("URDF", str(error))
+            return None
+        old: _Model | None = ctx.state.get("model")
+        if robot is None:
+            if old is None:
+                return None
+            robot, full = old.robot, old.full
+        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
+        choices = self._choices()
+        shown = tuple(link for link in robot.links if choices.of(link).enabled)
+        return _Model(robot, full, prefix, shown)
+
+    def _description(self, samples: Sequence[Sample], ctx: Context) -> Description | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
             if self.description_file:
                 return describe_file(self.description_file, paths)
             ctx.warn("URDF", "No description file is chosen.")
             return None
-        if ctx.state["text"] is not None:
-            return Description(text=ctx.state["text"], package_paths=paths)
+        if samples:
+            return Description(text=samples[-1].message.data, package_paths=paths)
         ctx.warn("URDF", f"No robot description yet on {self.description_topic.name}.")
         return None
 
@@ -179,46 +226,3 @@ def _load(
         ctx.state["loading"][key] = loading
         ctx.warn("Loading", loading.text)
     return robot
-
-
-def _report(robot: Robot, full: Robot | None, ctx: Context) -> None:
-    """Say what was read and what is missing."""
-    missing = [m for m in (full or robot).missing if full or m.kind == "visual"]
-    drawn = sum(len(link.visuals) for link in robot.links.values())
-    total = drawn + sum(m.kind == "visual" for m in missing)
-    text = f"'{robot.name}': {_count(len(robot.links), 'link')}, {drawn} of {total} visuals loaded."
-    (ctx.ok if total else ctx.warn)("URDF", text)
-    if missing:
-        ctx.error("Meshes", f"{_count(len(missing), 'shape')} missing. " + _listed(missing))
-    if robot.warnings:
-        rest = len(robot.warnings) - NAMED
-        more = (f"And {rest} more.",) if rest > 0 else ()
-        ctx.warn("URDF warnings", " ".join((*robot.warnings[:NAMED], *more)))
-
-
-def _report_lost(model: _Model, lost: list[str], ctx: Context) -> None:
-    if not lost:
-        ctx.ok("Links", f"{_count(len(model.frames), 'link')} placed by transforms.")
-        return
-    # The explanation holds times, so it is renewed, but not on every tick.
-    moment = (tuple(lost), ctx.frames.now_ns // SECOND)
-    if model.reason[0] != moment:
-        model.reason = (moment, ctx.frames.why_not(model.frames[lost[0]]))
-    names = ", ".join(lost[:NAMED]) + (
-        f" and {len(lost) - NAMED} more" if len(lost) > NAMED else ""
-    )
-    ctx.error(
-        "Links",
-        f"{len(lost)} of {_count(len(model.frames), 'link')} without a transform: {names}. "
-        f"{model.reason[1]} What was seen before is grey where it was.",
-    )
-
-
-def _listed(missing: Sequence[Missing]) -> str:
-    first = " ".join(f"Link '{m.link}': {m.reason}" for m in missing[:NAMED])
-    rest = len(missing) - NAMED
-    return f"{first} And {rest} more." if rest > 0 else first
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -9,13 +9,17 @@ from typing import Annotated
 import msgspec
 import numpy as np
 
-from webviz import Axes, Glb, Mesh, Node, Pose, Prop
-from webviz_urdf import Link, Robot, Shape, glb_with, inertia_box, mass_sphere
+from webviz import Arrows, Axes, Glb, Mesh, Node, Pose, Prop
+from webviz_displays.robot_statuses import has_axis
+from webviz_urdf import Joint, Link, Robot, Shape, glb_with, inertia_box, mass_sphere
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
 
 GREY = (150, 150, 150)
+
+AXIS_COLOR, AXIS_LENGTH = (0, 204, 0), 0.2
+"""RViz's arrow along the axis of a joint: a shaft of 0.15 m and a head of 0.05 m."""
 
 _ORIGIN = Pose()
 # RViz's link axes are 0.1 m long and 0.01 m thick.
@@ -29,7 +33,21 @@ class LinkSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     alpha: Annotated[
         float, Prop(ge=0, le=1, widget="slider", help="Opacity, times that of the robot.")
     ] = 1.0
-    show_axes: Annotated[bool, Prop(help="Draw the axes of the link's frame.")] = False
+    show_trail: Annotated[bool, Prop(help="Draw the last 2 m of the link's way.")] = False
+    show_axes: Annotated[
+        bool, Prop(help="Draw the axes of the link's frame, and say where it is.")
+    ] = False
+
+
+class JointSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a user chose for one joint."""
+
+    show_axes: Annotated[
+        bool, Prop(help="Draw the axes of the joint's frame at position 0, and say how it moves.")
+    ] = False
+    show_joint_axis: Annotated[
+        bool, Prop(help="Draw an arrow along the axis the joint moves along or about.")
+    ] = False
 
 
 @dataclass(frozen=True)
@@ -40,6 +58,7 @@ class Choices:
         visual, collision, mass, inertia: what to draw of each link.
         alpha: opacity of visual and collision shapes.
         links: by name; they decide for the links they name.
+        joints: by name.
         all_links: whether to draw the links that have no settings.
     """
 
@@ -49,6 +68,7 @@ class Choices:
     inertia: bool
     alpha: float
     links: Mapping[str, LinkSettings]
+    joints: Mapping[str, JointSettings]
     all_links: bool
 
     def of(self, link: str) -> LinkSettings:
@@ -124,7 +144,12 @@ def parts_of(
             Part(name, f"{name} {key}", _ORIGIN, node)
             for key, node in _extras(link, settings, choices)
         ]
-    return parts
+    return parts + [
+        Part(joint.parent, f"{joint.name} {key}", joint.origin, node)
+        for name, settings in choices.joints.items()
+        if (joint := visuals.joints.get(name))
+        for key, node in _joint_marks(joint, settings)
+    ]
 
 
 def _shapes(link: Link, collision: Link | None, choices: Choices) -> Iterator[tuple[str, Shape]]:
@@ -141,6 +166,14 @@ def _extras(link: Link, settings: LinkSettings, choices: Choices) -> Iterator[tu
         yield "mass", ball
     if choices.inertia and (box := inertia_box(link)):
         yield "inertia", box
+
+
+def _joint_marks(joint: Joint, settings: JointSettings) -> Iterator[tuple[str, Node]]:
+    if settings.show_axes:
+        yield "joint axes", _AXES
+    if settings.show_joint_axis and has_axis(joint):
+        segment = np.array([((0, 0, 0), joint.axis)], np.float32) * AXIS_LENGTH
+        yield "joint axis", Arrows(segment, AXIS_COLOR, 0.025, 0.04, 0.05)
 
 
 def _painted(node: Mesh | Glb, alpha: float, grey: bool) -> Mesh | Glb:

@@ -15,6 +15,7 @@ from webviz import Context, Display, FramePoses, Pose, Prop, Sample
 from webviz_displays.fading import Ages, fade
 from webviz_displays.frame_filter import FrameFilter, compiled, parent_indices
 from webviz_displays.frame_marks import Marks, add_arrows, add_axes, add_names
+from webviz_displays.frame_readout import readout
 
 SECOND = 1_000_000_000
 
@@ -70,9 +71,10 @@ class TF(Display):
     all_enabled: Annotated[
         bool, Prop(rviz="Frames/All Enabled", help="Show the frames without a switch of their own.")
     ] = True
-    frames: Annotated[dict[str, bool], Prop(help="Switches of single frames, by name.")] = (
-        msgspec.field(default_factory=dict)
-    )
+    frames: Annotated[
+        dict[str, bool],
+        Prop(help="Switches of single frames, by name; those switched on say where they are."),
+    ] = msgspec.field(default_factory=dict)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Properties or the fixed frame changed: derive everything anew."""
@@ -168,6 +170,9 @@ class TF(Display):
             ctx.state["reasons"] = {name: ctx.frames.why_not(name) for name in names}
         for name, reason in ctx.state["reasons"].items():
             ctx.warn(name, reason)
+        for name, is_on in self.frames.items():
+            if is_on and name not in ctx.statuses and (text := readout(ctx.frames, name)):
+                ctx.ok(name, text)
 
 
 def _pattern(key: str, text: str, ctx: Context) -> re.Pattern[str] | None:

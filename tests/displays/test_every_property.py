@@ -17,7 +17,7 @@ import trimesh
 import webviz_displays
 from webviz import Display, Topic
 from webviz.display import set_property
-from webviz_displays.robot_parts import LinkSettings
+from webviz_displays.robot_parts import JointSettings, LinkSettings
 
 SECOND = 1_000_000_000
 
@@ -114,6 +114,10 @@ ROBOT = """
     <collision><geometry><sphere radius="1"/></geometry></collision>
     <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
   </link>
+  <link name="rider"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/><child link="rider"/><limit lower="0" upper="9" effort="1" velocity="1"/>
+  </joint>
 </robot>
 """
 
@@ -121,7 +125,10 @@ ROBOT = """
 def robots(bench: Any) -> None:
     bench.transform("map", "base", (1.0, 0.0, 0.0))
     bench.send("std_msgs/msg/String", {"data": ROBOT}, topic="/robot_description")
-    settle(bench)
+    for place in (1.0, 2.0):
+        bench.transform("base", "rider", (place, 0.0, 0.0), stamp_ns=bench.now_ns)
+        settle(bench)
+        bench.turn(0.1)
 
 
 SCENES: dict[str, Callable[[Any], None]] = {
@@ -142,7 +149,23 @@ OF_THE_FUTURE = {
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
     ("Path", "buffer_length"),
+    ("RobotModel", "update_interval"),
     ("TF", "update_interval"),
+}
+
+# Entries of properties that hold settings by name: each differs from none in one setting.
+ENTRIES: dict[type, list[Any]] = {
+    bool: [{"robot": False}],
+    LinkSettings: [
+        {"base": LinkSettings(enabled=False)},
+        {"base": LinkSettings(alpha=0.5)},
+        {"base": LinkSettings(show_axes=True)},
+        {"rider": LinkSettings(show_trail=True)},
+    ],
+    JointSettings: [
+        {"slide": JointSettings(show_axes=True)},
+        {"slide": JointSettings(show_joint_axis=True)},
+    ],
 }
 
 # What must be set besides what `when` tells.
@@ -170,7 +193,7 @@ def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) ->
     if isinstance(value, str):
         return ["robot"]
     if isinstance(value, dict):
-        return [{"robot": False}] if cls.__name__ == "TF" else [{"base": LinkSettings(alpha=0.5)}]
+        return ENTRIES[get_args(hint)[1]]
     assert isinstance(value, list), "a new kind of property"
     package = folder / "somewhere"
     package.mkdir()
@@ -260,7 +283,7 @@ def test_every_property_changes_what_is_drawn_or_said(
             continue  # out of bounds
         tried += 1
         former = picture(at_work)
-        if (cls.__name__, path) in OF_THE_FUTURE:
+        if (cls.__name__, path) in OF_THE_FUTURE or "show_trail=True" in str(value):
             for other, wanted in condition.items():
                 set_property(changed, other, wanted)
             again = bench(changed)

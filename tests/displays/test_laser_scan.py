@@ -193,6 +193,7 @@ def test_spheres_and_boxes_are_solids_and_really_transparent(
     assert (node.shape, node.opacity) == (shape, 0.5)
     np.testing.assert_allclose(bench.xyz("solids"), [(1, 0, 1), (0, 2, 1)], atol=1e-6)
     np.testing.assert_allclose(node.scales, 0.2)
+    assert isinstance(node.colors, np.ndarray)
     assert node.colors.tolist() == [[1, 2, 3]] * 2
 
 

@@ -1,38 +1,19 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
 import threading
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from robot_arm import ARM, describe, is_loaded, place_arm, wait
 
 import webviz_urdf
-from webviz import Mesh
 from webviz_displays import robot_loading
 from webviz_displays.robot_model import RobotModel
-from webviz_displays.robot_parts import GREY
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 PACKAGES = [str(Path(webviz_urdf.__file__).parent.parent)]
 
-ARM = """
-<robot name="arm">
-  <material name="blue"><color rgba="0 0 1 1"/></material>
-  <link name="base">
-    <visual><geometry><box size="1 1 1"/></geometry><material name="blue"/></visual>
-    <collision><geometry><sphere radius="2"/></geometry></collision>
-    <inertial><mass value="6"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
-  </link>
-  <link name="tool">
-    <visual name="grip">
-      <origin xyz="0 0 2"/><geometry><box size="1 1 1"/></geometry><material name="blue"/>
-    </visual>
-  </link>
-  <joint name="wrist" type="continuous"><parent link="base"/><child link="tool"/></joint>
-</robot>
-"""
 MESHES = """
 <robot name="meshes">
   <link name="base">
@@ -42,32 +23,6 @@ MESHES = """
   </link>
 </robot>
 """
-
-
-def wait(at, ready: Callable[[], bool]) -> None:
-    """Turn the frame loop until slow work is done."""
-    deadline = time.monotonic() + 20
-    at.turn()
-    while not ready():
-        assert time.monotonic() < deadline, at.statuses()
-        time.sleep(0.005)
-        at.turn()
-
-
-def is_loaded(at) -> bool:
-    statuses = at.statuses()
-    return "URDF" in statuses and "Loading" not in statuses
-
-
-def describe(at, text: str) -> None:
-    at.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
-    wait(at, lambda: is_loaded(at))
-
-
-def place_arm(at) -> None:
-    at.transform("map", "base", (1.0, 0.0, 0.0))
-    # Half a turn about x: what is 2 above the tool is then 2 below it.
-    at.transform("base", "tool", (0.0, 3.0, 0.0), (1.0, 0.0, 0.0, 0.0), stamp_ns=at.now_ns)
 
 
 def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(bench) -> None:
@@ -212,47 +167,6 @@ def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None
     assert "1 shape missing" in at.statuses()["Meshes"][1]
 
 
-def test_a_link_that_loses_its_transform_turns_grey_where_it_was(bench) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    describe(at, ARM)
-    before = at.poses()["tool visual grip"]
-    at.buffer.clear()  # forgets what moves
-    at.turn()
-    assert at.poses()["tool visual grip"] == before
-    assert at.nodes()["tool visual grip"].color == GREY
-    assert at.nodes()["base visual visual_0"].color == (0, 0, 255)
-    level, text = at.statuses()["Links"]
-    assert level == "ERROR"
-    assert text.startswith("1 of 2 links without a transform: tool.")
-    place_arm(at)
-    at.turn()
-    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
-    assert at.statuses()["Links"][0] == "OK"
-
-
-def test_a_link_that_never_had_a_transform_is_not_drawn(bench) -> None:
-    at = bench(RobotModel())
-    at.transform("map", "base", (1.0, 0.0, 0.0))
-    describe(at, ARM)
-    at.turn()
-    assert set(at.nodes()) == {"base visual visual_0"}
-    assert "tool" in at.statuses()["Links"][1]
-
-
-def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
-    at = bench(RobotModel(tf_prefix="robot_1"))
-    at.transform("map", "robot_1/base", (1.0, 0.0, 0.0))
-    at.transform("map", "robot_1/tool", (2.0, 0.0, 0.0))
-    at.transform("map", "base", (9.0, 0.0, 0.0))
-    describe(at, ARM)
-    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
-    at.set("tf_prefix", "/robot_1/")
-    assert at.poses()["base visual visual_0"].position == pytest.approx((1.0, 0.0, 0.0))
-    at.set("tf_prefix", "")
-    assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
-
-
 def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)
@@ -260,6 +174,18 @@ def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
     place_arm(at)
     wait(at, lambda: is_loaded(at))
     assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
+
+
+def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(bench, tmp_path) -> None:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    at = bench(RobotModel(description_source="File", description_file=str(path)))
+    place_arm(at)
+    wait(at, lambda: is_loaded(at))
+    assert at.runner.subscriptions() == {}
+    assert not [key for key in at.statuses() if key.startswith("Topic")]
+    at.set("description_source", "Topic")
+    assert set(at.runner.subscriptions()) == {"/robot_description"}
 
 
 @pytest.mark.parametrize(
@@ -272,16 +198,3 @@ def test_a_file_that_is_not_there_is_said(bench, tmp_path, path, level, said) ->
     wait(at, lambda: "URDF" in at.statuses())
     assert at.statuses()["URDF"][0] == level
     assert said in at.statuses()["URDF"][1]
-
-
-def test_a_tick_without_news_makes_no_node_anew(bench) -> None:
-    at = bench(RobotModel(alpha=0.5))
-    place_arm(at)
-    describe(at, ARM)
-    before = at.nodes()
-    at.transform("base", "tool", (0.0, 4.0, 0.0), stamp_ns=at.now_ns + 1)
-    at.turn(0.1)
-    after = at.nodes()
-    assert at.poses()["tool visual grip"].position == pytest.approx((1.0, 4.0, 2.0))
-    assert all(after[key] is before[key] for key in before)
-    assert all(isinstance(node, Mesh) for node in after.values())

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz import Axes, Glb
-from webviz_displays.robot_parts import GREY, Choices, LinkSettings, Paint, parts_of
+from webviz import Arrows, Axes, Glb
+from webviz_displays.robot_parts import GREY, Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_urdf import Resolver, glb_with, load_robot
 
 ROBOT = load_robot(
@@ -22,13 +22,24 @@ ROBOT = load_robot(
   <link name="tool">
     <visual name="grip"><geometry><box size="1 1 1"/></geometry></visual>
   </link>
-  <joint name="wrist" type="continuous"><parent link="base"/><child link="tool"/></joint>
+  <link name="tip"/>
+  <joint name="wrist" type="continuous">
+    <origin xyz="0 0 3"/><parent link="base"/><child link="tool"/><axis xyz="0 2 0"/>
+  </joint>
+  <joint name="glue" type="fixed"><parent link="tool"/><child link="tip"/></joint>
 </robot>
 """,
     Resolver(),
 )
 PLAIN = Choices(
-    visual=True, collision=False, mass=False, inertia=False, alpha=1.0, links={}, all_links=True
+    visual=True,
+    collision=False,
+    mass=False,
+    inertia=False,
+    alpha=1.0,
+    links={},
+    joints={},
+    all_links=True,
 )
 
 
@@ -83,6 +94,24 @@ def test_a_link_shows_its_axes_when_wanted() -> None:
     axes = nodes(links={"tool": LinkSettings(show_axes=True)})["tool axes"]
     assert isinstance(axes, Axes)
     assert (axes.length, axes.radius) == (0.1, 0.005)
+
+
+def test_a_joint_shows_its_axes_and_its_axis_in_the_frame_of_its_parent() -> None:
+    settings = {"wrist": JointSettings(show_axes=True, show_joint_axis=True)}
+    choices = replace(PLAIN, visual=False, joints=settings)
+    parts = {part.key: part for part in parts_of(ROBOT, None, choices, Paint())}
+    assert set(parts) == {"wrist joint axes", "wrist joint axis"}
+    assert {part.link for part in parts.values()} == {"base"}
+    assert {part.pose.position for part in parts.values()} == {(0.0, 0.0, 3.0)}
+    arrow = parts["wrist joint axis"].node
+    assert isinstance(arrow, Arrows)
+    assert arrow.segments.tolist() == [[[0, 0, 0], [0, pytest.approx(0.2), 0]]]
+    assert arrow.colors == (0, 204, 0)
+
+
+def test_a_joint_that_has_no_axis_or_is_not_there_shows_none() -> None:
+    both = JointSettings(show_joint_axis=True)
+    assert nodes(visual=False, joints={"glue": both, "nonsense": both}) == {}
 
 
 def test_a_mass_is_drawn_as_a_ball_of_lead() -> None:
