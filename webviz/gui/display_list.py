@@ -51,7 +51,8 @@ class DisplayList:
         for row in rows:
             level = row.level
             self._rows[row.id].update(row, level)
-            look.append(Look(level, _enabled(row) or row.display is None, row.id == selected))
+            bright = _enabled(row) or row.display is None
+            look.append(Look(level, bright, row.id == selected, row.depth))
         if look != self._look:
             self._look = look
             self._style.content = list_style(look)

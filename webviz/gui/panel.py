@@ -66,6 +66,8 @@ class Panel:
         """
         self._fixed_frame.offer(state.frames, state.fixed_frame)
         self._fixed_frame.show(state.fixed_frame)
+        if (types := tuple(display_types())) != self._type.options and types:
+            self._type.options = types  # a plug-in brought some
         self._statuses.show(state.statuses)
         self._follow_rows(state)
         self._list.update(state.rows, self._selected)

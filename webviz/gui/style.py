@@ -19,6 +19,7 @@ class Look(NamedTuple):
     level: Level
     enabled: bool
     selected: bool
+    depth: int = 0
 
 
 def list_style(rows: Sequence[Look]) -> str:
@@ -31,6 +32,8 @@ def list_style(rows: Sequence[Look]) -> str:
             rules.append(f"{button} {{ background: rgba(80, 130, 200, 0.45) !important; }}")
         if color := COLORS[row.level]:
             rules.append(f"{button} {{ color: {color}; }}")
+        if row.depth:
+            rules.append(f"{button} {{ padding-left: {0.4 + 1.1 * row.depth:.1f}em; }}")
         if not row.enabled:
             rules.append(f"{button} {{ opacity: 0.55; }}")
     return f'<div class="webviz-list"><style>{"".join(rules)}</style></div>'
