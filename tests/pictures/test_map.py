@@ -1,0 +1,85 @@
+"""Map as people see it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import building
+import numpy as np
+from pictures import Stage, turned
+from scipy.ndimage import distance_transform_edt
+
+from webviz.config import View
+from webviz_displays.grid import Grid
+from webviz_displays.map import Map
+
+Stages = Callable[..., Stage]
+
+GRID = "nav_msgs/msg/OccupancyGrid"
+VIEW = View(distance=12.5, yaw=-1.5708, pitch=1.1, focal_point=(0.0, -0.2, 0.0))
+
+
+def costs() -> np.ndarray:
+    """A costmap of the building, as nav2's inflation layer makes it: int8 (height, width)."""
+    occupied = building.WORLD.occupied
+    distance = np.asarray(distance_transform_edt(~occupied)) * building.WORLD.resolution
+    inflated = np.where(distance < 0.2, 99, 98 * np.exp(-5.0 * (distance - 0.2)))
+    inflated[distance > 0.8] = 0
+    inflated[occupied] = 100
+    inflated[building.WORLD.cells < 0] = -1
+    return inflated.astype(np.int8)
+
+
+def test_a_map_has_schemes_alpha_and_updates(stage: Stages) -> None:
+    seen = stage(Map(), Grid(), view=VIEW)
+    seen.transform("map", "elsewhere")
+    seen.publish("/map", GRID, building.grid(), frame="map")
+    seen.turn()
+    seen.check("map/default")
+    seen.set("alpha", 1.0)
+    seen.check("map/alpha_1")
+    seen.set("color_scheme", "raw")
+    seen.check("map/raw")
+    seen.set("color_scheme", "costmap")
+    seen.set("binary_representation", True)
+    seen.check("map/costmap_binary")
+    seen.set("binary_representation", False)
+    seen.set("color_scheme", "map")
+    cells = np.tile(np.arange(-1, 101, 3, dtype=np.int8), (40, 1))
+    update = {"x": 90, "y": 70, "width": cells.shape[1], "height": 40, "data": cells.ravel()}
+    seen.publish("/map_updates", "map_msgs/msg/OccupancyGridUpdate", update, frame="map")
+    seen.turn()
+    seen.check("map/update_of_40_rows")
+
+
+def test_cells_are_sharp_and_the_origin_may_be_turned(stage: Stages) -> None:
+    seen = stage(
+        Map(alpha=1.0),
+        Grid(),
+        view=View(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
+    )
+    seen.transform("map", "room", (0.5, 0.0, 0.0), turned(yaw=0.3))
+    origin = {"position": {"x": -1.0, "y": -1.0}, "orientation": {"z": 0.2474, "w": 0.9689}}
+    info = {"resolution": 0.25, "width": 8, "height": 6, "origin": origin}
+    data = [0, 100, 50, -1, 10, 25, 75, 99] * 3 + [100, 0, 0, 0, 0, 0, 0, 100] * 3
+    seen.publish("/map", GRID, {"info": info, "data": data}, frame="room")
+    seen.turn()
+    seen.check("map/turned_origin_in_a_turned_frame")
+
+
+def test_maps_stack_by_their_place_in_the_list(stage: Stages) -> None:
+    costmap = Map(name="Costmap", color_scheme="costmap", alpha=0.6)
+    costmap.topic = type(costmap.topic)("/costmap")
+    seen = stage(Map(alpha=1.0), costmap, view=VIEW)
+    seen.transform("map", "elsewhere")
+    seen.publish("/map", GRID, building.grid(), frame="map")
+    half = costs()
+    half[:, 124:] = 0  # free cells of a costmap are transparent
+    seen.publish("/costmap", GRID, building.grid(half), frame="map")
+    seen.turn()
+    seen.check("map/costmap_over_map")
+    seen.set("alpha", 1.0, display=2)
+    seen.set("draw_behind", True, display=2)
+    seen.check("map/costmap_behind_map")
+    seen.set("alpha", 0.4)
+    seen.check("map/costmap_behind_map_of_alpha_0.4")

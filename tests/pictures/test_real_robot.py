@@ -1,0 +1,75 @@
+"""A real TurtleBot 4 in its mapped corridor, shown with the settings of its own RViz config."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+from pictures import Stage
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+from webviz.config import View
+from webviz_displays.grid import Grid
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.odometry import Odometry
+from webviz_displays.pose_properties import Covariance
+
+DATA = Path(__file__).parents[3] / "shared/data"
+BAG = DATA / "bags/macfirst_floor_take_2"
+MAP = DATA / "maps/mac_1st_floor_final.pgm"
+RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
+"""As its .yaml says, in metres."""
+OCCUPIED, FREE = 90, 190
+"""Grey at most and at least, by occupied_thresh 0.65 and free_thresh 0.25 of its .yaml."""
+ODOM = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
+"""Where its odometry began in the map, found by fitting a scan to the walls."""
+SCANS = 60
+
+pytestmark = pytest.mark.skipif(
+    not (BAG.exists() and MAP.exists()), reason="the bag and the map of the TurtleBot are not here"
+)
+
+
+def messages() -> Iterator[tuple[str, str, int, bytes]]:
+    """Topic, type, time of arrival and bytes, in order."""
+    topics = ("/tf", "/tf_static", "/scan", "/odom")
+    with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+        connections = [c for c in reader.connections if c.topic in topics]
+        for connection, time_ns, data in reader.messages(connections):
+            yield connection.topic, connection.msgtype, time_ns, bytes(data)
+
+
+def cells() -> np.ndarray:
+    """int8 (height, width), as map_server reads a trinary picture; its last row comes first."""
+    picture = np.flipud(np.asarray(PIL.Image.open(MAP)))
+    read = np.where(picture <= OCCUPIED, 100, np.where(picture >= FREE, 0, -1))
+    return read.astype(np.int8)
+
+
+def test_the_scan_lies_on_the_walls_of_the_map(stage: Callable[..., Stage]) -> None:
+    grid = cells()
+    height, width = grid.shape
+    x, y = ORIGIN
+    origin = {"position": {"x": x, "y": y}, "orientation": {"w": 1.0}}
+    info = {"resolution": RESOLUTION, "width": width, "height": height, "origin": origin}
+    odometry = Odometry(keep=1, covariance=Covariance(value=False))
+    view = View(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
+    seen = stage(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
+    seen.transform("map", "odom", *ODOM)
+    map_ = {"info": info, "data": grid.ravel()}
+    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")
+    scans = itertools.count(1)
+    for topic, type_name, time_ns, data in messages():
+        seen.source.now = time_ns
+        seen.publish_bytes(topic, type_name, data)
+        seen.turn()
+        if topic == "/scan" and next(scans) == SCANS:
+            break
+    seen.check("real_robot/scan_on_walls")
+    assert seen.statuses(2)["Points"][0] == "OK"

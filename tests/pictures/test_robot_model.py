@@ -1,0 +1,91 @@
+"""RobotModel as people see it: the demo robot, and real robots of all mesh formats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from pictures import Stage
+from robots import DEMO, place_links, robots_folder
+
+from webviz.config import View
+from webviz_displays.grid import Grid
+from webviz_displays.robot_model import RobotModel
+from webviz_displays.robot_parts import LinkSettings
+
+Stages = Callable[..., Stage]
+
+# Each with a view of the whole of it: mirrored parts, textures, units and colours of all kinds.
+ROBOTS: dict[str, tuple[str, View]] = {
+    # Collada: many parts of several colours each; with textures; with upper-case suffixes.
+    "panda": ("panda_description/urdf/panda.urdf", View(distance=1.9, focal_point=(0.1, 0, 0.45))),
+    "ur5": ("ur_description/urdf/ur5_robot.urdf", View(distance=1.6, focal_point=(0.4, 0.1, 0.1))),
+    "anymal_c": ("anymal_c_simple_description/urdf/anymal.urdf", View(distance=1.9)),
+    "go2": ("go2_description/urdf/go2.urdf", View(distance=1.2, focal_point=(0, 0, -0.1))),
+    "baxter": ("baxter_description/urdf/baxter.urdf", View(distance=3.4, pitch=0.5)),
+    # STL: mirrored by negative scales; colours of the URDF, some given inside a link.
+    "talos": ("talos_data/robots/talos_reduced.urdf", View(distance=2.4, pitch=0.3)),
+    "pr2": ("pr2_description/urdf/pr2.urdf", View(distance=2.8, focal_point=(0.2, 0, 0.6))),
+    "allegro": ("allegro_hand_description/urdf/allegro_right_hand.urdf", View(distance=0.5)),
+    "g1": ("g1_description/urdf/g1_29dof_rev_1_0.urdf", View(distance=1.9, pitch=0.3)),
+    "tiago": (
+        "tiago_description/robots/tiago.urdf",
+        View(distance=2.4, pitch=0.4, focal_point=(0.1, 0, 0.5)),
+    ),
+    # Wavefront.
+    "laikago": ("laikago_description/urdf/laikago.urdf", View(distance=1.5)),
+}
+
+
+def test_the_demo_robot_shows_what_is_chosen_of_it(stage: Stages) -> None:
+    view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
+    seen = stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    place_links(seen, DEMO)
+    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    seen.turn()
+    seen.check("robot_model/default")
+    seen.set("alpha", 0.4)
+    seen.check("robot_model/alpha_0.4")
+    seen.set("collision_enabled", True)
+    seen.set("visual_enabled", False)
+    seen.check("robot_model/collision_shapes_of_alpha_0.4")
+    seen.set("mass_properties.mass", True)
+    seen.set("collision_enabled", False)
+    seen.set("alpha", 1.0)
+    seen.check("robot_model/masses")
+    seen.set("mass_properties.mass", False)
+    seen.set("mass_properties.inertia", True)
+    seen.check("robot_model/inertias")
+    seen.set("mass_properties.inertia", False)
+    seen.set("visual_enabled", True)
+    seen.set("links", {"base_link": LinkSettings(alpha=0.2, show_axes=True)})
+    seen.check("robot_model/one_link_of_alpha_0.2_with_axes")
+    seen.set("all_links_enabled", False)
+    seen.set("links", {"wheel_left_link": LinkSettings(), "base_scan": LinkSettings()})
+    seen.check("robot_model/two_links_only")
+
+
+def test_links_without_a_transform_are_grey_where_they_were(stage: Stages) -> None:
+    view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
+    seen = stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    place_links(seen, DEMO)
+    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    seen.settle()
+    # The wheel's publisher now hangs it below a frame that nobody connects.
+    seen.transform("axle", "wheel_left_link", stamp_ns=seen.source.now)
+    seen.turn()
+    seen.check("robot_model/a_lost_wheel_is_grey")
+    level, text = seen.statuses()["Links"]
+    assert level == "ERROR"
+    assert "wheel_left_link" in text
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_real_robots_are_whole_and_coloured(stage: Stages, name: str) -> None:
+    file, view = ROBOTS[name]
+    path = robots_folder() / file
+    robot = RobotModel(description_source="File", description_file=str(path))
+    seen = stage(robot, view=view)
+    place_links(seen, path)
+    seen.check(f"robot_model/robots/{name}")
+    assert seen.statuses()["URDF"][0] == "OK"

@@ -1,0 +1,109 @@
+"""The faults that every course on ROS begins with: what they look like, and who names the cause."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import building
+from pictures import Stage, turned
+from robots import DEMO, place_links
+from ros_messages import SECOND
+
+from webviz.config import View
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.path import Path
+from webviz_displays.robot_model import RobotModel
+from webviz_displays.tf import TF
+from webviz_sim.planner import Planner
+from webviz_sim.pose import Pose
+
+Stages = Callable[..., Stage]
+
+VIEW = View(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
+START = Pose(-2.0, 0.0)
+"""Where the robot was switched on: in the corridor."""
+
+
+def displays() -> tuple[Map, RobotModel, LaserScan, TF]:
+    """What everybody has in the list; TF tells where two frames are."""
+    scan = LaserScan(size=0.08, color_transformer="FlatColor", color=(255, 40, 40))
+    frames = TF(marker_scale=2.0, all_enabled=False, frames={"odom": True, "base_scan": True})
+    return Map(), RobotModel(), scan, frames
+
+
+def robot(seen: Stage, odom: Pose = START, laser_yaw: float = 0.0) -> None:
+    """The demo robot with its map, its laser and its description.
+
+    Args:
+        seen: where.
+        odom: what somebody publishes as the pose of odom in map.
+        laser_yaw: what somebody publishes as the direction of the laser on the robot.
+    """
+    seen.transform("map", "odom", (odom.x, odom.y, 0.0), turned(yaw=odom.yaw))
+    seen.transform("odom", "base_link", stamp_ns=seen.source.now)
+    place_links(seen, DEMO, below="base_link")
+    seen.transform("base_link", "base_scan", (0.0, 0.0, 0.2), turned(yaw=laser_yaw))
+    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
+    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    look_around(seen)
+
+
+def look_around(seen: Stage) -> None:
+    """A scan from where the robot really is."""
+    measured = building.scan(START)
+    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
+    seen.turn()
+
+
+def test_a_robot_misplaced_by_a_static_transform(stage: Stages) -> None:
+    seen = stage(*displays(), view=VIEW)
+    robot(seen, odom=Pose(START.y, START.x))  # x and y are exchanged
+    seen.check("stories/misplaced")
+    assert seen.statuses(4)["odom"] == (
+        "OK",
+        "In 'map' (static): position (0.000, -2.000, 0.000) m, "
+        "roll, pitch and yaw (0.0, 0.0, 0.0) degrees.",
+    )
+    seen.transform("map", "odom", (START.x, START.y, 0.0))
+    look_around(seen)
+    seen.check("stories/in_place")
+    assert "position (-2.000, 0.000, 0.000) m" in seen.statuses(4)["odom"][1]
+
+
+def test_a_laser_turned_on_the_robot(stage: Stages) -> None:
+    seen = stage(*displays(), view=VIEW)
+    robot(seen, laser_yaw=math.radians(15))
+    seen.check("stories/turned_laser")
+    text = seen.statuses(4)["base_scan"][1]
+    assert text.startswith("In 'base_link' (static)")
+    assert "yaw (0.0, 0.0, 15.0) degrees" in text
+    assert seen.statuses(3)["Transform"] == ("OK", "Transform OK")  # none is missing: one is wrong
+
+
+def test_a_path_that_leads_through_an_obstacle(stage: Stages) -> None:
+    map_, model, scan, _ = displays()
+    path = Path(line_style="Billboards", line_width=0.06)
+    seen = stage(map_, model, scan, path, view=VIEW)
+    goal = Pose(4.5, 0.0)
+    plan = Planner(building.WORLD).plan(START, goal)
+    robot(seen)
+    seen.publish("/path", "nav_msgs/msg/Path", building.path(plan), frame="map")
+    seen.turn()
+
+    world = building.with_box(1.5, 0.0, 0.8)
+    seen.source.now += 8 * SECOND
+    seen.clock += 8.0
+    seen.transform("odom", "base_link", stamp_ns=seen.source.now)
+    measured = building.scan(START, world)
+    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
+    seen.turn()
+    seen.check("stories/through_an_obstacle")
+    assert "the newest 8.0 s ago" in seen.statuses(4)["Topic"][1]  # the plan
+    assert "the newest 0.0 s ago" in seen.statuses(3)["Topic"][1]  # the scan
+
+    around = Planner(world).plan(START, goal)
+    seen.publish("/path", "nav_msgs/msg/Path", building.path(around), frame="map")
+    seen.turn()
+    seen.check("stories/around_the_obstacle")

@@ -1,0 +1,54 @@
+"""TF as people see it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from pictures import Stage, turned
+from ros_messages import SECOND
+
+from webviz.config import View
+from webviz_displays.grid import Grid
+from webviz_displays.tf import TF
+
+Stages = Callable[..., Stage]
+
+
+def frames(seen: Stage, stamp_ns: int) -> None:
+    """A robot that moves, with what is fixed to it, and a dock that stands still."""
+    seen.transform("map", "dock", (1.0, 0.8, 0.0), turned(yaw=2.2))
+    seen.transform("map", "base", (0.3, -0.6, 0.0), turned(yaw=0.5), stamp_ns=stamp_ns)
+    seen.transform("base", "mast", (-0.2, 0.0, 0.7))
+    seen.transform("mast", "camera", (0.3, 0.0, 0.2), turned(roll=-1.5708, yaw=-1.5708))
+    seen.turn()
+
+
+def test_frames_have_axes_arrows_and_names(stage: Stages) -> None:
+    view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
+    seen = stage(TF(), Grid(plane_cell_count=4), view=view)
+    frames(seen, seen.source.now)
+    seen.check("tf/default")
+    seen.set("show_names", True)
+    seen.check("tf/names")
+    seen.set("marker_scale", 1.5)
+    seen.set("show_arrows", False)
+    seen.check("tf/marker_scale_without_arrows")
+    seen.set("filter_blacklist", "ma[ps]")
+    seen.check("tf/filter_blacklist")
+    seen.set("filter_blacklist", "")
+    seen.set("show_axes", False)
+    seen.set("show_arrows", True)
+    seen.check("tf/arrows_and_names")
+
+
+def test_frames_that_are_not_updated_turn_grey_and_disappear(stage: Stages) -> None:
+    view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
+    seen = stage(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
+    frames(seen, seen.source.now)
+    seen.source.now += 10 * SECOND
+    seen.check("tf/old_frames_are_grey")
+    seen.source.now += 6 * SECOND
+    seen.check("tf/older_frames_are_gone")
+    level, text = seen.statuses()["Frames"]
+    assert level == "WARN"
+    assert "3 not updated for more than 15 s" in text
