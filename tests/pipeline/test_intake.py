@@ -150,3 +150,15 @@ def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) ->
         b.source.inbox.put("/pose", Raw(bytes(size), T))
     b.turn()
     assert b.statuses()["Message"][0] == "ERROR"
+
+
+def test_a_topic_that_another_display_reads_as_another_type(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.source.known["/pose"] = Offer((), ("reliable", "volatile"), type="nav_msgs/msg/Odometry")
+    b.source.inbox.put("/pose", Raw(bytes(100), T))
+    level, text = b.statuses()["Topic"]
+    assert level == "ERROR"
+    assert "reads /pose as nav_msgs/msg/Odometry" in text
+    assert f"shows {POSE}" in text
+    assert "Message" not in b.statuses()

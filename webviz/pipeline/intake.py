@@ -74,6 +74,8 @@ class Intake:
             waits: whether messages wait for the transform at their stamp.
         """
         arrivals: list[Arrival] = []
+        if offer and offer.type not in ("", self.spec.type):
+            raws = ()  # another display reads the topic as another type
         is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
         for raw in raws:
             if is_latched and self._last is not None and raw.cdr == self._last.cdr:
@@ -147,6 +149,12 @@ class Intake:
         offer = offers.get(self.name)
         if offer and offer.problem:
             return Status(Level.ERROR, f"{self.name}: {offer.problem}")
+        if offer and offer.type not in ("", self.spec.type):
+            return Status(
+                Level.ERROR,
+                f"Another display reads {self.name} as {offer.type}, this one shows "
+                f"{self.spec.type}: a topic is read as one type only, change one of the two.",
+            )
         everybody = offer.publishers if offer else ()
         publishers = [p for p in everybody if p.type == self.spec.type]
         if everybody and not publishers:

@@ -31,6 +31,9 @@ events executor of rclpy 7.1.6 burns a core in an unlimited wait."""
 WANTED_POLL_S = 0.25
 GRAPH_POLL_S = 2.0
 INBOX_LIMIT = 1000
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+TF_LIMIT = 20_000
+"""Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
 
 
 class RosSource:
@@ -137,9 +140,11 @@ class RosSource:
             infos = self._node.get_publishers_info_by_topic(topic)
             publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
             held = self._held.get(topic)
-            offers[topic] = Offer(
-                publishers, held.policies if held else None, self._problems.get(topic, "")
-            )
+            problem = self._problems.get(topic, "")
+            if held is None:
+                offers[topic] = Offer(publishers, None, problem)
+            else:
+                offers[topic] = Offer(publishers, held.policies, problem, held.wish.type)
         if offers != self._offers:
             self._offers = offers
             self.inbox.arrived.set()
@@ -163,7 +168,7 @@ class RosSource:
                 self._subscribe(topic, fitting)
 
     def _subscribe(self, topic: str, held: _Held) -> None:
-        self.inbox.open(topic, INBOX_LIMIT)
+        self.inbox.open(topic, TF_LIMIT if held.wish.type == TF_TYPE else INBOX_LIMIT)
         reliability, durability = held.policies
         durabilities: list[qos.Durability] = [durability]
         if held.is_mixed:

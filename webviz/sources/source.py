@@ -54,11 +54,13 @@ class Offer:
         publishers: everybody who publishes it.
         requested: reliability and durability of our subscription, None without one.
         problem: why nothing can arrive, "" if it can.
+        type: of our subscription, "" without one; a topic can be read as one type only.
     """
 
     publishers: tuple[Publisher, ...]
     requested: tuple[Reliability, Durability] | None = None
     problem: str = ""
+    type: str = ""
 
 
 class Source(Protocol):
