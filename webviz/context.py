@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz import nodes
 from webviz.frames import Frames
-from webviz.nodes import Node, Pose, Rgb
+from webviz.nodes import Node, Pose, Rgb, Solid
 from webviz.status import Level, Status
 
 When = Literal["latest", "now"]
@@ -116,14 +116,21 @@ class Group:
         """Draw coordinate axes; see `webviz.nodes.Axes`."""
         self.nodes[key] = nodes.Axes(_f32(positions, 3), _f32(wxyzs, 4), length, radius)
 
-    def labels(self, key: str, positions: ArrayLike, texts: tuple[str, ...], height: float) -> None:
+    def labels(
+        self,
+        key: str,
+        positions: ArrayLike,
+        texts: tuple[str, ...],
+        height: float,
+        below: bool = False,
+    ) -> None:
         """Draw texts; see `webviz.nodes.Labels`."""
-        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height)
+        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height, below)
 
     def instances(
         self,
         key: str,
-        shape: Literal["box", "sphere", "cylinder"],
+        shape: Solid,
         positions: ArrayLike,
         scales: ArrayLike,
         colors: ArrayLike | Rgb,

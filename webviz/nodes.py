@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
 Rgb = tuple[int, int, int]
+Solid = Literal["box", "sphere", "cylinder", "cone"]
 
 
 class _Node:
@@ -117,11 +118,13 @@ class Labels(_Node):
         positions: float32 (N, 3), metres.
         texts: one for each position.
         height: of a capital letter, metres.
+        below: whether they hang below their positions on the screen, instead of around them.
     """
 
     positions: F32
     texts: tuple[str, ...]
     height: float
+    below: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,13 +146,13 @@ class Mesh(_Node):
 
 @dataclass(frozen=True, eq=False)
 class Instances(_Node):
-    """Many lit boxes, spheres or cylinders, drawn as one.
+    """Many lit solids, drawn as one.
 
     Opaque ones cost a browser least; opacities are for what seldom changes.
 
     Args:
         positions: float32 (N, 3), of the middles, metres.
-        scales: float32 (N, 3), extents along x, y and z, metres; a cylinder stands along z.
+        scales: float32 (N, 3), extents along x, y and z, metres; a cylinder or cone stands along z.
         colors: uint8 (N, 3), or one colour for all.
         shape: of all of them.
         wxyzs: float32 (N, 4), unit quaternions with w first; None leaves all unturned.
@@ -159,7 +162,7 @@ class Instances(_Node):
     positions: F32
     scales: F32
     colors: U8 | Rgb
-    shape: Literal["box", "sphere", "cylinder"] = "box"
+    shape: Solid = "box"
     wxyzs: F32 | None = None
     opacity: float | F32 = 1.0
 

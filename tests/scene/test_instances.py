@@ -93,7 +93,8 @@ def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(view: Any) -> None
 
 
 @pytest.mark.parametrize(
-    ("shape", "volume"), [("box", 1), ("sphere", np.pi / 6), ("cylinder", np.pi / 4)]
+    ("shape", "volume"),
+    [("box", 1), ("sphere", np.pi / 6), ("cylinder", np.pi / 4), ("cone", np.pi / 12)],
 )
 def test_solids_are_of_size_1_and_not_inside_out(shape: str, volume: float) -> None:
     vertices, faces = SOLIDS[shape]
@@ -103,3 +104,13 @@ def test_solids_are_of_size_1_and_not_inside_out(shape: str, volume: float) -> N
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(volume, rel=0.07)
     outwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c)
     assert outwards.min() >= -1e-9
+
+
+def test_a_cone_points_along_z(view: Any) -> None:
+    along_y = floats((np.sqrt(0.5), -np.sqrt(0.5), 0, 0))
+    node = Instances(ORIGIN, floats((1, 1, 2)), RED, "cone", along_y)
+    view.scene.upsert("room", "solids", node)
+    view.show()
+    assert view.color_at((0.4, -0.9, 0.0)) != BACKGROUND
+    assert view.color_at((0.0, 0.8, 0.0)) != BACKGROUND
+    assert view.color_at((0.4, 0.8, 0.0)) == BACKGROUND

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 from viser import LabelHandle
 
@@ -13,6 +15,14 @@ from webviz.scene.adapter import Adapter
 _CAPITAL = 0.72
 
 
+class _Label(NamedTuple):
+    """A text, where it is, and viser's properties for how it looks."""
+
+    text: str
+    position: tuple[float, float, float]
+    look: dict[str, Any]
+
+
 class LabelsDrawn:
     """One viser label for each text, under one frame; labels are reused in order."""
 
@@ -21,13 +31,16 @@ class LabelsDrawn:
         self._name = name
         self._frame = link.server.scene.add_frame(name, show_axes=False)
         self._labels: list[LabelHandle] = []
-        self._sent: list[tuple[str, tuple[float, float, float], float]] = []
+        self._sent: list[_Label] = []
 
     def draw(self, node: Labels) -> None:
         """Sends texts, places and heights that changed; places that are not finite are left out."""
-        height = node.height / _CAPITAL
+        look = {
+            "font_scene_height": node.height / _CAPITAL,
+            "anchor": "top-center" if node.below else "center-center",
+        }
         wanted = [
-            (_encodable(text), (x, y, z), height)
+            _Label(_encodable(text), (x, y, z), look)
             for text, (x, y, z) in zip(node.texts, node.positions.tolist(), strict=True)
             if np.isfinite((x, y, z)).all()
         ]
@@ -47,33 +60,22 @@ class LabelsDrawn:
         self._link.count_removals(len(self._labels))
         self._frame.remove()
 
-    def _add(self, index: int, new: tuple[str, tuple[float, float, float], float]) -> None:
-        text, position, height = new
+    def _add(self, index: int, new: _Label) -> None:
         name = f"{self._name}/{index}"
         label = self._link.server.scene.add_label(
-            name,
-            text,
-            font_size_mode="scene",
-            font_scene_height=height,
-            depth_test=True,
-            anchor="center-center",
+            name, new.text, font_size_mode="scene", depth_test=True, **new.look
         )
         self._labels.append(label)
-        self._link.set_position(name, position)
+        self._link.set_position(name, new.position)
 
-    def _change(
-        self,
-        index: int,
-        old: tuple[str, tuple[float, float, float], float],
-        new: tuple[str, tuple[float, float, float], float],
-    ) -> None:
+    def _change(self, index: int, old: _Label, new: _Label) -> None:
         name = f"{self._name}/{index}"
-        if old[0] != new[0]:
-            self._link.update(name, {"text": new[0]})
-        if old[1] != new[1]:
-            self._link.set_position(name, new[1])
-        if old[2] != new[2]:
-            self._link.update(name, {"font_scene_height": new[2]})
+        if old.text != new.text:
+            self._link.update(name, {"text": new.text})
+        if old.position != new.position:
+            self._link.set_position(name, new.position)
+        if old.look != new.look:
+            self._link.update(name, new.look)
 
 
 def _encodable(text: str) -> str:

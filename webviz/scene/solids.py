@@ -1,10 +1,11 @@
-"""Box, sphere and cylinder as triangles, of size 1 along x, y and z around the origin.
+"""Box, sphere, cylinder and cone as triangles, of size 1 along x, y and z around the origin.
 
 A browser averages normals at shared vertices, so a sharp edge has vertices for each of its sides.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -65,9 +66,14 @@ def _sphere(rings: int, corners: int) -> Solid:
     return _turned(0.5 * np.stack((np.sin(polar), -np.cos(polar)), axis=1), corners)
 
 
-def _cylinder(corners: int) -> Solid:
-    profile = ((0.0, -0.5), (0.5, -0.5), (0.5, 0.5), (0.0, 0.5))
-    return _joined(*(_turned(profile[i : i + 2], corners) for i in range(3)))
+def _edged(profile: Sequence[tuple[float, float]], corners: int) -> Solid:
+    """As `_turned`, with a sharp edge at each point."""
+    return _joined(*(_turned(profile[i : i + 2], corners) for i in range(len(profile) - 1)))
 
 
-SOLIDS = {"box": _box(), "sphere": _sphere(8, 16), "cylinder": _cylinder(20)}
+SOLIDS = {
+    "box": _box(),
+    "sphere": _sphere(8, 16),
+    "cylinder": _edged(((0.0, -0.5), (0.5, -0.5), (0.5, 0.5), (0.0, 0.5)), 20),
+    "cone": _edged(((0.0, -0.5), (0.5, -0.5), (0.0, 0.5)), 20),
+}
