@@ -20,6 +20,7 @@ from webviz.nodes import (
     Points,
     Pose,
     Rgb,
+    Solid,
 )
 from webviz.sample import Sample
 from webviz.status import Level, Status
@@ -49,6 +50,7 @@ __all__ = [
     "Prop",
     "Rgb",
     "Sample",
+    "Solid",
     "Status",
     "Topic",
     "compose",

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz_displays.colors import BACKGROUND
-
 F64 = NDArray[np.float64]
 U8 = NDArray[np.uint8]
 
 GREY = 178.5
 """RViz's 0.7 of white."""
+
+STEPS = 10
+"""Of opacity: a browser makes a batch of transparent solids anew for each new one."""
 
 
 class Ages:
@@ -46,17 +47,13 @@ def fade(ages: F64, timeout: float) -> tuple[F64, F64]:
     """How grey and how opaque frames of these ages are, each 0 to 1, as in RViz.
 
     Up to a third of the timeout a frame has its colours, up to two thirds it turns grey, then it
-    becomes transparent.
+    becomes transparent, in `STEPS` steps.
     """
     thirds = 3.0 * ages / timeout
-    return np.clip(thirds - 1.0, 0.0, 1.0), np.clip(3.0 - thirds, 0.0, 1.0)
+    opacity = np.ceil(np.clip(3.0 - thirds, 0.0, 1.0) * STEPS) / STEPS
+    return np.clip(thirds - 1.0, 0.0, 1.0), opacity
 
 
-def faded(colors: F64, greyness: F64, opacity: F64) -> U8:
-    """Colours (N, M, 3) of N frames, 0 to 255, faded against RViz's background; uint8.
-
-    The browser draws lines and arrows opaque, so a mixture stands in for transparency.
-    """
-    grey, opaque = greyness[:, None, None], opacity[:, None, None]
-    mixed = colors + grey * (GREY - colors)
-    return np.rint(opaque * mixed + (1.0 - opaque) * np.array(BACKGROUND)).astype(np.uint8)
+def faded(colors: F64, greyness: F64) -> U8:
+    """Colours (M, 3), 0 to 255, as N frames have them that are so grey (N,); uint8 (N, M, 3)."""
+    return np.rint(colors + greyness[:, None, None] * (GREY - colors)).astype(np.uint8)

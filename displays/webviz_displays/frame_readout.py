@@ -1,4 +1,4 @@
-"""Where a frame is in its parent, in words."""
+"""Where a frame is in its parent and in the fixed frame, in words."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import math
 from webviz import Frames
 from webviz.transforms import TransformException
 
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
 
 def readout(frames: Frames, name: str) -> str | None:
-    """The newest pose of a frame in its parent, None if there is none.
+    """The newest pose of a frame in its parent and in the fixed frame, None if there is none.
 
     Angles are roll, pitch and yaw about the parent's axes (URDF's order), in degrees.
     """
@@ -23,16 +26,24 @@ def readout(frames: Frames, name: str) -> str | None:
     except TransformException:  # frames that form a loop
         return None
     kind = "static" if cache.is_static else "moving"
-    position = ", ".join(f"{value:.3f}" for value in transform.translation)
-    angles = ", ".join(
-        f"{math.degrees(angle):.1f}" for angle in _roll_pitch_yaw(transform.rotation)
-    )
+    text = f"In '{parent}' ({kind}): {_words(transform.translation, transform.rotation)}."
+    pose = frames.latest(name)
+    if pose is None or parent == frames.fixed_frame:
+        return text
+    w, x, y, z = pose.wxyz
+    return f"{text} In '{frames.fixed_frame}': {_words(pose.position, (x, y, z, w))}."
+
+
+def _words(position: Vector, xyzw: Quaternion) -> str:
+    x, y, z = position
+    roll, pitch, yaw = map(math.degrees, _roll_pitch_yaw(xyzw))
     return (
-        f"In '{parent}' ({kind}): position ({position}) m, roll, pitch and yaw ({angles}) degrees."
+        f"position ({x:.3f}, {y:.3f}, {z:.3f}) m, "
+        f"roll, pitch and yaw ({roll:.1f}, {pitch:.1f}, {yaw:.1f}) degrees"
     )
 
 
-def _roll_pitch_yaw(xyzw: tuple[float, float, float, float]) -> tuple[float, float, float]:
+def _roll_pitch_yaw(xyzw: Quaternion) -> Vector:
     """The angles of a unit quaternion, in radians."""
     x, y, z, w = xyzw
     roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))

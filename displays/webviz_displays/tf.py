@@ -16,11 +16,15 @@ from webviz_displays.fading import Ages, fade
 from webviz_displays.frame_filter import FrameFilter, compiled, parent_indices
 from webviz_displays.frame_marks import Marks, add_arrows, add_axes, add_names
 from webviz_displays.frame_readout import readout
+from webviz_displays.frame_tree import outline
 
 SECOND = 1_000_000_000
 
 NAMED = 5
 """Lost frames that get a status of their own; the rest is counted."""
+
+READ_OUT = 20
+"""Frames that say where they are."""
 
 
 @dataclass(eq=False)
@@ -30,6 +34,7 @@ class _Known:
     version: tuple[int, int]
     selected: NDArray[np.bool_]
     parents: NDArray[np.int64]
+    tree: str
 
 
 class TF(Display):
@@ -104,6 +109,7 @@ class TF(Display):
         shown = known.selected & poses.ok & is_young
         self._draw(shown, poses, known.parents, ages, ctx)
         self._report(known.selected, shown, poses, ctx)
+        ctx.ok("Tree", f"{known.tree}.")
         groups = {key: group for key, group in ctx.groups.items() if group is not ctx}
         state["last"] = (now_ns, groups, dict(ctx.statuses))
 
@@ -112,7 +118,8 @@ class TF(Display):
         version = (ctx.frames.buffer.structure_version, len(names))
         if known is None or known.version != version:
             selected = ctx.state["filter"].select(names)
-            known = _Known(version, selected, parent_indices(ctx.frames, names))
+            parents = parent_indices(ctx.frames, names)
+            known = _Known(version, selected, parents, outline(names, parents))
             ctx.state["known"] = known
         return known
 
@@ -170,8 +177,8 @@ class TF(Display):
             ctx.state["reasons"] = {name: ctx.frames.why_not(name) for name in names}
         for name, reason in ctx.state["reasons"].items():
             ctx.warn(name, reason)
-        for name, is_on in self.frames.items():
-            if is_on and name not in ctx.statuses and (text := readout(ctx.frames, name)):
+        for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:
+            if name not in ctx.statuses and (text := readout(ctx.frames, name)):
                 ctx.ok(name, text)
 
 

@@ -1,0 +1,40 @@
+"""Rods and arrows as solids, which can be transparent and have a size of their own each."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+F64 = NDArray[np.float64]
+
+_LEAST_LENGTH = 1e-12
+
+
+class Rods(NamedTuple):
+    """Cylinders or cones from tails to tips, for `webviz.Instances`.
+
+    Attributes:
+        positions: (N, 3), middles, metres.
+        scales: (N, 3), two diameters and the length, metres.
+        wxyzs: (N, 4), unit quaternions that turn z into the direction.
+    """
+
+    positions: F64
+    scales: F64
+    wxyzs: F64
+
+
+def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
+    """Rods from `tails` (N, 3) to `tips` (N, 3), with one diameter each or for all."""
+    tails, tips = np.asarray(tails, np.float64), np.asarray(tips, np.float64)
+    ways = tips - tails
+    lengths = np.linalg.norm(ways, axis=1)
+    dx, dy, dz = (ways / np.maximum(lengths, _LEAST_LENGTH)[:, None]).T
+    # The shortest turn from z to d is (1 + z·d, z x d), normalised; to -z any half turn will do.
+    wxyzs = np.stack((1.0 + dz, -dy, dx, np.zeros_like(dz)), axis=1)
+    norms = np.linalg.norm(wxyzs, axis=1, keepdims=True)
+    wxyzs = np.where(norms > 1e-6, wxyzs / np.maximum(norms, 1e-6), (0.0, 1.0, 0.0, 0.0))
+    widths = np.broadcast_to(np.asarray(diameters, np.float64), lengths.shape)
+    return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)

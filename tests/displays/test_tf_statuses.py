@@ -1,0 +1,99 @@
+"""What the TF display says."""
+
+from webviz_displays.tf import TF
+
+
+def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
+    at = bench(TF(filter_whitelist="(", filter_blacklist="map"))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.turn()
+    level, text = at.statuses()["Filter (whitelist)"]
+    assert level == "ERROR"
+    assert "'(' is no regular expression" in text
+    assert len(at.nodes()["axes"].positions) == 1
+    at.set("filter_whitelist", "odom")
+    assert "Filter (whitelist)" not in at.statuses()
+
+
+def test_without_any_transform_the_topic_to_look_at_is_named(bench) -> None:
+    at = bench(TF())
+    at.turn()
+    level, text = at.statuses()["Frames"]
+    assert level == "WARN"
+    assert "/tf" in text
+
+
+def test_with_everything_switched_off_it_is_not_ok(bench) -> None:
+    at = bench(TF(all_enabled=False))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.turn()
+    assert at.nodes() == {}
+    assert at.statuses()["Frames"] == (
+        "WARN",
+        "0 of 2 frames shown, 2 switched off or filtered out.",
+    )
+
+
+def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
+    at = bench(TF())
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.transform("camera", "lens", (1.0, 0.0, 0.0))
+    at.turn()
+    assert len(at.nodes()["axes"].positions) == 2
+    statuses = at.statuses()
+    assert statuses["Frames"] == ("WARN", "2 of 4 frames shown, 2 have no transform to 'map'.")
+    assert statuses["lens"][0] == "WARN"
+    assert statuses["camera"][0] == "WARN"
+
+
+def test_many_lost_frames_are_counted_and_only_a_few_named(bench) -> None:
+    at = bench(TF())
+    at.transform("map", "odom")
+    for number in range(20):
+        at.transform("elsewhere", f"lost_{number}")
+    at.turn()
+    statuses = at.statuses()
+    assert len([key for key in statuses if key.startswith(("lost", "elsewhere"))]) == 5
+    assert "21 have no transform" in statuses["Frames"][1]
+
+
+def test_the_tree_of_frames_is_told(bench) -> None:
+    at = bench(TF())
+    for parent, child in (("map", "odom"), ("odom", "base"), ("base", "wheel"), ("base", "laser")):
+        at.transform(parent, child)
+    at.transform("lab", "shelf")
+    at.turn()
+    assert at.statuses()["Tree"] == ("OK", "lab (shelf), map (odom (base (laser, wheel))).")
+    at.transform("odom", "shelf")
+    at.turn()
+    assert at.statuses()["Tree"] == ("OK", "lab, map (odom (base (laser, wheel), shelf)).")
+
+
+def test_of_a_large_tree_only_a_part_is_told(bench) -> None:
+    at = bench(TF())
+    for number in range(2000):
+        at.transform(f"f{number}", f"f{number + 1}")
+    at.turn()
+    text = at.statuses()["Tree"][1]
+    assert text.startswith("f0 (f1 (f2 (")
+    assert text.endswith("f39" + ")" * 39 + " and 1961 more.")
+
+
+def test_a_frame_that_is_switched_on_says_where_it_is(bench) -> None:
+    at = bench(TF(frames={"odom": True, "robot": True, "map": True}))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.transform("odom", "robot", (0.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8), stamp_ns=at.now_ns)
+    at.turn()
+    statuses = at.statuses()
+    nothing = "roll, pitch and yaw (0.0, 0.0, 0.0) degrees"
+    assert statuses["odom"] == (
+        "OK",
+        f"In 'map' (static): position (1.000, 0.000, 0.000) m, {nothing}.",
+    )
+    turned = "roll, pitch and yaw (0.0, 0.0, 73.7) degrees"
+    assert statuses["robot"] == (
+        "OK",
+        f"In 'odom' (moving): position (0.000, 2.000, 0.000) m, {turned}. "
+        f"In 'map': position (1.000, 2.000, 0.000) m, {turned}.",
+    )
+    assert "map" not in statuses  # has no parent
