@@ -15,7 +15,7 @@ from webviz import Display
 @pytest.fixture(scope="session")
 def studio(browser: playwright.Browser, request: pytest.FixtureRequest) -> Iterator[Studio]:
     """One tab for all pictures: opening it takes seconds."""
-    studio = Studio(browser, update=request.config.getoption("--update-pictures"))
+    studio = Studio(browser, update=bool(request.config.getoption("--update-pictures")))
     yield studio
     studio.close()
 

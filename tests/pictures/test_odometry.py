@@ -65,7 +65,7 @@ def test_covariances_in_the_plane_are_ellipses_and_wedges(stage: Stages) -> None
     view = View(distance=5.5, yaw=-0.3, pitch=0.9, focal_point=(0.4, 0.0, 0.0))
     seen = stage(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.03, 0.12, 0.0, 0.0, 0.0, 0.06), steps=5)
-    seen.check("odometry/default_in_the_plane")
+    seen.check("odometry/default")
     seen.set("covariance.orientation.value", False)
     seen.set("covariance.position.scale", 2.0)
     seen.set("covariance.position.color", (80, 255, 120))

@@ -8,12 +8,9 @@ from pathlib import Path
 
 import building
 import numpy as np
-import PIL.Image
 import pytest
 from pictures import REFERENCES, TOLERANCE, Stage, Studio, load, share_of_difference, turned
 from robots import DEMO, place_links
-from test_robot_model import ROBOTS
-from webviz_sim.pose import Pose
 
 from webviz import Display
 from webviz.config import View
@@ -25,6 +22,7 @@ from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.tf import TF
+from webviz_sim.pose import Pose
 
 FOLDERS = sorted(path for path in REFERENCES.iterdir() if path.is_dir())
 EVERYTHING: tuple[type[Display], ...] = (
@@ -37,3 +35,78 @@ EVERYTHING: tuple[type[Display], ...] = (
     PathDisplay,
     Odometry,
 )
+
+
+def stems(folder: Path) -> list[str]:
+    found = sorted(folder.rglob("*.png"))
+    return [str(path.relative_to(REFERENCES).with_suffix("")) for path in found]
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_no_picture_is_taken_for_another_one(folder: Path) -> None:
+    pictures = {name: load(name) for name in stems(folder)}
+    assert pictures
+    for (one, a), (other, b) in itertools.combinations(pictures.items(), 2):
+        assert share_of_difference(a, b) > TOLERANCE, f"{one} and {other} look alike"
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_pictures_are_small(folder: Path) -> None:
+    for path in folder.rglob("*.png"):
+        assert path.stat().st_size < 15_000, path
+
+
+def test_a_shade_does_not_count_but_a_shift_does() -> None:
+    for name in ("laser_scan/default", "robot_model/default"):
+        pixels = load(name)
+        brighter = np.minimum(pixels, 245) + np.uint8(10)
+        assert share_of_difference(pixels, brighter) <= TOLERANCE
+        assert share_of_difference(pixels, np.roll(pixels, 2, axis=1)) > TOLERANCE
+
+
+def everything(seen: Stage) -> None:
+    """Something to see for every display."""
+    place = Pose(-2.0, 0.0, 0.5)
+    seen.transform("map", "base_link", (place.x, place.y, 0.0), turned(yaw=place.yaw))
+    place_links(seen, DEMO, below="base_link")
+    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
+    measured = building.scan(place)
+    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_link")
+    line = building.path([(-2.0, 0.0), (-1.0, 0.3), (0.0, 0.3)])
+    seen.publish("/path", "nav_msgs/msg/Path", line, frame="map")
+    pose = {"position": {"x": -3.0}, "orientation": {"w": 1.0}}
+    seen.publish("/odom", "nav_msgs/msg/Odometry", {"pose": {"pose": pose}}, frame="map")
+    seen.settle()
+
+
+def test_without_any_one_of_its_displays_a_scene_has_another_picture(
+    stage: Callable[..., Stage], studio: Studio
+) -> None:
+    view = View(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
+    seen = stage(*(cls() for cls in EVERYTHING), view=view)
+    everything(seen)
+    seen.check("all_displays/together")
+    if studio.update:
+        return
+    whole = load("all_displays/together")
+    for number, cls in enumerate(EVERYTHING, 1):
+        seen.set("enabled", False, display=number)
+        seen.still(0.2)
+        assert seen.difference(whole, seconds=0.0)[0] > TOLERANCE, f"{cls.__name__} is not missed"
+        seen.set("enabled", True, display=number)
+        assert seen.difference(whole)[0] <= TOLERANCE, f"{cls.__name__} does not come back"
+
+
+def test_a_wrong_picture_fails_and_says_where_to_look(
+    stage: Callable[..., Stage], studio: Studio
+) -> None:
+    if studio.update:
+        pytest.skip("nothing is compared while pictures are made")
+    seen = stage(Grid(), view=View(distance=17.0, yaw=-1.2, pitch=0.6))
+    seen.check("grid/default")
+    seen.set("cell_size", 0.9)
+    seen.patience = 0.0
+    with pytest.raises(AssertionError, match=r"tests/output/grid/default\.difference\.png"):
+        seen.check("grid/default")
+    assert (REFERENCES.parent / "output/grid/default.png").exists()

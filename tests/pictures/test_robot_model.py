@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from pictures import Stage
+from pictures import REFERENCES, Stage
 from robots import DEMO, place_links, robots_folder
 
 from webviz.config import View
@@ -89,3 +89,8 @@ def test_real_robots_are_whole_and_coloured(stage: Stages, name: str) -> None:
     place_links(seen, path)
     seen.check(f"robot_model/robots/{name}")
     assert seen.statuses()["URDF"][0] == "OK"
+
+
+def test_every_robot_has_a_picture_and_the_other_way_round() -> None:
+    shown = {path.stem for path in (REFERENCES / "robot_model/robots").iterdir()}
+    assert shown == ROBOTS.keys()

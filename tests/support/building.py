@@ -30,10 +30,11 @@ def grid(cells: NDArray[np.int8] | None = None) -> dict[str, Any]:
 def with_box(x: float, y: float, edge: float) -> World:
     """The building with a box that its map does not have, around a point of the map frame."""
     rows, columns = np.indices(WORLD.cells.shape)
-    middles = WORLD.to_map(np.column_stack([columns.ravel(), rows.ravel()]) + 0.5)
+    cells = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64) + 0.5
+    middles = WORLD.to_map(cells)
     in_box = (np.abs(middles - (x, y)) < edge / 2).all(axis=1).reshape(WORLD.cells.shape)
-    cells = np.where(in_box, 100, WORLD.cells).astype(np.int8)
-    return World(cells, WORLD.resolution, WORLD.origin)
+    occupied = np.where(in_box, 100, WORLD.cells).astype(np.int8)
+    return World(occupied, WORLD.resolution, WORLD.origin)
 
 
 def scan(laser: Pose, world: World = WORLD) -> dict[str, Any]:

@@ -141,6 +141,7 @@ class Stage:
         self.source = HandFedSource()
         self.clock = 1000.0
         """Seconds, for the ages of messages."""
+        self.patience = PATIENCE_S
         self.states: list[State] = []
         self._studio = studio
         config = Config(Settings(fixed_frame=fixed_frame), list(displays))
@@ -245,7 +246,7 @@ class Stage:
             "and commit it"
         )
         expected = load(name)
-        share, actual = self.difference(expected)
+        share, actual = self.difference(expected, self.patience)
         if share > TOLERANCE:
             raise AssertionError(_complaint(name, share, actual, expected))
 

@@ -1,0 +1,48 @@
+"""Makes the picture of the README anew: `python tests/support/demo_picture.py`."""
+
+from __future__ import annotations
+
+import io
+import os
+import random
+import sys
+import tempfile
+from pathlib import Path
+
+import PIL.Image
+from page import Page, launched
+from pictures import REFERENCES
+from program import Program
+
+PATH = REFERENCES / "demo.png"
+WIDTH, HEIGHT = 1280, 800
+SECONDS = 25.0
+"""After these the robot is in the middle of the building, with its trail behind it."""
+COLORS = 192
+
+
+def main() -> int:
+    """Start the demo, look at it, and end it."""
+    domain = str(random.SystemRandom().randrange(160, 220))
+    env = {**os.environ, "ROS_DOMAIN_ID": domain, "PYTHONUNBUFFERED": "1"}
+    with tempfile.TemporaryDirectory() as folder, launched() as browser:
+        arguments = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
+        program = Program(arguments, env, Path(folder) / "output.txt")
+        try:
+            page = Page(browser, program.url(), WIDTH, HEIGHT)
+            page.tab.wait_for_timeout(1000.0 * SECONDS)
+            # What a browser without a GPU says of itself is no part of the viewer.
+            for button in page.tab.locator(".mantine-Notification-closeButton").all():
+                button.click()
+            page.tab.wait_for_timeout(1000.0)
+            picture = PIL.Image.open(io.BytesIO(page.tab.screenshot()))
+            page.close()
+        finally:
+            program.end()
+    small = picture.convert("RGB").quantize(COLORS, dither=PIL.Image.Dither.NONE)
+    small.save(PATH, optimize=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

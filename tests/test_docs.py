@@ -1,0 +1,99 @@
+"""The pages about the displays are true to the displays, and their links lead somewhere."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from webviz.gui import docs
+
+DOCUMENTS = sorted(
+    [*docs.PAGES.rglob("*.md"), docs.ROOT / "README.md", docs.ROOT / "CONTRIBUTING.md"]
+)
+GENERATED = docs.pages()
+SOURCES = docs.ROOT / "displays/webviz_displays"
+
+
+def links(text: str) -> list[str]:
+    """Targets of links and pictures of a Markdown text."""
+    return re.findall(r"\]\(([^)\s]+)\)", text)
+
+
+def anchors(text: str) -> set[str]:
+    """What links may point at in a page: its headings as GitHub names them."""
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("name", GENERATED)
+def test_a_page_is_as_the_declarations_say(name: str) -> None:
+    written = (docs.PAGES / name).read_text(encoding="utf-8")
+    assert written == GENERATED[name], f"run {docs.COMMAND} and commit displays/docs"
+
+
+def test_there_is_no_page_of_a_display_that_is_gone() -> None:
+    assert {path.name for path in docs.PAGES.glob("*.md")} == GENERATED.keys()
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: str(path.relative_to(docs.ROOT)))
+def test_every_link_leads_to_a_file_and_a_heading(path: Path) -> None:
+    for link in links(path.read_text(encoding="utf-8")):
+        if link.startswith(("http://", "https://")):
+            continue
+        file, _, anchor = link.partition("#")
+        target = (path.parent / file).resolve() if file else path
+        assert target.is_file(), f"{link} leads nowhere"
+        assert target.is_relative_to(docs.ROOT), f"{link} leads out of the project"
+        if anchor:
+            assert anchor in anchors(target.read_text(encoding="utf-8")), f"no heading {link}"
+
+
+def test_every_picture_of_a_display_is_shown() -> None:
+    shown = {link for text in GENERATED.values() for link in links(text)}
+    stories = (docs.PAGES / "stories").glob("*.md")
+    shown |= {link.removeprefix("../") for p in stories for link in links(p.read_text())}
+    for folder in docs.PICTURES.iterdir():
+        if (docs.PAGES / f"{folder.name}.md").exists() or folder.name == "stories":
+            for picture in folder.rglob("*.png"):
+                assert f"../../{picture.relative_to(docs.ROOT).as_posix()}" in shown
+
+
+@pytest.mark.parametrize("name", ["Axes", "Grid", "LaserScan", "Map", "Odometry", "Path", "TF"])
+def test_a_display_that_draws_has_a_picture(name: str) -> None:
+    assert f"![{name}](" in GENERATED[docs.page_name(name)]
+
+
+def said_keys() -> Iterator[tuple[str, str]]:
+    """Module and key of each status in the source of the displays."""
+    for path in sorted(SOURCES.glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if not isinstance(node, ast.Call) or not node.args:
+                continue
+            function = ast.unparse(node.func)
+            is_said = re.fullmatch(r"ctx\.(ok|warn|error)|say|\(ctx\.ok if .*", function)
+            key = node.args[0]
+            if is_said and isinstance(key, ast.Constant) and isinstance(key.value, str):
+                yield path.stem, key.value
+
+
+def test_every_status_is_explained() -> None:
+    notes = docs.read_notes()
+    explained = {key for each in notes.values() for key in each.statuses}
+    said = list(said_keys())
+    assert len(said) > 30
+    assert [(module, key) for module, key in said if key not in explained] == []
+
+
+def test_a_property_has_its_bounds_unit_condition_and_default() -> None:
+    text = GENERATED["path.md"]
+    assert (
+        "| Line Width (m) | `line_width` | number ≥ 0.001 | 0.03 | Width of the line. "
+        "Where `line_style` is `Billboards`. |"
+    ) in text
+    assert "| Color | `color` | red, green, blue, 0 to 255 each | [25, 255, 0] |" in text
+    assert "| Alpha | `alpha` | number, 0 to 1 | 1 |" in text
+    assert "| Pose Style | `pose_style` | `None`, `Axes`, `Arrows` | `None` |" in text
