@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -48,20 +48,26 @@ class Folded:
     """A map with all its updates.
 
     Args:
-        grid: None if the last map could not be drawn.
-        fault: what is wrong with the last map.
+        grid: the last map that could be drawn, if any.
+        stamp_ns: of that map.
+        fault: what is wrong with a map that came after it.
         updates: how many changed the grid.
         update_fault: what is wrong with the last update.
     """
 
     grid: TiledGrid | None
+    stamp_ns: int = 0
     fault: str = ""
     updates: int = 0
     update_fault: str = ""
 
 
 class Map(Display):
-    """An occupancy grid as a flat picture: free, occupied and unknown cells."""
+    """An occupancy grid as a flat picture: free, occupied and unknown cells.
+
+    A map that cannot be drawn is an error, and the one before it stays: a robot that drives by it
+    is still seen on it.
+    """
 
     rviz = "rviz_default_plugins/Map"
 
@@ -108,23 +114,23 @@ class Map(Display):
 
     def waits(self, name: str) -> bool:
         """A map that follows its frame needs no transform at its stamp, often long ago."""
-        return self.use_timestamp
+        return self.use_timestamp and name == "topic"
 
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
         """Take a new map, or change the one there is."""
         grid = state.grid if state else None
         if name == "topic":
             try:
-                return Folded(tiled(sample.message, sample.frame, grid))
+                return Folded(tiled(sample.message, sample.frame, grid), sample.stamp_ns)
             except GridFault as fault:
-                return Folded(None, str(fault))
-        if state is None or grid is None:
+                return replace(state or Folded(None), fault=str(fault))
+        if state is None or grid is None or state.fault:
             return state  # an update says nothing without the map it changes
         try:
             grid = updated(grid, sample.message, sample.frame)
         except GridFault as fault:
-            return Folded(grid, "", state.updates, str(fault))
-        return Folded(grid, "", state.updates + 1)
+            return replace(state, update_fault=str(fault))
+        return replace(state, grid=grid, updates=state.updates + 1, update_fault="")
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the tiles; those whose cells and colours did not change keep their nodes."""
@@ -145,29 +151,31 @@ class Map(Display):
         )
         images = _images(grid, look, ctx.state)
         outer, frame = Pose(), grid.frame
-        if self.use_timestamp:
-            at_stamp = self._pose_at_stamp(samples[-1], ctx)
-            if at_stamp is None:
-                ctx.error("Transform", ctx.frames.why_not(grid.frame, samples[-1].stamp_ns))
-                return
-            outer, frame = at_stamp, None
+        if self.use_timestamp and folded.stamp_ns:
+            if at_stamp := self._pose_at_stamp(grid.frame, folded.stamp_ns, ctx):
+                outer, frame = at_stamp, None
+            else:
+                reason = ctx.frames.why_not(grid.frame, folded.stamp_ns)
+                ctx.warn("Timestamp", f"{reason} Until then the map follows its frame.")
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
             group.add(f"tile {row} {column}", image, Pose(corner))
         self._report(folded, grid, ctx)
 
-    def _pose_at_stamp(self, sample: Sample, ctx: Context) -> Pose | None:
+    def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
         """Where the frame was at the stamp; remembered, as transforms are kept for seconds only."""
-        key = (ctx.frames.fixed_frame, sample.frame, sample.stamp_ns)
-        if pose := ctx.frames.at(sample.frame, sample.stamp_ns):
+        key = (ctx.frames.fixed_frame, frame, stamp_ns)
+        if pose := ctx.frames.at(frame, stamp_ns):
             ctx.state["pose at stamp"] = (key, pose)
         known, pose = ctx.state.get("pose at stamp", (None, None))
         return pose if known == key else None
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
-        if self.alpha == 0:
+        if folded.fault:
+            ctx.error("Map", f"{folded.fault} The map before it is still shown.")
+        elif self.alpha == 0:
             ctx.warn("Map", f"{size}, invisible: alpha is 0.")
         else:
             ctx.ok("Map", f"{size} in frame '{grid.frame}'.")

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from ros_messages import header
 
 from webviz import Image, Topic
 from webviz_displays.map import Map
@@ -133,6 +134,31 @@ def test_with_use_timestamp_a_map_stays_where_its_frame_was(bench) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 3.0, 0.0))
 
 
+def test_with_use_timestamp_an_update_changes_cells_and_not_the_place(bench) -> None:
+    at = bench(Map(use_timestamp=True), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    send_map(at, [[0]])
+    before = at.nodes()["tile 0 0"]
+    at.now_ns += 10**9  # no transform is known at this stamp
+    send_update(at, 0, 0, [[100]])
+    assert at.nodes()["tile 0 0"] != before
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 0.0, 0.0))
+
+
+def test_use_timestamp_without_a_transform_then_or_a_stamp_follows_the_frame(bench) -> None:
+    at = bench(Map(), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    at.send(GRID, grid_values([[0]]), frame="map", stamp_ns=10**9, topic="/map")
+    at.turn()
+    at.set("use_timestamp", True)
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 0.0, 0.0))
+    assert at.statuses()["Timestamp"][0] == "WARN"
+    at.send(GRID, {**grid_values([[0]]), "header": header("map", 0)}, topic="/map")
+    at.turn()
+    assert at.poses()["tile 0 0"].position == pytest.approx((1.0, 0.0, 0.0))
+    assert "Timestamp" not in at.statuses()
+
+
 def test_a_map_in_a_new_fixed_frame_needs_no_new_message(bench) -> None:
     at = bench(Map())
     at.transform("odom", "map", (4.0, 0.0, 0.0))
@@ -255,13 +281,33 @@ def test_a_map_that_cannot_be_drawn_says_why(bench, change, said) -> None:
     at = bench(Map())
     values = grid_values(np.zeros((2, 3)))
     values["info"] = values["info"] | change["info"]
-    send_map(at, [[0]])
     at.send(GRID, values, frame="map", topic="/map")
     at.turn()
     level, text = at.statuses()["Map"]
     assert level == "ERROR"
     assert said in text
     assert at.nodes() == {}
+
+
+def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(bench) -> None:
+    at = bench(Map(use_timestamp=True), fixed_frame="odom")
+    at.transform("odom", "map", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    send_map(at, [[0, 100]])
+    before, pose = at.nodes()["tile 0 0"], at.poses()["tile 0 0"]
+    at.transform("odom", "map", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 10**9)
+    at.now_ns += 10**9
+    broken = grid_values([[0, 100]], resolution=0.0)
+    at.send(GRID, broken, frame="map", topic="/map")
+    at.turn()
+    send_update(at, 0, 0, [[100]])
+    assert at.nodes()["tile 0 0"] is before
+    assert at.poses()["tile 0 0"] == pose
+    level, text = at.statuses()["Map"]
+    assert level == "ERROR"
+    assert text.endswith("The map before it is still shown.")
+    send_map(at, [[100, 100]])
+    assert at.statuses()["Map"][0] == "OK"
+    assert at.poses()["tile 0 0"].position == pytest.approx((2.0, 0.0, 0.0))
 
 
 @pytest.mark.parametrize("xyzw", [(0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 3.0)])
