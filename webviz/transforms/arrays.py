@@ -58,8 +58,9 @@ def interpolation_table(start: F64, end: F64) -> F64:
         end: (7, N) poses.
 
     Returns:
-        (15, N): both translations; both rotations, divided by the sine of the angle between them,
-        the end's on the shorter way round; and that angle in quaternion space.
+        (15, N): the start's translation and the way to the end's; both rotations, divided by the
+        sine of the angle between them, the end's on the shorter way round; and that angle in
+        quaternion space.
     """
     a, b = start[3:], end[3:]
     dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
@@ -70,7 +71,7 @@ def interpolation_table(start: F64, end: F64) -> F64:
     theta = np.maximum(theta, 1e-9)
     scale = 1.0 / np.sin(theta)
     rotations = (a * scale, b * np.copysign(scale, dot))
-    return np.concatenate((start[:3], end[:3], *rotations, theta[None]))
+    return np.concatenate((start[:3], end[:3] - start[:3], *rotations, theta[None]))
 
 
 def interpolate_many(table: F64, ratio: F64) -> F64:
@@ -82,7 +83,7 @@ def interpolate_many(table: F64, ratio: F64) -> F64:
     rest = 1.0 - ratio
     theta = table[14]
     out = np.empty((7, len(ratio)))
-    np.add(rest * table[:3], ratio * table[3:6], out=out[:3])
+    np.add(table[:3], ratio * table[3:6], out=out[:3])
     start, end = np.sin(rest * theta), np.sin(ratio * theta)
     np.add(start * table[6:10], end * table[10:14], out=out[3:])
     return out

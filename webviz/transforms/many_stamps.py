@@ -87,7 +87,11 @@ class _History:
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
             end[:, changes] = start[:, changes]
         span = np.append(np.maximum(np.diff(self.stamps), 1), 1)
-        self.table = np.concatenate((interpolation_table(start, end), span[None]))
+        since_first = (self.stamps - first_ns).astype(np.float64)
+        self.table = np.concatenate(
+            (interpolation_table(start, end), since_first[None], 1.0 / span[None])
+        )
+        self._first_ns = first_ns
 
     def at(self, times: I64) -> tuple[F64, str | NDArray[np.str_]]:
         """`TimeCache.at` for ascending times within the history.
@@ -108,7 +112,7 @@ class _History:
         np.subtract(first[1:], first[:-1], out=counts[:-1])
         counts[-1] = len(times) - first[-1]
         table = np.repeat(self.table[:, part], counts, axis=1)
-        pose = interpolate_many(table, (times - np.repeat(stamps, counts)) / table[15])
+        pose = interpolate_many(table, (times - self._first_ns - table[15]) * table[16])
         if self.parents is None:
             assert self.parent is not None
             return pose, self.parent
@@ -132,11 +136,11 @@ class _Histories:
 
 
 class _Group(NamedTuple):
-    """Requests that stand at the same frame on their way up the tree."""
+    """Requests that stand at the same frame on their way up the tree, ascending by time."""
 
     frame: str
-    rows: NDArray[np.intp]
-    """Which requests, (n,)."""
+    rows: NDArray[np.intp] | slice
+    """Which requests, (n,); a slice is all of them."""
     pose: F64 | None
     """The start of the walk in `frame`, (7, n) or one for all (7, 1); None is the identity."""
 
@@ -150,7 +154,7 @@ def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: 
     top_of = np.full(len(stamps), -1)
     in_top = np.empty_like(out)
     waiting = False
-    pending = [_Group(source, np.arange(len(stamps)), None)]
+    pending = [_Group(source, slice(None), None)]
     for _ in range(MAX_DEPTH + 1):
         climbing: list[_Group] = []
         for group in pending:
@@ -174,17 +178,19 @@ def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: 
         climbing = []
         for group in pending:
             met = top_of[group.rows] == tops.get(group.frame, -1)
-            done = _part(group, met)
-            if len(done.rows):
+            if met.any():
+                done = _part(group, met)
                 pose = in_top[:, done.rows]
                 if done.pose is not None:
                     pose = compose_many(inverse_many(done.pose), pose)
                 out[:, done.rows] = pose
+            if met.all():
+                continue
             rest = _part(group, ~met)
             if rest.frame == source:
                 assert rest.pose is not None
                 out[:, rest.rows] = inverse_many(rest.pose)
-            elif len(rest.rows):
+            else:
                 climbing += _climb(histories, rest, stamps)[0]
         pending = climbing
         if not pending:
@@ -197,7 +203,8 @@ def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
     pose = group.pose
     if pose is not None and pose.shape[1] > 1:
         pose = pose[:, keep]
-    return _Group(group.frame, group.rows[keep], pose)
+    rows = np.flatnonzero(keep) if isinstance(group.rows, slice) else group.rows[keep]
+    return _Group(group.frame, rows, pose)
 
 
 def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
@@ -209,9 +216,10 @@ def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Gro
         pose, parent = cache.newest
         return [_Group(parent, group.rows, _onto(np.reshape(pose, (7, 1)), group.pose))], None
     times = stamps[group.rows]
-    has_data = (times >= cache.stamps[0]) & (times <= cache.stamps[-1]) & (times != 0)
     stuck = None
-    if not has_data.all():
+    oldest, newest = cache.stamps[0], cache.stamps[-1]
+    if not 0 < times[0] >= oldest or times[-1] > newest:
+        has_data = (times >= oldest) & (times <= newest) & (times != 0)
         stuck = _part(group, ~has_data)
         group = _part(group, has_data)
         times = times[has_data]
