@@ -144,7 +144,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
 
     bag.play(0.0, 1.0)  # the bag loops
     page.wait_for(lambda: 0.5 < scan_at(page) < 1.1, "the scan of the new loop")
-    wait_for(page, "Time went back by 3.0 s: everything was reset.", "Transform OK")
+    wait_for(page, "Time went back by", "s: everything was reset.", "Transform OK")
     page.wait_for(lambda: has_map(page), "the latched map again")
 
 
