@@ -30,7 +30,7 @@ def display_classes() -> list[type[Display]]:
         value
         for module in modules
         for value in vars(importlib.import_module(module.name)).values()
-        if isinstance(value, type) and issubclass(value, Display) and value is not Display
+        if isinstance(value, type) and issubclass(value, Display) and not value.__subclasses__()
     ]
     return sorted(set(found), key=lambda cls: cls.__name__)
 

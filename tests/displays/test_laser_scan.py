@@ -170,7 +170,7 @@ def test_axis_colour_is_of_the_fixed_frame_or_of_the_laser(bench: Benches) -> No
 
 def test_alpha_fades_points(lab: Benches) -> None:
     bench = lab(scan([1]), color_transformer="FlatColor", color=(248, 48, 48), alpha=0.5)
-    assert colors(bench) == [[148, 48, 48]]
+    assert bench.nodes()["points"].colors == (148, 48, 48)
 
 
 # Styles
@@ -193,8 +193,7 @@ def test_spheres_and_boxes_are_solids_and_really_transparent(
     assert (node.shape, node.opacity) == (shape, 0.5)
     np.testing.assert_allclose(bench.xyz("solids"), [(1, 0, 1), (0, 2, 1)], atol=1e-6)
     np.testing.assert_allclose(node.scales, 0.2)
-    assert isinstance(node.colors, np.ndarray)
-    assert node.colors.tolist() == [[1, 2, 3]] * 2
+    assert node.colors == (1, 2, 3)
 
 
 def test_boxes_stand_upright_in_the_fixed_frame_however_the_laser_is_tilted(bench: Benches) -> None:
