@@ -22,6 +22,9 @@ WIDEST = np.deg2rad(89.0)
 _LIFT = 1e-3
 """Metres; flat ellipses lie so high above their pose, to be seen on a map of the same height."""
 
+_LEAST = 1e-6
+"""Metres or radians; a deviation of zero would leave a shape without a direction."""
+
 _ROUNDING = 1e-9
 """A negative eigenvalue that is smaller by this factor than the largest is zero."""
 
@@ -150,7 +153,7 @@ def _is_semidefinite(matrices: F64) -> Mask:
 def _deviations(matrices: F64) -> tuple[F64, F64]:
     """Standard deviations (N, k) along the principal axes, and these as columns (N, k, k)."""
     variances, vectors = np.linalg.eigh(matrices)  # reads the lower triangle, as Eigen does
-    return np.sqrt(np.maximum(variances, 0.0)), vectors
+    return np.maximum(np.sqrt(np.maximum(variances, 0.0)), _LEAST), vectors
 
 
 def _tangent(angles: F64) -> F64:
@@ -158,4 +161,4 @@ def _tangent(angles: F64) -> F64:
 
 
 def _bounded(lengths: F64) -> F64:
-    return np.minimum(lengths, FARTHEST)
+    return np.clip(lengths, _LEAST, FARTHEST)

@@ -11,14 +11,14 @@ import numpy as np
 from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
 from webviz_displays import covariance
 from webviz_displays.arrows import along_x
-from webviz_displays.colors import faded_color
-from webviz_displays.covariance_meshes import orientation_meshes, position_mesh
+from webviz_displays.covariance_marks import add_orientations, add_positions
 from webviz_displays.geometry import origin_near
 from webviz_displays.odometry_poses import Trail, fault, has_moved, trail
 from webviz_displays.pose_properties import Covariance, PoseShape
+from webviz_displays.rods import add_transparent_arrows
 
 MOST_COVARIANCES = 100
-"""RViz's default Keep. Each covariance is a mesh, and all are sent again with each new pose."""
+"""RViz's default Keep. Each covariance is some transparent solids, which browsers have to sort."""
 
 
 class Odometry(Display):
@@ -72,14 +72,13 @@ class Odometry(Display):
         if look.alpha == 0:
             ctx.warn("Pose", "The arrows are invisible: alpha is 0.")
             return
-        group.arrows(
-            "poses",
-            along_x(poses.positions, poses.rotations, look.shaft_length + look.head_length),
-            faded_color(look.color, look.alpha),
-            look.shaft_radius,
-            look.head_radius,
-            look.head_length,
-        )
+        length = look.shaft_length + look.head_length
+        segments = along_x(poses.positions, poses.rotations, length)
+        sizes = (look.shaft_radius, look.head_radius, look.head_length)
+        if look.alpha < 1:
+            add_transparent_arrows(group, segments, look.color, *sizes, look.alpha)
+        else:
+            group.arrows("poses", segments, look.color, *sizes)
 
     def _draw_covariances(
         self, samples: Sequence[Sample], poses: Trail, group: Group, ctx: Context
@@ -101,9 +100,7 @@ class Odometry(Display):
         )
         look = self.covariance.orientation
         if self.covariance.position.value:
-            mesh = position_mesh(self.covariance.position, given, positions, frames)
-            group.add("position covariance", mesh)
+            add_positions(group, self.covariance.position, given, positions, frames)
         if look.value:
             axes = axes if look.frame == "Local" else frames
-            for key, mesh in orientation_meshes(look, given, positions, axes).items():
-                group.add(f"{key} covariance", mesh)
+            add_orientations(group, look, given, positions, axes)

@@ -27,7 +27,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
             le=1,
             widget="slider",
             when=("value", "Arrow"),
-            help="Arrows are opaque in the browser; alpha fades them towards dark grey.",
+            help="Opacity of the arrows, 0 is invisible.",
         ),
     ] = 1.0
     shaft_length: Annotated[

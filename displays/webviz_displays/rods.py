@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from webviz import Group, Rgb
+
 F64 = NDArray[np.float64]
 
 _LEAST_LENGTH = 1e-12
@@ -38,3 +40,31 @@ def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
     wxyzs = np.where(norms > 1e-6, wxyzs / np.maximum(norms, 1e-6), (0.0, 1.0, 0.0, 0.0))
     widths = np.broadcast_to(np.asarray(diameters, np.float64), lengths.shape)
     return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)
+
+
+def add_transparent_arrows(
+    group: Group,
+    segments: F64,
+    color: Rgb,
+    shaft_radius: float,
+    head_radius: float,
+    head_length: float,
+    opacity: float,
+) -> None:
+    """Draw arrows as solids: those of `Group.arrows` are opaque.
+
+    Args:
+        group: where to draw.
+        segments: (N, 2, 3), tails and tips, metres.
+        color, opacity: of all.
+        shaft_radius, head_radius, head_length: metres.
+    """
+    tails, tips = segments[:, 0], segments[:, 1]
+    ways = tips - tails
+    lengths = np.maximum(np.linalg.norm(ways, axis=1), _LEAST_LENGTH)
+    necks = tips - np.minimum(head_length / lengths, 1.0)[:, None] * ways
+    shafts, heads = rods(tails, necks, 2 * shaft_radius), rods(necks, tips, 2 * head_radius)
+    group.instances(
+        "shafts", "cylinder", shafts.positions, shafts.scales, color, shafts.wxyzs, opacity
+    )
+    group.instances("heads", "cone", heads.positions, heads.scales, color, heads.wxyzs, opacity)

@@ -1,4 +1,4 @@
-"""Many copies of a simple mesh as one, so that a trail of them is one node."""
+"""Many copies of a flat mesh as one, so that a trail of them is one node."""
 
 from __future__ import annotations
 
@@ -39,40 +39,6 @@ def copies(shape: Shape, centers: F64, frames: F64) -> tuple[NDArray[np.float32]
     faces = first[:, None, None] + shape.faces
     return placed.reshape(-1, 3).astype(np.float32), faces.reshape(-1, 3)
 
-
-def _disc(corners: int) -> Shape:
-    angles = np.arange(corners) * (2 * np.pi / corners)
-    rim = np.stack((np.cos(angles), np.sin(angles), np.zeros(corners)), axis=1)
-    around = np.arange(corners, dtype=np.uint32)
-    faces = np.stack((around, np.roll(around, -1), np.full(corners, corners)), axis=1)
-    return Shape(np.concatenate((rim, np.zeros((1, 3)))), faces.astype(np.uint32))
-
-
-def _sphere(rings: int, corners: int) -> Shape:
-    """Rings of corners between two poles."""
-    polar = np.arange(1, rings + 1) * (np.pi / (rings + 1))
-    angles = np.arange(corners) * (2 * np.pi / corners)
-    polar, angles = (g.ravel() for g in np.meshgrid(polar, angles, indexing="ij"))
-    rim = np.sin(polar)
-    body = np.stack((rim * np.cos(angles), rim * np.sin(angles), np.cos(polar)), axis=1)
-    vertices = np.concatenate((body, ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0))))
-    here = np.arange(corners)
-    right = np.roll(here, -1)
-    faces = [np.stack((np.full(corners, len(body)), here, right), axis=1)]
-    for ring in range(rings - 1):
-        top, low = ring * corners, (ring + 1) * corners
-        faces.append(np.stack((top + here, low + here, top + right), axis=1))
-        faces.append(np.stack((top + right, low + here, low + right), axis=1))
-    last = (rings - 1) * corners
-    faces.append(np.stack((np.full(corners, len(body) + 1), last + right, last + here), axis=1))
-    return Shape(vertices, np.concatenate(faces).astype(np.uint32))
-
-
-DISC = _disc(24)
-"""Of radius 1 in the x-y plane."""
-
-SPHERE = _sphere(7, 16)
-"""Of radius 1."""
 
 WEDGE = Shape(
     np.array(((0.0, 0.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0))),

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from webviz_displays.geometry import matrices
 from webviz_displays.odometry import MOST_COVARIANCES, Odometry
 from webviz_displays.pose_properties import (
     Covariance,
@@ -58,6 +59,22 @@ def shown(bench: Benches) -> Callable[..., Any]:
 
 def tails(bench: Any) -> list[list[float]]:
     return bench.nodes()["poses"].segments[:, 0].round(4).tolist()
+
+
+def spans(node: Any) -> np.ndarray:
+    """Extents (N, 3) of solids along the axes of the fixed frame, exact for unturned ones."""
+    return np.abs(matrices(node.wxyzs) * node.scales[:, None, :]).max(axis=2)
+
+
+def test_transparent_arrows_are_solids_of_the_same_size(shown: Benches) -> None:
+    nodes = shown(odometry(1), shape=PoseShape(alpha=0.5), covariance=Covariance(value=False))
+    shafts, heads = nodes.nodes()["shafts"], nodes.nodes()["heads"]
+    assert (shafts.shape, heads.shape) == ("cylinder", "cone")
+    assert (shafts.opacity, heads.opacity, heads.colors) == (0.5, 0.5, (255, 25, 0))
+    np.testing.assert_allclose(shafts.positions, [(10, 1.5, 0)], atol=1e-6)
+    np.testing.assert_allclose(shafts.scales, [(0.1, 0.1, 1.0)], atol=1e-6)
+    np.testing.assert_allclose(heads.positions, [(10, 2.15, 0)], atol=1e-6)
+    np.testing.assert_allclose(heads.scales, [(0.2, 0.2, 0.3)], atol=1e-6)
 
 
 def test_an_arrow_stands_for_each_pose_in_the_fixed_frame(shown: Benches) -> None:
@@ -127,8 +144,8 @@ def test_a_long_trail_is_one_node(shown: Benches) -> None:
 
 def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
     bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"yaw": 0.01}))
-    assert bench.nodes().keys() == {"poses", "position covariance", "orientation covariance"}
-    wedge = bench.nodes()["orientation covariance"]
+    assert bench.nodes().keys() == {"poses", "ellipses", "wedges"}
+    wedge = bench.nodes()["wedges"]
     assert (wedge.color, wedge.opacity) == ((255, 255, 127), 0.5)
     width = np.tan(0.1)
     expected = [(10, 0, 1e-3), (9, width, 1e-3), (9, -width, 1e-3)]
@@ -138,12 +155,14 @@ def test_a_planar_covariance_is_an_ellipse_and_a_wedge(shown: Benches) -> None:
 def test_the_ellipse_lies_along_the_frame_and_the_wedge_along_the_robot(shown: Benches) -> None:
     # In odom the robot looks along y, and its position along x is uncertain; odom's x is map's y.
     bench = shown(odometry(turn=about_z(np.pi / 2), covariance={"x": 4.0, "yaw": 0.01}))
-    ellipse = bench.nodes()["position covariance"].vertices - (10, 0, 0)
-    assert np.abs(ellipse).max(axis=0) == pytest.approx((0, 2, 1e-3), abs=1e-6)
-    tip = bench.nodes()["orientation covariance"].vertices[1:].mean(axis=0)
+    ellipse = bench.nodes()["ellipses"]
+    assert ellipse.shape == "cylinder"
+    assert ellipse.positions[0] == pytest.approx((10, 0, 1e-3), abs=1e-6)
+    assert spans(ellipse)[0] == pytest.approx((0, 4, 1e-3), abs=1e-5)
+    tip = bench.nodes()["wedges"].vertices[1:].mean(axis=0)
     assert tip == pytest.approx((9, 0, 1e-3), abs=1e-6)
     bench.set("covariance.orientation.frame", "Fixed")
-    tip = bench.nodes()["orientation covariance"].vertices[1:].mean(axis=0)
+    tip = bench.nodes()["wedges"].vertices[1:].mean(axis=0)
     assert tip == pytest.approx((10, 1, 1e-3), abs=1e-6)
 
 
@@ -153,22 +172,35 @@ def test_a_covariance_in_space_is_an_ellipsoid_and_three_discs(shown: Benches) -
     )
     variances = {"x": 0.01, "y": 0.04, "z": 0.09, "roll": 0.01, "pitch": 0.01, "yaw": 0.01}
     nodes = shown(odometry(covariance=variances), covariance=look).nodes()
-    ellipsoid = nodes["position covariance"]
-    assert (ellipsoid.color, ellipsoid.opacity) == ((204, 51, 204), 0.3)
-    halves = np.abs(ellipsoid.vertices - (10, 0, 0)).max(axis=0)
-    assert halves == pytest.approx((0.4, 0.2, 0.6), rel=1e-5)
-    middles = {key: node.vertices[-1] for key, node in nodes.items() if "orientation" in key}
-    assert middles["orientation x covariance"] == pytest.approx((10, 1, 0), abs=1e-6)
-    assert middles["orientation y covariance"] == pytest.approx((9, 0, 0), abs=1e-6)
-    assert middles["orientation z covariance"] == pytest.approx((10, 0, 1), abs=1e-6)
-    assert nodes["orientation y covariance"].color == (0, 255, 0)
+    ellipsoid, discs = nodes["ellipsoids"], nodes["discs"]
+    assert (ellipsoid.shape, ellipsoid.colors, ellipsoid.opacity) == ("sphere", (204, 51, 204), 0.3)
+    assert spans(ellipsoid)[0] == pytest.approx((0.8, 0.4, 1.2), rel=1e-5)
+    expected = [(10, 1, 0), (9, 0, 0), (10, 0, 1)]
+    np.testing.assert_allclose(discs.positions, expected, atol=1e-6)
+    assert discs.colors.tolist() == [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
+    width = 2 * np.tan(0.1)
+    thin = 1e-3  # along the axis whose tip it is, which is turned left here
+    expected = [(width, thin, width), (thin, width, width), (width, width, thin)]
+    np.testing.assert_allclose(spans(discs), expected, atol=1e-5)
+
+
+def test_correlated_and_mirrored_axes_make_an_ellipsoid_of_the_same_spread(shown: Benches) -> None:
+    random = np.random.default_rng(2)
+    for _ in range(20):
+        root = random.normal(size=(3, 3)) * 0.3
+        covariance = np.diag([0, 0, 0, 1e-4, 1e-4, 1e-4])
+        covariance[:3, :3] = root @ root.T
+        node = shown(odometry(covariance=covariance)).nodes()["ellipsoids"]
+        axes = matrices(node.wxyzs[0]) * node.scales[0] / 2
+        turned = np.array([(0, -1, 0), (1, 0, 0), (0, 0, 1)]) @ root
+        np.testing.assert_allclose(axes @ axes.T, turned @ turned.T, atol=1e-5)
 
 
 def test_covariances_are_drawn_for_the_newest_poses_only(shown: Benches) -> None:
     count = MOST_COVARIANCES + 20
     bench = shown(*map(odometry, range(count)), keep=0)
     assert len(tails(bench)) == count
-    assert len(bench.nodes()["orientation covariance"].faces) == MOST_COVARIANCES
+    assert len(bench.nodes()["wedges"].faces) == MOST_COVARIANCES
     assert bench.statuses()["Covariance"][1].endswith(f"{MOST_COVARIANCES} of {count} covariances.")
 
 
@@ -176,7 +208,7 @@ def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None
     bad = odometry(1, covariance=np.full(36, NAN))
     bench = shown(odometry(0), bad, odometry(2, covariance=-np.eye(6)))
     assert len(tails(bench)) == 3
-    assert len(bench.nodes()["orientation covariance"].faces) == 1
+    assert len(bench.nodes()["wedges"].faces) == 1
     level, text = bench.statuses()["Covariance"]
     assert level == "WARN"
     assert text.startswith("2 of 3")
