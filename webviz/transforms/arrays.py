@@ -1,28 +1,54 @@
-"""The formulas of `geometry` for many poses at once: arrays of shape (7, N), float64."""
+"""The formulas of `geometry` for many poses at once.
+
+Poses come and go as rows, float64 (7, N): x, y, z, qx, qy, qz, qw. In between they are pairs,
+complex128 (4, N): the quaternions xi + yj + zk of the translation and w + xi + yj + zk of the
+rotation, each as two complex numbers, a + bj with a = w + xi and b = y + zi (Cayley-Dickson). Then
+(a + bj)(c + dj) = (ac - bd*) + (ad + bc*)j: numpy multiplies complex numbers about as fast as
+floats, which halves the time of joining two poses (measured).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from itertools import starmap
 from struct import Struct
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.transforms.geometry import IDENTITY, Pose
+from webviz.transforms.geometry import Pose
 
 F64 = NDArray[np.float64]
+C128 = NDArray[np.complex128]
+
+IDENTITY_PAIRS = np.array([[0], [0], [1], [0]], np.complex128)
 
 _POSE = Struct("7d")
-_IDENTITY = np.reshape(IDENTITY, (7, 1))
-_CONJUGATE = np.array([[0.0]] * 3 + [[-1.0]] * 3 + [[1.0]])
-_NEGATED = np.array([[-1.0]] * 3 + [[0.0]] * 4)
 
 
-def poses_to_rows(poses: Sequence[Pose]) -> F64:
-    """Poses as an array (7, N)."""
+def poses_to_rows(poses: Iterable[Pose]) -> F64:
+    """Poses as rows (7, N)."""
     packed = b"".join(starmap(_POSE.pack, poses))
     return np.frombuffer(packed, np.float64).reshape(-1, 7).T.copy()
+
+
+def to_pairs(rows: F64) -> C128:
+    """Rows (7, N) as pairs (4, N)."""
+    out = np.zeros((4, rows.shape[1]), np.complex128)
+    for place, row in zip(_rows_of(out), rows, strict=True):
+        place[:] = row
+    return out
+
+
+def to_rows(pairs: C128) -> F64:
+    """Pairs (4, N) as rows (7, N)."""
+    return np.array(_rows_of(pairs))
+
+
+def _rows_of(pairs: C128) -> tuple[F64, ...]:
+    """The seven rows within pairs, as views."""
+    a, b, c, d = pairs
+    return a.imag, b.real, b.imag, c.imag, d.real, d.imag, c.real
 
 
 def canonical_many(rotations: F64) -> F64:
@@ -74,41 +100,43 @@ def interpolation_table(start: F64, end: F64) -> F64:
     return np.concatenate((start[:3], end[:3] - start[:3], *rotations, theta[None]))
 
 
-def interpolate_many(table: F64, ratio: F64) -> F64:
+def interpolate_many(table: F64, ratio: F64) -> C128:
     """`geometry.interpolate` within each pair of an `interpolation_table` (15, N).
 
     Returns:
-        (7, N).
+        Pairs (4, N).
     """
-    rest = 1.0 - ratio
     theta = table[14]
-    out = np.empty((7, len(ratio)))
-    np.add(table[:3], ratio * table[3:6], out=out[:3])
-    start, end = np.sin(rest * theta), np.sin(ratio * theta)
-    np.add(start * table[6:10], end * table[10:14], out=out[3:])
+    out = np.zeros((4, len(ratio)), np.complex128)
+    rows = _rows_of(out)
+    for row, start, way in zip(rows, table[:3], ratio * table[3:6], strict=False):
+        np.add(start, way, out=row)
+    start = np.sin((1.0 - ratio) * theta) * table[6:10]
+    end = np.sin(ratio * theta) * table[10:14]
+    for row, a, b in zip(rows[3:], start, end, strict=True):
+        np.add(a, b, out=row)
     return out
 
 
-def compose_many(a: F64, b: F64) -> F64:
-    """`geometry.compose`, each (7, N) or (7, 1), with fewer operations for unit quaternions."""
-    ax, ay, az, x, y, z, w = a
-    bx, by, bz, qx, qy, qz, qw = b
-    out = np.empty((7, max(a.shape[1], b.shape[1])))
-    # v + w t + u x t with t = 2 u x v, where u is the vector part of the quaternion.
-    x2, y2, z2 = x + x, y + y, z + z
-    tx, ty, tz = y2 * bz - z2 * by, z2 * bx - x2 * bz, x2 * by - y2 * bx
-    out[0] = bx + w * tx + (y * tz - z * ty) + ax
-    out[1] = by + w * ty + (z * tx - x * tz) + ay
-    out[2] = bz + w * tz + (x * ty - y * tx) + az
-    out[3] = w * qx + x * qw + y * qz - z * qy
-    out[4] = w * qy + y * qw + z * qx - x * qz
-    out[5] = w * qz + z * qw + x * qy - y * qx
-    out[6] = w * qw - x * qx - y * qy - z * qz
+def compose_many(a: C128, b: C128) -> C128:
+    """`geometry.compose` of pairs, each (4, N) or (4, 1)."""
+    ta, tb, qa, qb = a
+    va, vb, ra, rb = b
+    out = np.empty((4, max(a.shape[1], b.shape[1])), np.complex128)
+    np.subtract(qa * ra, qb * rb.conj(), out=out[2])
+    np.add(qa * rb, qb * ra.conj(), out=out[3])
+    # q v q* + t, where q* = qa* - qb j.
+    ha = qa * va - qb * vb.conj()
+    hb = qa * vb + qb * va.conj()
+    np.add(ha * qa.conj() + hb * qb.conj(), ta, out=out[0])
+    np.add(hb * qa - ha * qb, tb, out=out[1])
     return out
 
 
-def inverse_many(a: F64) -> F64:
-    """`geometry.inverse` for poses (7, N)."""
-    turn_back = a * _CONJUGATE
-    move_back = a * _NEGATED + _IDENTITY
+def inverse_many(a: C128) -> C128:
+    """`geometry.inverse` of pairs (4, N)."""
+    turn_back = np.zeros_like(a)
+    turn_back[2], turn_back[3] = a[2].conj(), -a[3]
+    move_back = np.zeros_like(a)
+    move_back[:2], move_back[2] = -a[:2], 1.0
     return compose_many(turn_back, move_back)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.transforms.arrays import (
+    C128,
     F64,
     canonical_many,
     compose_many,
@@ -18,6 +19,7 @@ from webviz.transforms.arrays import (
     interpolation_table,
     inverse_many,
     poses_to_rows,
+    to_rows,
 )
 from webviz.transforms.errors import TransformException
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose, interpolate, inverse
@@ -113,8 +115,8 @@ class _Links:
             poses.append(link if above is IDENTITY else compose(above, link))
         return poses
 
-    def poses_by_arrays(self) -> F64:
-        """The same as an array (7, links): all interpolated at once, then joined level by level."""
+    def poses_by_arrays(self) -> C128:
+        """The same as pairs (4, links): all interpolated at once, then joined level by level."""
         table = interpolation_table(poses_to_rows(self.starts), poses_to_rows(self.ends))
         poses = interpolate_many(table, np.array(self.ratios))
         parents, depths = np.array(self.parents), np.array(self.depths)
@@ -160,9 +162,9 @@ def poses_in(
     elif found:
         arrays = links.poses_by_arrays()
         bases, numbers = np.array(pairs).T
-        pose = compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers])
-        out[:3, found] = pose[:3]
-        out[3:, found] = canonical_many(pose[3:])
+        rows = to_rows(compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers]))
+        out[:3, found] = rows[:3]
+        out[3:, found] = canonical_many(rows[3:])
     for i in odd:
         with suppress(TransformException):
             pose, _ = tree.resolve(target, frames[i], stamps[i] or 0)

@@ -5,26 +5,29 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from contextlib import suppress
 from itertools import pairwise
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz.transforms.arrays import (
+    C128,
     F64,
+    IDENTITY_PAIRS,
     canonical_many,
     compose_many,
     interpolate_many,
     interpolation_table,
     inverse_many,
     poses_to_rows,
+    to_pairs,
+    to_rows,
 )
 from webviz.transforms.cache import TimeCache
 from webviz.transforms.errors import TransformException
 from webviz.transforms.geometry import IDENTITY, canonical
 from webviz.transforms.tree import MAX_DEPTH, FrameTree
-
-_IDENTITY = np.reshape(IDENTITY, (7, 1))
 
 I64 = NDArray[np.int64]
 
@@ -48,12 +51,13 @@ def lookup_many(
     if (np.diff(stamps_ns) < 0).any():
         order = np.argsort(stamps_ns)
         ascending = stamps_ns[order]
-    poses = np.full((7, count), np.nan)
+    poses = np.empty((7, count))
     histories = _Histories(tree, ascending)
     for start in range(0, len(ascending), BLOCK):
-        block = poses[:, start : start + BLOCK]
-        _resolve(histories, target, source, ascending[start : start + BLOCK], block)
-        block[3:] = canonical_many(block[3:])
+        part = slice(start, start + BLOCK)
+        rows = to_rows(_resolve(histories, target, source, ascending[part]))
+        rows[3:] = canonical_many(rows[3:])
+        poses[:, part] = rows
     latest = ascending == 0
     if latest.any():
         poses[:, latest] = np.nan
@@ -77,11 +81,11 @@ class _History:
         self._known = stamps[part]
         self.stamps = np.array(self._known, np.int64)
         samples = cache.samples[part]
-        parents = [parent for _, parent in samples]
+        parents = list(map(itemgetter(1), samples))
         self.parent: str | None = parents[0] if parents.count(parents[0]) == len(parents) else None
         self.parents = np.array(parents) if self.parent is None else None
         # Each sample with its successor; one before a change of parent, and the last, stand still.
-        start = poses_to_rows([pose for pose, _ in samples])
+        start = poses_to_rows(map(itemgetter(0), samples))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
         if self.parent is None:
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
@@ -93,11 +97,11 @@ class _History:
         )
         self._first_ns = first_ns
 
-    def at(self, times: I64) -> tuple[F64, str | NDArray[np.str_]]:
+    def at(self, times: I64) -> tuple[C128, str | NDArray[np.str_]]:
         """`TimeCache.at` for ascending times within the history.
 
         Returns:
-            Poses (7, n), and the parent or parents.
+            Pairs (4, n), and the parent or parents.
         """
         # How many of the times fall to each sample: those from its stamp up to the next one's.
         low = max(bisect_left(self._known, int(times[0])) - 1, 0)
@@ -141,15 +145,16 @@ class _Group(NamedTuple):
     frame: str
     rows: NDArray[np.intp] | slice
     """Which requests, (n,); a slice is all of them."""
-    pose: F64 | None
-    """The start of the walk in `frame`, (7, n) or one for all (7, 1); None is the identity."""
+    pose: C128 | None
+    """The start of the walk in `frame`, pairs (4, n) or one for all (4, 1); None: the identity."""
 
 
-def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: F64) -> None:
-    """`FrameTree.resolve` for stamps other than 0; writes the poses into `out` (7, N).
+def _resolve(histories: _Histories, target: str, source: str, stamps: I64) -> C128:
+    """`FrameTree.resolve` for stamps other than 0: pairs (4, N), NaN where there is no pose.
 
     Requests climb together and part where their parents or their fates differ.
     """
+    out = np.full((4, len(stamps)), complex(np.nan, np.nan))
     tops: dict[str, int] = {}
     top_of = np.full(len(stamps), -1)
     in_top = np.empty_like(out)
@@ -165,13 +170,13 @@ def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: 
             climbing += higher
             if stuck is not None:
                 top_of[stuck.rows] = tops.setdefault(stuck.frame, len(tops))
-                in_top[:, stuck.rows] = _IDENTITY if stuck.pose is None else stuck.pose
+                in_top[:, stuck.rows] = IDENTITY_PAIRS if stuck.pose is None else stuck.pose
                 waiting = True
         pending = climbing
         if not pending:
             break
     if not waiting:
-        return
+        return out
 
     pending = [_Group(target, np.flatnonzero(top_of >= 0), None)]
     for _ in range(MAX_DEPTH + 1):
@@ -195,6 +200,7 @@ def _resolve(histories: _Histories, target: str, source: str, stamps: I64, out: 
         pending = climbing
         if not pending:
             break
+    return out
 
 
 def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
@@ -214,7 +220,9 @@ def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Gro
         return [], group
     if not isinstance(cache, TimeCache):
         pose, parent = cache.newest
-        return [_Group(parent, group.rows, _onto(np.reshape(pose, (7, 1)), group.pose))], None
+        return [
+            _Group(parent, group.rows, _onto(to_pairs(np.reshape(pose, (7, 1))), group.pose))
+        ], None
     times = stamps[group.rows]
     stuck = None
     oldest, newest = cache.stamps[0], cache.stamps[-1]
@@ -236,5 +244,5 @@ def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Gro
     return higher, stuck
 
 
-def _onto(link: F64, pose: F64 | None) -> F64:
+def _onto(link: C128, pose: C128 | None) -> C128:
     return link if pose is None else compose_many(link, pose)
