@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import signal
 import subprocess
 import sys
 import venv
@@ -60,7 +61,7 @@ def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
     command = [peer_python, str(PEER), "pub", "all", "--seconds", "120", "--domain", domain]
     program = Program(command, env, tmp_path / "peer.txt")
     yield program
-    program.end()
+    program.end(signal.SIGTERM)
 
 
 @pytest.fixture
