@@ -17,6 +17,6 @@ def test_a_text_hangs_below_its_position_when_asked_from_wherever_one_looks(view
             view.look(position, (0.0, 0.0, 0.0))
             view.wait_for(lambda: (view.pixels() < 20).all(axis=2).any())
             rows, _ = np.nonzero((view.pixels() < 20).all(axis=2))
-            row, _ = view.pixel_of((0.0, 0.0, 0.0))
+            row, _ = view.row_column((0.0, 0.0, 0.0))
             assert rows.max() > row
             assert (rows.min() >= row) == below
