@@ -156,7 +156,7 @@ class Map(Display):
                 outer, frame = at_stamp, None
             else:
                 reason = ctx.frames.why_not(grid.frame, folded.stamp_ns)
-                ctx.warn("Timestamp", f"{reason} Until then the map follows its frame.")
+                ctx.warn("Transform", f"{reason} Until then the map follows its frame.")
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
