@@ -16,6 +16,7 @@ setup(
             "Map = webviz_displays.map:Map",
             "Odometry = webviz_displays.odometry:Odometry",
             "Path = webviz_displays.path:Path",
+            "PointCloud2 = webviz_displays.point_cloud2:PointCloud2",
             "RobotModel = webviz_displays.robot_model:RobotModel",
             "TF = webviz_displays.tf:TF",
         ],

@@ -84,12 +84,12 @@ def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
     return table.view("V3")[:, 0]
 
 
-def faded(colors: U8, alpha: float) -> U8:
-    """What colours (..., 3) look like in front of RViz's background.
+def faded(colors: U8, alpha: float | F64) -> U8:
+    """What colours (..., 3) look like in front of RViz's background, `alpha` one or (..., 1).
 
     The browser draws points, lines and arrows opaque, so this stands in for their transparency.
     """
-    if alpha >= 1.0:
+    if np.min(alpha, initial=1.0) >= 1.0:
         return colors
     mixed = alpha * np.asarray(colors, dtype=np.float64) + (1.0 - alpha) * np.array(BACKGROUND)
     return np.round(mixed).astype(np.uint8)

@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 import pytest
 import trimesh
+from clouds import CLOUD, xyz_cloud
 
 import webviz_displays
 from webviz import Display, Topic
@@ -53,6 +54,17 @@ def scans(bench: Any) -> None:
             "intensities": [100.0, 900.0, 30.0, 4000.0, 5000.0],
         }
         bench.send("sensor_msgs/msg/LaserScan", values, frame="laser")
+        bench.turn()
+
+
+def clouds(bench: Any) -> None:
+    """Two clouds of many fields and near points, of a tilted sensor."""
+    bench.transform("map", "lidar", (1.0, 0.0, 0.5), (0.5, 0.5, 0.5, 0.5))
+    points = [(1.0, 0.0, 0.1), (1.1, 0.2, 0.3), (40.0, 4.0, 4.4), (41.0, 4.1, 4.5)]
+    extra = {"intensity": [100.0, 900.0, 30.0, 5000.0], "rgb": [1e-38, 2e-38, 3e-38, 4e-38]}
+    extra |= {"r": [0.1, 0.2, 0.3, 0.4], "g": [0.5] * 4, "b": [0.6, 0.5, 0.4, 0.3]}
+    for _ in range(2):
+        bench.send(CLOUD, xyz_cloud(points, extra), frame="lidar")
         bench.turn()
 
 
@@ -138,6 +150,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "Map": maps,
     "Odometry": odometries,
     "Path": paths,
+    "PointCloud2": clouds,
     "RobotModel": robots,
     "TF": frames,
 }
@@ -149,6 +162,7 @@ OF_THE_FUTURE = {
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
     ("Path", "buffer_length"),
+    ("PointCloud2", "decay_time"),
     ("RobotModel", "update_interval"),
     ("TF", "update_interval"),
 }
@@ -173,6 +187,8 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
     ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
+    # Of four points.
+    ("PointCloud2", "max_points"): {"max_points": 3},
 }
 
 
@@ -312,6 +328,7 @@ def test_every_display_is_tried() -> None:
         ("LaserScan", "alpha", "Points"),
         ("Odometry", "shape.alpha", "Pose"),
         ("Path", "alpha", "Path"),
+        ("PointCloud2", "alpha", "Points"),
     ],
 )
 def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status: str) -> None:

@@ -1,0 +1,361 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from clouds import CLOUD, FLOAT32, XYZ, cloud, xyz_cloud
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from webviz.nodes import Instances, Lines, Points
+from webviz_displays import points_display
+from webviz_displays.decimation import evenly, one_per_voxel
+from webviz_displays.point_cloud2 import PointCloud2, spaced
+
+SECOND = 1_000_000_000
+NAN, INF = float("nan"), float("inf")
+RED, MIDDLE, MAGENTA = [255, 0, 0], [0, 255, 128], [255, 0, 255]
+THREE = [(1.0, 0.0, 0.0), (2.0, 0.0, 5.0), (3.0, 0.0, 10.0)]
+
+Benches = Callable[..., Any]
+
+
+@pytest.fixture
+def lab(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn one cloud of a sensor at rest, 1 m above the map."""
+
+    def make(values: dict[str, Any], **properties: Any) -> Any:
+        made = bench(PointCloud2(**properties))
+        made.transform("map", "lidar", (0.0, 0.0, 1.0))
+        made.send(CLOUD, values, frame="lidar")
+        made.turn()
+        return made
+
+    return make
+
+
+def colors(bench: Any) -> list[list[int]]:
+    return bench.nodes()["points"].colors.tolist()
+
+
+def rgb(*numbers: int) -> list[float]:
+    """0xAARRGGBB as the floats with the same bytes."""
+    return np.array(numbers, np.uint32).view(np.float32).tolist()
+
+
+# Which points
+
+
+def test_points_lie_in_the_frame_of_the_sensor(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE))
+    np.testing.assert_allclose(bench.xyz("points"), np.add(THREE, (0, 0, 1)), atol=1e-6)
+    assert bench.statuses()["Points"] == ("OK", "Showing 3 of 3 points.")
+
+
+@pytest.mark.parametrize("is_dense", [False, True])
+def test_what_is_not_finite_is_left_out_whatever_is_dense_says(
+    lab: Benches, is_dense: bool
+) -> None:
+    points = [(1, 2, 3), (NAN, 0, 0), (0, INF, 0), (4, 5, 6), (0, 0, 1e12)]
+    values = xyz_cloud(points, {"intensity": [10, 0, 0, 20, 0]}) | {"is_dense": is_dense}
+    bench = lab(values)
+    np.testing.assert_allclose(bench.xyz("points"), [(1, 2, 4), (4, 5, 7)])
+    assert colors(bench) == [RED, MAGENTA]
+    assert bench.statuses()["Points"] == (
+        "OK",
+        "Showing 2 of 5 points; left out: 3 not finite or farther than 1e9 m.",
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "level", "words"),
+    [
+        (xyz_cloud([(NAN, NAN, NAN)]), "WARN", "Showing 0 of 1 points; left out: 1 not finite"),
+        (xyz_cloud(THREE) | {"width": 0, "data": []}, "WARN", "empty: width x height is 0"),
+        (xyz_cloud(THREE) | {"height": 0}, "WARN", "empty: width x height is 0"),
+        (xyz_cloud(THREE) | {"data": []}, "ERROR", "0 bytes, but 3 x 1 points of 12 bytes need 36"),
+        (xyz_cloud(THREE) | {"fields": []}, "ERROR", "no field 'x'; its fields are: none"),
+    ],
+)
+def test_a_cloud_without_points_says_why(
+    lab: Benches, values: dict[str, Any], level: str, words: str
+) -> None:
+    bench = lab(values)
+    said = bench.statuses()["Points"]
+    assert said[0] == level
+    assert words in said[1]
+    assert not any(len(node.xyz) for node in bench.nodes().values())
+
+
+def test_odd_sizes_are_shown_with_a_warning(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE) | {"width": 2, "row_step": 24})
+    assert len(bench.xyz("points")) == 2
+    level, text = bench.statuses()["Data"]
+    assert level == "WARN"
+    assert "The data has 36 bytes, 24 were enough for 2 x 1 points of 12 bytes" in text
+
+
+def test_an_organised_cloud_with_padded_rows_is_drawn_whole(lab: Benches) -> None:
+    points = [{"x": [i], "y": [10 * i], "z": [0]} for i in range(6)]
+    bench = lab(cloud(XYZ, points, height=2, row_padding=7))
+    expected = [(i, 10 * i, 1) for i in range(6)]
+    np.testing.assert_allclose(bench.xyz("points"), expected)
+
+
+def test_far_clouds_keep_their_millimetres(bench: Benches) -> None:
+    made = bench(PointCloud2(), fixed_frame="utm")
+    fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
+    places = [(500_000.001 + i / 1000, 5_400_000.002, 100.0) for i in range(5)]
+    points = [{"x": [x], "y": [y], "z": [z]} for x, y, z in places]
+    made.transform("utm", "survey", (3.0, 0.0, 0.0))
+    made.send(CLOUD, cloud(fields, points), frame="survey")
+    made.turn()
+    np.testing.assert_allclose(made.xyz("points"), np.add(places, (3, 0, 0)), rtol=0, atol=1e-4)
+    assert np.abs(made.nodes()["points"].xyz).max() < 2000
+
+
+def test_far_clouds_follow_a_new_fixed_frame(bench: Benches) -> None:
+    made = bench(PointCloud2(), fixed_frame="utm")
+    made.transform("utm", "site", (500_000.0, 0.0, 0.0))
+    fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
+    made.send(CLOUD, cloud(fields, [{"x": [500_007.5], "y": [0], "z": [0]}]), frame="utm")
+    made.turn()
+    made.fixed_frame = "site"
+    made.turn()
+    np.testing.assert_allclose(made.xyz("points"), [(7.5, 0, 0)], atol=1e-4)
+
+
+def test_more_points_than_the_limit_are_picked_evenly_and_it_is_said(lab: Benches) -> None:
+    points = np.stack((np.arange(1000), np.zeros(1000), np.zeros(1000)), axis=1)
+    bench = lab(xyz_cloud(points.tolist(), {"intensity": [float(i) for i in range(1000)]}))
+    bench.set("max_points", 100)
+    shown = bench.xyz("points")[:, 0]
+    assert len(shown) == 100
+    assert (np.floor(shown / 10) == np.arange(100)).all()
+    assert len(colors(bench)) == 100
+    assert bench.statuses()["Points"] == (
+        "OK",
+        "Showing 100 of 1 000 points; left out: 900 over max_points, 100.",
+    )
+    bench.set("max_points", 0)
+    assert len(bench.xyz("points")) == 1000
+
+
+def test_one_point_of_each_voxel_is_shown_and_it_is_said(lab: Benches) -> None:
+    points = [(0.01, 0, 0), (0.02, 0, 0), (-0.01, 0, 0), (NAN, 0, 0), (0.11, 0, 0)]
+    bench = lab(xyz_cloud(points), voxel_size=0.1)
+    np.testing.assert_allclose(bench.xyz("points")[:, 0], [0.01, -0.01, 0.11], atol=1e-6)
+    assert bench.statuses()["Points"][1] == (
+        "Showing 3 of 5 points; left out: 1 not finite or farther than 1e9 m, "
+        "1 in voxels of 0.1 m that show another."
+    )
+
+
+@settings(deadline=None)
+@given(
+    st.lists(st.tuples(*[st.integers(-5, 5)] * 3), max_size=60),
+    st.sampled_from([0.5, 1.0, 3.0]),
+)
+def test_voxels_are_those_of_a_slow_reader(points: list[tuple[int, int, int]], size: float) -> None:
+    first: dict[tuple[float, ...], int] = {}
+    for row, point in enumerate(points):
+        first.setdefault(tuple(v // size for v in point), row)
+    found = one_per_voxel(np.array(points, np.float32).reshape(-1, 3), size)
+    assert found.tolist() == sorted(first.values())
+
+
+def test_many_points_share_few_voxels_exactly() -> None:
+    xyz = np.random.default_rng(1).uniform(-50, 50, (100_000, 3)).astype(np.float32)
+    voxels, first = np.unique(np.floor(xyz / 2.5), axis=0, return_index=True)
+    found = one_per_voxel(xyz, 2.5)
+    assert len(found) == len(voxels)
+    assert found.tolist() == sorted(first.tolist())
+
+
+@settings(deadline=None)
+@given(st.integers(2, 5000), st.data())
+def test_picked_rows_are_one_of_each_equal_part(total: int, data: st.DataObject) -> None:
+    limit = data.draw(st.integers(1, total - 1))
+    rows = evenly(total, limit)
+    edges = [i * total // limit for i in range(limit + 1)]
+    assert len(rows) == limit
+    assert all(low <= row < high for low, row, high in zip(edges, rows, edges[1:], strict=False))
+
+
+def test_numbers_are_written_with_spaces() -> None:
+    assert [spaced(n) for n in (7, 1000, 1_000_000)] == ["7", "1 000", "1 000 000"]
+
+
+# Colours
+
+
+def test_a_colour_in_the_cloud_is_shown_without_being_asked_for(lab: Benches) -> None:
+    packed = rgb(0xFF102030, 0x00FFFEFD, 0x7F000001)
+    bench = lab(xyz_cloud(THREE, {"intensity": [1, 2, 3], "rgb": packed}))
+    assert colors(bench) == [[16, 32, 48], [255, 254, 253], [0, 0, 1]]
+    assert bench.statuses()["Colors"][1] == "RGB8, by the fields: x, y, z, intensity, rgb."
+
+
+@pytest.mark.parametrize("name", ["intensity", "intensities"])
+def test_without_a_colour_intensity_is_shown(lab: Benches, name: str) -> None:
+    assert colors(lab(xyz_cloud(THREE, {name: [5, 10, 15]}))) == [RED, MIDDLE, MAGENTA]
+
+
+def test_with_neither_red_green_and_blue_are_shown(lab: Benches) -> None:
+    values = xyz_cloud(THREE, {"r": [0, 0.5, 2], "g": [1, 0, NAN], "b": [0, 0, -1]})
+    assert colors(lab(values)) == [[0, 255, 0], [128, 0, 0], [255, 0, 0]]
+
+
+def test_a_cloud_of_places_only_is_coloured_by_height(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE))
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+    assert bench.statuses()["Colors"][1] == "AxisColor, by the fields: x, y, z."
+
+
+def test_red_green_and_blue_as_integers_go_to_255(lab: Benches) -> None:
+    fields = [*XYZ, *((name, 12 + i, 2, 1) for i, name in enumerate("rgb"))]
+    point = {"x": [0], "y": [0], "z": [0], "r": [255], "g": [1], "b": [128]}
+    assert colors(lab(cloud(fields, [point]), color_transformer="RGBF32")) == [[255, 1, 128]]
+
+
+def test_the_alpha_of_rgba_fades_points_and_hides_those_of_0(lab: Benches) -> None:
+    packed = rgb(0xFFF83000, 0x00FFFFFF, 0x80F83000)
+    bench = lab(xyz_cloud(THREE, {"rgba": packed}))
+    assert colors(bench) == [[248, 48, 0], [148, 48, 24]]
+    np.testing.assert_allclose(bench.xyz("points")[:, 0], [1, 3])
+    level, text = bench.statuses()["Points"]
+    assert level == "OK"
+    assert "1 of them are invisible: their alpha in rgba is 0." in text
+
+
+def test_a_cloud_of_alpha_0_warns(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE, {"rgba": rgb(0xFFFFFF, 0, 1)}))
+    assert bench.statuses()["Points"][0] == "WARN"
+
+
+@pytest.mark.parametrize("channel", ["x", "z", "ring"])
+def test_any_field_can_be_coloured(lab: Benches, channel: str) -> None:
+    bench = lab(
+        xyz_cloud(THREE, {"ring": [7, 8, 9]}), color_transformer="Intensity", channel_name=channel
+    )
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+
+
+def test_of_a_field_with_several_elements_the_first_is_coloured(lab: Benches) -> None:
+    fields = [*XYZ, ("normal", 12, FLOAT32, 3)]
+    points = [{"x": [i], "y": [0], "z": [0], "normal": [i, 99 - i, 5]} for i in range(3)]
+    bench = lab(cloud(fields, points), color_transformer="Intensity", channel_name="normal")
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+
+
+def test_signed_fields_have_their_sign(lab: Benches) -> None:
+    fields = [*XYZ, ("level", 12, 3, 1)]
+    points = [{"x": [0], "y": [0], "z": [0], "level": [v]} for v in (-100, 0, 100)]
+    bench = lab(cloud(fields, points), color_transformer="Intensity", channel_name="level")
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+
+
+@pytest.mark.parametrize(
+    ("transformer", "words"),
+    [
+        ("Intensity", "The cloud has no field 'intensity'; its fields are: x, y, z, t."),
+        ("RGB8", "The cloud has no field 'rgb'; its fields are: x, y, z, t."),
+        ("RGBF32", "The cloud has no field 'r'; its fields are: x, y, z, t."),
+    ],
+)
+def test_without_the_field_points_are_white_and_the_fields_there_are_are_named(
+    lab: Benches, transformer: str, words: str
+) -> None:
+    bench = lab(xyz_cloud(THREE, {"t": [1, 2, 3]}), color_transformer=transformer)
+    assert bench.nodes()["points"].colors == (255, 255, 255)
+    assert bench.statuses()["Colors"] == ("WARN", f"{words} The points are white.")
+
+
+def test_a_colour_that_is_not_of_four_bytes_is_refused_in_words(lab: Benches) -> None:
+    fields = [*XYZ, ("rgb", 12, 8, 1)]
+    bench = lab(cloud(fields, [{"x": [0], "y": [0], "z": [0], "rgb": [1.0]}]))
+    text = "Field 'rgb' is float64; a packed colour has 4 bytes. The points are white."
+    assert bench.statuses()["Colors"] == ("WARN", text)
+
+
+def test_axis_colours_are_of_the_fixed_frame_or_of_the_sensor(bench: Benches) -> None:
+    made = bench(PointCloud2(color_transformer="AxisColor"))
+    # The sensor lies on its side: its y points up.
+    made.transform("map", "lidar", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    made.send(CLOUD, xyz_cloud([(0, -1, 3), (0, 0, 2), (0, 1, 1)]), frame="lidar")
+    made.turn()
+    assert colors(made) == [RED, MIDDLE, MAGENTA]
+    made.set("use_fixed_frame", False)
+    assert colors(made) == [MAGENTA, MIDDLE, RED]
+
+
+def test_axis_bounds_hold_far_from_the_origin_too(lab: Benches) -> None:
+    values = xyz_cloud([(9000 + v, 0, 0) for v in (0, 5, 10)])
+    limits = {"value": False, "min_value": 9000.0, "max_value": 9010.0}
+    bench = lab(values, color_transformer="AxisColor", axis="X")
+    bench.set("autocompute_value_bounds", limits)
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+    bench.set("use_fixed_frame", False)
+    assert colors(bench) == [RED, MIDDLE, MAGENTA]
+
+
+# Styles and time
+
+
+def test_solids_are_lit_and_stand_upright(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE), style="Boxes", size=0.2, alpha=0.5)
+    node = bench.nodes()["solids"]
+    assert isinstance(node, Instances)
+    assert (node.shape, node.opacity) == ("box", 0.5)
+    np.testing.assert_allclose(bench.xyz("solids"), np.add(THREE, (0, 0, 1)))
+
+
+@pytest.mark.parametrize(
+    ("style", "outline", "words"),
+    [("Boxes", "square", "squares that face"), ("Spheres", "circle", "discs that face")],
+)
+def test_more_solids_than_a_browser_can_light_are_drawn_flat_and_it_is_said(
+    lab: Benches, monkeypatch: pytest.MonkeyPatch, style: str, outline: str, words: str
+) -> None:
+    monkeypatch.setattr(points_display, "SOLIDS_LIMIT", 2)
+    bench = lab(xyz_cloud(THREE), style=style)
+    node = bench.nodes()["points"]
+    assert isinstance(node, Points)
+    assert (node.shape, len(node.xyz)) == (outline, 3)
+    text = bench.statuses()["Style"][1]
+    assert words in text
+    assert "can light 2 solids, not 3" in text
+
+
+def test_dots_are_so_many_pixels_wide_and_limited(
+    lab: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz_displays.point_cloud2.DOTS_LIMIT", 2)
+    bench = lab(xyz_cloud(THREE), style="Points", size_pixels=4.0)
+    node = bench.nodes()["points"]
+    assert isinstance(node, Lines)
+    assert (node.width, node.unit, len(node.segments)) == (4.0, "px", 2)
+    assert "1 over the limit of the style Points, 2" in bench.statuses()["Points"][1]
+
+
+def test_clouds_stay_for_the_decay_time(lab: Benches) -> None:
+    bench = lab(xyz_cloud(THREE), decay_time=2.0)
+    bench.turn(1.5)
+    bench.send(CLOUD, xyz_cloud(THREE[:1]), frame="lidar")
+    bench.turn()
+    assert sorted(len(node.xyz) for node in bench.nodes().values()) == [1, 3]
+    bench.turn(1.0)
+    assert [len(node.xyz) for node in bench.nodes().values()] == [1]
+
+
+def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
+    made = bench(PointCloud2())
+    made.transform("map", "lidar", (0.0, 0.0, 0.0), stamp_ns=made.now_ns - SECOND)
+    made.send(CLOUD, xyz_cloud(THREE), frame="lidar")
+    made.turn()
+    assert not made.nodes()
+    made.transform("map", "lidar", (0.0, 0.0, 5.0), stamp_ns=made.now_ns)
+    made.turn()
+    np.testing.assert_allclose(made.xyz("points")[0], (1, 0, 5))
