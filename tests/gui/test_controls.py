@@ -11,6 +11,7 @@ from webviz.display import Display
 from webviz.gui.control import Choice
 from webviz.gui.controls import add_control
 from webviz.gui.properties import properties_of
+from webviz_displays.robot_model import RobotModel
 
 
 class Lists(Display):
@@ -65,3 +66,12 @@ def test_an_empty_choice_can_be_read(server: viser.ViserServer) -> None:
     choice = Choice(server.gui, "Topic", "", lambda _: None)
     assert choice.dropdown.value == "(none)"
     assert choice.decode("(none)") == ""
+
+
+def test_a_mapping_may_hold_settings_that_have_colons_themselves(
+    server: viser.ViserServer,
+) -> None:
+    text = 'base_link: {"alpha":0.5,"show_axes":true}'
+    property_ = {each.path: each for each in properties_of(RobotModel)}["links"]
+    control = add_control(server.gui, property_, {}, lambda _: None)
+    assert control.decode(text) == {"base_link": {"alpha": 0.5, "show_axes": True}}

@@ -104,7 +104,7 @@ def _add_lines(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) ->
         lines = [line.strip() for line in text.splitlines() if line.strip()]
         if not isinstance(type_, inspect.DictType):
             return [load(line) for line in lines]
-        entries = [line.rpartition(":") for line in lines]
+        entries = [line.partition(": ") for line in lines]
         return {key.strip(): load(item.strip()) for key, _, item in entries}
 
     widget = gui.add_text(declared.label, encode(value), multiline=True, hint=declared.help or None)
