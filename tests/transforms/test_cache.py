@@ -193,3 +193,24 @@ def test_a_static_cache_keeps_only_the_last_pose_and_has_no_time() -> None:
     assert (len(cache), cache.newest_stamp, cache.oldest_stamp) == (1, 0, 0)
     cache.clear()
     assert cache.at(0) == (pose(2.0), "other")
+
+
+def test_poses_side_by_side_follow_every_insert_in_order_or_not_and_every_pruning() -> None:
+    dice = random.Random(5)
+    cache = TimeCache(20)
+    newest = 0
+    for step in range(2000):
+        newest += dice.choice((0, 1, 1, 2))
+        stamp = newest - dice.choice((0, 0, 0, 3, 25))
+        pose = (dice.random(), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+        cache.insert(stamp, (pose, dice.choice("aaaaaaaab")))
+        if step % 500 == 499:
+            cache.clear()
+        if step % 7 == 0:
+            low = dice.randrange(5)
+            expected = [value for pose, _ in cache.samples[low:15] for value in pose]
+            assert list(cache.poses(slice(low, 15))) == expected
+        newer = {
+            p for s, (_, p) in zip(cache.stamps, cache.samples, strict=True) if s > cache.mixed_ns
+        }
+        assert len(newer) <= 1

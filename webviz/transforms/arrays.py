@@ -9,6 +9,7 @@ floats, which halves the time of joining two poses (measured).
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable
 from itertools import starmap
 from struct import Struct
@@ -28,7 +29,11 @@ _POSE = Struct("7d")
 
 def poses_to_rows(poses: Iterable[Pose]) -> F64:
     """Poses as rows (7, N)."""
-    packed = b"".join(starmap(_POSE.pack, poses))
+    return packed_to_rows(b"".join(starmap(_POSE.pack, poses)))
+
+
+def packed_to_rows(packed: bytes | array[float]) -> F64:
+    """Poses that lie one after the other in memory, as rows (7, N)."""
     return np.frombuffer(packed, np.float64).reshape(-1, 7).T.copy()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_right
 
 from webviz.transforms.errors import (
@@ -16,6 +17,9 @@ from webviz.transforms.geometry import Pose, interpolate
 # A bound on memory that tf2 lacks: a publisher whose clock stands still never lets data grow old.
 # 65536 samples are 10 s at 6.5 kHz.
 MAX_SAMPLES = 65_536
+
+NEVER_NS = -(1 << 63)
+"""Before every stamp."""
 
 Sample = tuple[Pose, str]
 """A pose and the parent frame it is given in."""
@@ -68,15 +72,24 @@ class TimeCache:
 
     Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
     readers must not change them.
+
+    Attributes:
+        mixed_ns: the samples newer than this have one parent.
     """
 
-    __slots__ = ("_cache_time_ns", "samples", "stamps")
+    __slots__ = ("_cache_time_ns", "_dead", "_packed", "mixed_ns", "samples", "stamps")
     is_static = False
 
     def __init__(self, cache_time_ns: int) -> None:
         self.stamps: list[int] = []
         self.samples: list[Sample] = []
+        self.mixed_ns = NEVER_NS
         self._cache_time_ns = cache_time_ns
+        # The poses once more, side by side, as far as `poses` was ever asked for: to gather them
+        # anew each time takes longer than all the arithmetic on them. The pruned ones stay at its
+        # beginning until they are half of it.
+        self._packed = array("d")
+        self._dead = 0
 
     def __len__(self) -> int:
         return len(self.stamps)
@@ -117,6 +130,8 @@ class TimeCache:
         elif len(stamps) >= MAX_SAMPLES:
             self._drop_oldest(1)
         if stamp_ns > newest:
+            if sample[1] != self.samples[-1][1]:
+                self.mixed_ns = newest
             stamps.append(stamp_ns)
             self.samples.append(sample)
             return True
@@ -128,9 +143,20 @@ class TimeCache:
             if self.samples[i] == sample:
                 return True
             i -= 1
+        if sample[1] != self.samples[-1][1]:
+            self.mixed_ns = max(self.mixed_ns, stamp_ns)
         stamps.insert(place, stamp_ns)
         self.samples.insert(place, sample)
+        del self._packed[7 * (self._dead + place) :]
         return True
+
+    def poses(self, part: slice) -> array[float]:
+        """A copy of the poses of `samples[part]`, seven numbers each."""
+        gathered = len(self._packed) // 7 - self._dead
+        for pose, _ in self.samples[gathered:]:
+            self._packed.extend(pose)
+        start, stop, _ = part.indices(len(self.stamps))
+        return self._packed[7 * (self._dead + start) : 7 * (self._dead + stop)]
 
     def _count_before(self, horizon_ns: int) -> int:
         count = 1
@@ -141,6 +167,11 @@ class TimeCache:
     def _drop_oldest(self, count: int) -> None:
         del self.stamps[:count]
         del self.samples[:count]
+        if self._packed:
+            self._dead += count
+            if 7 * self._dead > len(self._packed) // 2:
+                del self._packed[: 7 * self._dead]
+                self._dead = 0
 
     def at(self, stamp_ns: int) -> Sample | None:
         """The sample interpolated at a time; 0 means the newest; None if `refusal` says why not."""
@@ -213,6 +244,9 @@ class TimeCache:
         """Forget all samples; the frame itself stays known."""
         self.stamps.clear()
         self.samples.clear()
+        del self._packed[:]
+        self._dead = 0
+        self.mixed_ns = NEVER_NS
 
 
 Cache = StaticCache | TimeCache

@@ -5,7 +5,6 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from contextlib import suppress
 from itertools import pairwise
-from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +19,7 @@ from webviz.transforms.arrays import (
     interpolate_many,
     interpolation_table,
     inverse_many,
-    poses_to_rows,
+    packed_to_rows,
     to_pairs,
     to_rows,
 )
@@ -80,14 +79,16 @@ class _History:
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
         self._known = stamps[part]
         self.stamps = np.array(self._known, np.int64)
-        samples = cache.samples[part]
-        parents = list(map(itemgetter(1), samples))
-        self.parent: str | None = parents[0] if parents.count(parents[0]) == len(parents) else None
-        self.parents = np.array(parents) if self.parent is None else None
         # Each sample with its successor; one before a change of parent, and the last, stand still.
-        start = poses_to_rows(map(itemgetter(0), samples))
+        start = packed_to_rows(cache.poses(part))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
-        if self.parent is None:
+        self.parent: str | None = None
+        self.parents: NDArray[np.str_] | None = None
+        if self._known[0] > cache.mixed_ns:
+            self.parent = cache.samples[-1][1]
+        else:
+            parents = [parent for _, parent in cache.samples[part]]
+            self.parents = np.array(parents)
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
             end[:, changes] = start[:, changes]
         span = np.append(np.maximum(np.diff(self.stamps), 1), 1)
