@@ -50,14 +50,14 @@ def one_per_voxel(xyz: NDArray[np.float32], size: float) -> Rows:
     bits = max(len(xyz), 2).bit_length()
     table = np.empty(1 << bits, np.intp)
     left = np.arange(len(xyz))
-    found: list[Rows] = []
+    found = np.zeros(len(xyz), np.bool_)
     spread = _SPREAD
     while len(left):
-        scattered = numbers[left].view(np.uint64) * np.uint64(spread)
-        slots = (scattered >> np.uint64(64 - bits)).astype(np.intp)
+        mine = numbers[left]
+        slots = ((mine.view(np.uint64) * np.uint64(spread)) >> np.uint64(64 - bits)).view(np.intp)
         table[slots[::-1]] = left[::-1]
         owners = table[slots]
-        found.append(left[owners == left])
-        left = left[numbers[owners] != numbers[left]]
+        found[owners] = True
+        left = left[numbers[owners] != mine]
         spread = spread * _SPREAD % 2**64
-    return np.sort(np.concatenate(found)) if found else left
+    return np.flatnonzero(found)
