@@ -6,7 +6,7 @@ import difflib
 import io
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -14,6 +14,8 @@ from typing import Annotated, Any, Literal
 import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
+from ruamel.yaml.representer import SafeRepresenter
 
 from webviz.display import Color, Display, make, to_values
 from webviz.group import Group
@@ -23,6 +25,8 @@ VERSION = 1
 MAX_BYTES = 16 << 20
 MAX_VALUES = 200_000
 """In one file; YAML's aliases can make a few lines endless."""
+LINE = 88
+"""Characters of mappings and lists that are written on one line."""
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 """What is shown when nobody says what to show."""
 
@@ -49,6 +53,8 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     background: Color = (48, 48, 48)
     frame_rate: Annotated[float, msgspec.Meta(ge=1, le=240)] = 60.0
     view: View = View()
+    rviz: dict[str, Any] = {}  # msgspec copies it
+    """What a .rviz file says that has no counterpart here; kept for writing it again."""
 
 
 @dataclass
@@ -85,10 +91,17 @@ Item = Display | Unreadable | Branch
 
 @dataclass
 class Config:
-    """A whole config: settings and displays in order."""
+    """A whole config.
+
+    Args:
+        settings: all but the displays.
+        displays: in order.
+        report: sentences on what could not be read from RViz's config file.
+    """
 
     settings: Settings = field(default_factory=Settings)
     displays: list[Item] = field(default_factory=list)
+    report: list[str] = field(default_factory=list)
 
 
 def standard() -> Config:
@@ -98,7 +111,7 @@ def standard() -> Config:
 
 
 def load(path: Path) -> Config:
-    """Read a config file.
+    """Read a config file: YAML, or RViz's if its name ends with .rviz.
 
     Raises:
         ConfigError: the file is missing, no YAML, or not a config. A single display that does not
@@ -112,7 +125,16 @@ def load(path: Path) -> Config:
         raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
     except UnicodeDecodeError as error:
         raise ConfigError(f"{path} is not UTF-8 text.") from error
+    if is_rviz(path):
+        from webviz import rviz  # it stands on this module
+
+        return rviz.read(text, str(path))[0]
     return parse(text, str(path))
+
+
+def is_rviz(path: Path) -> bool:
+    """Whether a file is RViz's by its name."""
+    return path.suffix.lower() == ".rviz"
 
 
 def parse(text: str, where: str) -> Config:
@@ -151,6 +173,10 @@ def read_display(entry: Any, place: str) -> Item:
     """A display or group from an entry of a list in a config file, which is at `place`."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, f"{place}: a display needs a `type`, such as `type: Grid`.")
+    if "rviz" in entry:
+        return Unreadable(
+            entry, f"{place}: RViz's {entry['type']} has no counterpart here yet; it is kept."
+        )
     types = display_types()
     cls = types.get(entry["type"])
     if cls is Group:
@@ -206,22 +232,51 @@ def dump(config: Config) -> str:
     basis = msgspec.to_builtins(Settings())
     document: dict[str, Any] = {"version": VERSION}
     document |= {key: value for key, value in settings.items() if value != basis[key]}
+    kept = document.pop("rviz", None)
     document["displays"] = [_entry(display) for display in config.displays]
+    if kept:
+        document["rviz"] = kept  # last, as nobody wants to read it
     yaml = YAML(typ="safe", pure=True)
+    yaml.Representer = _Representer
     yaml.default_flow_style = None  # short lists such as colours stay on one line
+    yaml.width = 1 << 20  # a key of two words that is broken cannot be read again
     yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
     stream = io.StringIO()
     yaml.dump(document, stream)
     return stream.getvalue()
 
 
+class _Representer(SafeRepresenter):
+    """Gives each value a line of its own where they are too many for one."""
+
+    def represent_mapping(self, tag: Any, mapping: Any, flow_style: Any = None) -> MappingNode:
+        node = super().represent_mapping(tag, mapping, flow_style)
+        node.flow_style &= _fits([part for pair in node.value for part in pair])
+        return node
+
+    def represent_sequence(self, tag: Any, sequence: Any, flow_style: Any = None) -> SequenceNode:
+        node = super().represent_sequence(tag, sequence, flow_style)
+        node.flow_style &= _fits(node.value)
+        return node
+
+
+def _fits(nodes: Sequence[Node]) -> bool:
+    return sum(len(node.value) + len(", ") for node in nodes) <= LINE
+
+
 def save(config: Config, path: Path) -> None:
     """Write a config file in one step: after a failure the old file is still there.
+
+    A name that ends with .rviz makes it RViz's.
 
     Raises:
         ConfigError: it cannot be written.
     """
     text = dump(config)
+    if is_rviz(path):
+        from webviz import rviz  # it stands on this module
+
+        text = rviz.write(config)[0]
     try:
         with tempfile.NamedTemporaryFile(
             "w", encoding="utf-8", dir=path.parent, prefix=path.name, delete=False

@@ -1,0 +1,366 @@
+"""A .rviz file opens as RViz2 would open it."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Any
+
+import pytest
+
+from webviz import rviz
+from webviz.config import Branch, Config, ConfigError, Unreadable, View, dump, parse
+from webviz.display import to_values
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.odometry import Odometry
+from webviz_displays.robot_model import RobotModel
+from webviz_displays.tf import TF
+
+
+def opened(displays: str = "", manager: str = "") -> tuple[Config, rviz.Report]:
+    """A file with these displays and more of the manager's keys."""
+    head = "Visualization Manager:\n"
+    if displays:
+        head += "  Displays:\n" + textwrap.indent(textwrap.dedent(displays), "    ")
+    return rviz.read(head + textwrap.indent(textwrap.dedent(manager), "  ") or "", "x.rviz")
+
+
+def one(text: str, cls: str = "LaserScan") -> Any:
+    """The only display of a file, of a class and enabled."""
+    lines = [f"- Class: rviz_default_plugins/{cls}", "  Enabled: true"]
+    lines += ["  " + line for line in textwrap.dedent(text).strip().splitlines()]
+    config, _ = opened("\n".join(lines) + "\n")
+    return config.displays[0]
+
+
+def said(report: rviz.Report) -> str:
+    return "\n".join(report.sentences())
+
+
+def test_global_options_are_the_settings() -> None:
+    config, _ = opened(
+        manager="""\
+        Global Options:
+          Background Color: 10; 20; 30
+          Fixed Frame: /odom
+          Frame Rate: 12
+        """
+    )
+    settings = config.settings
+    assert (settings.fixed_frame, settings.background) == ("odom", (10, 20, 30))
+    assert settings.frame_rate == 12
+
+
+def test_what_a_file_leaves_out_has_rvizs_default() -> None:
+    config, _ = opened(manager="Class: ''\n")
+    assert (config.settings.fixed_frame, config.settings.frame_rate) == ("base_link", 30)
+    assert one("Name: Scan").topic.name == ""
+
+
+@pytest.mark.parametrize(
+    ("keys", "enabled"),
+    [
+        ("", False),
+        ("Value: true", True),
+        ("Value: false", False),
+        ("Enabled: true\n  Value: false", True),
+        ("Enabled: false\n  Value: true", False),
+        ("Enabled: 'True'", True),
+        ("Enabled: maybe", False),
+    ],
+)
+def test_enabled_counts_before_value_and_neither_is_off(keys: str, enabled: bool) -> None:
+    config, _ = opened(f"- Class: rviz_default_plugins/Grid\n  {keys}\n")
+    grid: Any = config.displays[0]
+    assert grid.enabled is enabled
+
+
+def test_properties_have_rvizs_names_and_spellings() -> None:
+    scan: LaserScan = one(
+        """
+        Name: Front
+        Size (m): 0.029999999329447746
+        Size (Pixels): 5
+        Style: Spheres
+        Color Transformer: FlatColor
+        Color: 255; 0; 300
+        Use rainbow: false
+        Autocompute Value Bounds: {Value: false, Min Value: -2, Max Value: 2.5}
+        """
+    )
+    assert (scan.name, scan.size, scan.size_pixels, scan.style) == ("Front", 0.03, 5.0, "Spheres")
+    assert (scan.color, scan.use_rainbow) == ((255, 0, 255), False)
+    bounds = scan.autocompute_value_bounds
+    assert (bounds.value, bounds.min_value, bounds.max_value) == (False, -2.0, 2.5)
+
+
+@pytest.mark.parametrize("color", ["0; 128; 0", "'#008000'", "green", "0;128;0"])
+def test_colours_are_written_in_several_ways(color: str) -> None:
+    assert one(f"Color: {color}").color == (0, 128, 0)
+
+
+def test_nested_properties_have_their_own_value() -> None:
+    odometry: Odometry = one(
+        """
+        Shape: {Value: Axes, Axes Length: 0.5}
+        Covariance: {Value: true, Position: {Value: false, Scale: 3}}
+        """,
+        "Odometry",
+    )
+    assert (odometry.shape.value, odometry.shape.axes_length) == ("Axes", 0.5)
+    assert odometry.shape.head_length == 0.3
+    position = odometry.covariance.position
+    assert (position.value, position.scale) == (False, 3.0)
+    grid = one(
+        "Line Style: {Value: Billboards, Line Width: 0.1}\nOffset: {X: 1, Y: 2, Z: 3}", "Grid"
+    )
+    assert (grid.line_style, grid.line_width, grid.offset) == ("Billboards", 0.1, (1.0, 2.0, 3.0))
+
+
+def test_frames_and_links_are_switched_by_name() -> None:
+    tf: TF = one("Frames: {All Enabled: false, odom: {Value: true}, tb3/a b: {Value: false}}", "TF")
+    assert (tf.all_enabled, tf.frames) == (False, {"odom": True, "tb3/a b": False})
+    robot: RobotModel = one(
+        """
+        Links:
+          All Links Enabled: true
+          Expand Tree: false
+          Link Tree Style: Links in Alphabetic Order
+          base: {Alpha: 0.5, Show Axes: true, Show Trail: false}
+          wheel: {Alpha: 1, Value: false}
+        """,
+        "RobotModel",
+    )
+    assert list(robot.links) == ["base", "wheel"]
+    assert (robot.links["base"].enabled, robot.links["base"].alpha) == (True, 0.5)
+    assert (robot.links["base"].show_axes, robot.links["wheel"].enabled) == (True, False)
+
+
+def test_rvizs_default_qos_is_auto_and_all_else_a_choice() -> None:
+    usual = one(
+        """
+        Topic:
+          Value: /scan
+          Depth: 5
+          History Policy: Keep Last
+          Reliability Policy: Reliable
+          Durability Policy: Volatile
+          Filter size: 10
+        """
+    )
+    assert to_values(usual) == {}
+    topic = one(
+        """
+        Topic:
+          Value: /map
+          Depth: 1
+          Reliability Policy: Best Effort
+          Durability Policy: Transient Local
+          Filter size: 3
+        """,
+        "Map",
+    ).topic
+    assert (topic.reliability, topic.durability) == ("best_effort", "transient_local")
+    assert (topic.depth, topic.filter_size) == (1, 3)
+
+
+@pytest.mark.parametrize("durability", ["Volatile", "Transient Local"])
+def test_a_description_is_latched_whatever_the_file_says(durability: str) -> None:
+    text = f"Description Topic: {{Value: robot_description, Durability Policy: {durability}}}"
+    robot: RobotModel = one(text, "RobotModel")
+    assert robot.description_topic.name == "robot_description"
+    assert robot.description_topic.durability == "auto"
+
+
+def test_an_update_topic_that_follows_from_the_topic_is_left_to_follow() -> None:
+    map: Map = one("Topic: {Value: /a}\nUpdate Topic: {Value: /a_updates}", "Map")
+    assert map.update_topic.name == ""
+    map = one("Topic: {Value: /a}\nUpdate Topic: {Value: /b_updates}", "Map")
+    assert map.update_topic.name == "/b_updates"
+
+
+def test_old_forms_are_understood() -> None:
+    scan: LaserScan = one("Topic: /scan\nUnreliable: true\nQueue Size: 20")
+    assert (scan.topic.name, scan.topic.reliability) == ("/scan", "best_effort")
+    assert scan.topic.filter_size == 20
+    config, report = opened(
+        """\
+        - Class: rviz/LaserScan
+          Name: Old
+          Value: true
+          Topic: /scan
+        - Class: rviz/RobotModel
+          Value: true
+        - Class: rviz/Group
+          Enabled: true
+        """
+    )
+    old, robot, group = config.displays
+    assert isinstance(old, LaserScan)
+    assert isinstance(robot, RobotModel)
+    assert robot.description_topic.name == "/robot_description"
+    assert isinstance(group, Branch)
+    assert "Old: rviz/LaserScan: this is ROS 1's class" in said(report)
+
+
+def test_groups_nest() -> None:
+    config, _ = opened(
+        """\
+        - Class: rviz_common/Group
+          Name: Outer
+          Enabled: false
+          Displays:
+            - Class: rviz_common/Group
+              Name: Inner
+              Enabled: true
+              Displays:
+                - Class: rviz_default_plugins/Grid
+                  Name: Floor
+        """
+    )
+    outer = config.displays[0]
+    assert isinstance(outer, Branch)
+    inner = outer.displays[0]
+    assert isinstance(inner, Branch)
+    assert (outer.group.name, outer.group.enabled, inner.group.enabled) == ("Outer", False, True)
+    assert [getattr(each, "name", "") for each in inner.displays] == ["Floor"]
+
+
+def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -> None:
+    config, report = opened("- {Class: my_plugins/Laser, Name: Mine, Enabled: true, Power: 007}\n")
+    config = parse(dump(config), "x.yaml")
+    mine = config.displays[0]
+    assert isinstance(mine, Unreadable)
+    assert mine.name == "Mine"
+    assert "my_plugins/Laser has no counterpart here yet" in mine.reason
+    assert mine.values["rviz"]["Power"] == "007"
+    assert "Mine: my_plugins/Laser: there is no such display" in said(report)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("Size (m): 0", "Size (m): 0 is out of range here, 0.0001 is used"),
+        ("Size (m): wide", "Size (m): `wide` is no number; the default is used"),
+        ("Size (m): .nan", "Size (m): `.nan` is no number"),
+        ("Style: Cones", "Style: `Cones` is none of Points, Squares"),
+        ("Color: loud", "Color: `loud` is no colour"),
+        ("Use rainbow: [1]", "Use rainbow: it has no value"),
+        ("Alpha: 7", "Alpha: 7 is out of range here, 1 is used"),
+        ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: `deep` is no number"),
+        ("Glow: true", "Glow: there is no such property here yet"),
+        ("Selectable: false", "Selectable: there is no such property here yet"),
+    ],
+)
+def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
+    _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
+    assert f"Scan: {what}" in said(report)
+
+
+def test_what_has_no_effect_is_not_told() -> None:
+    _, report = opened(
+        """\
+        - Class: rviz_default_plugins/LaserScan
+          Position Transformer: XYZ
+          Selectable: true
+        - Class: rviz_default_plugins/TF
+          Tree: {map: {odom: {}}}
+        """
+    )
+    assert said(report) == ""
+
+
+def test_placeholders_are_names_like_others() -> None:
+    assert one("Topic: {Value: <namespace>/scan}").topic.name == "<namespace>/scan"
+    config, report = opened(manager="Global Options: {Fixed Frame: [PLANNING_FRAME]}\n")
+    assert config.settings.fixed_frame == "base_link"
+    assert "Global Options: Fixed Frame: it has no value; base_link is used" in said(report)
+
+
+def view(text: str) -> tuple[View, str]:
+    config, report = opened(manager=f"Views: {{Current: {text}}}\n")
+    return config.settings.view, said(report)
+
+
+def test_an_orbit_view_is_the_camera() -> None:
+    camera, sentences = view(
+        "{Class: rviz_default_plugins/Orbit, Distance: 3.5, Yaw: 1.5, Pitch: 1.5697963237762451, "
+        "Focal Point: {X: 1, Y: 2, Z: 3}, Target Frame: <Fixed Frame>}"
+    )
+    assert camera == View(distance=3.5, yaw=1.5, pitch=1.5697963, focal_point=(1.0, 2.0, 3.0))
+    assert sentences == ""
+
+
+def test_a_view_from_above_shows_the_same_place_and_says_it_is_another() -> None:
+    camera, sentences = view(
+        "{Class: rviz_default_plugins/TopDownOrtho, Scale: 40, X: 5, Y: -1, Angle: 0}"
+    )
+    assert camera.focal_point == (5.0, -1.0, 0.0)
+    assert camera.distance == pytest.approx(10 / 0.41421356, rel=1e-3)
+    assert (camera.yaw, camera.pitch) == (pytest.approx(-1.570796), 1.5698)
+    assert "TopDownOrtho: there is no such view here yet" in sentences
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("{Class: rviz_default_plugins/FPS, Position: {X: 1}}", "FPS: there is no such view"),
+        ("{Class: rviz_default_plugins/Orbit, Distance: far}", "Distance: `far` is no number"),
+        ("{Class: rviz_default_plugins/Orbit, Target Frame: base}", "does not follow a frame"),
+        ("{Class: rviz_default_plugins/XYOrbit, Distance: 2}", "Orbit is used"),
+    ],
+)
+def test_what_a_view_has_that_the_camera_has_not_is_told(text: str, sentence: str) -> None:
+    assert sentence in view(text)[1]
+
+
+def test_panels_tools_and_saved_views_are_told_once() -> None:
+    _, report = rviz.read(
+        textwrap.dedent(
+            """\
+            Panels:
+              - {Class: rviz_common/Displays, Name: Displays}
+              - {Class: rviz_common/Time, Name: Time}
+            Visualization Manager:
+              Tools:
+                - Class: rviz_default_plugins/MoveCamera
+                - Class: rviz_default_plugins/Measure
+                - Class: rviz_default_plugins/Select
+              Views:
+                Saved:
+                  - {Class: rviz_default_plugins/Orbit, Name: Corner}
+            """
+        ),
+        "x.rviz",
+    )
+    sentences = said(report)
+    assert "Panels: rviz_common/Time: not here yet" in sentences
+    assert "Tools: rviz_default_plugins/Measure, rviz_default_plugins/Select: not" in sentences
+    assert "saved views: Corner:" in sentences
+    assert "rviz_common/Displays" not in sentences
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "x.rviz is no RViz config: it has no `Visualization Manager`."),
+        ("fixed_frame: map", "x.rviz is no RViz config: it has no `Visualization Manager`."),
+        ("a: [", "x.rviz:1 is not valid YAML"),
+        ("[" * 200, "x.rviz"),
+        ("a: &a [*a]", "x.rviz is nested deeper than 64 levels."),
+        ("? [a]\n: 1", "x.rviz: a key is not a plain word."),
+    ],
+)
+def test_what_is_no_rviz_file_is_one_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        rviz.read(text, "x.rviz")
+    assert str(caught.value).startswith(sentence)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_few_lines_that_unfold_without_end_are_refused() -> None:
+    bomb = "a: &a [x, x, x, x, x, x, x, x, x, x]\n"
+    for name, before in zip("bcdefg", "abcdef", strict=True):
+        bomb += f"{name}: &{name} [{', '.join([f'*{before}'] * 10)}]\n"
+    with pytest.raises(ConfigError, match="holds more than 200000 values"):
+        rviz.read(bomb, "x.rviz")

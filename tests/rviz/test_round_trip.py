@@ -1,0 +1,330 @@
+"""Import then export of a .rviz file loses nothing, and export makes files RViz2 opens."""
+
+from __future__ import annotations
+
+import contextlib
+import textwrap
+from pathlib import Path
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rviz_trees import loaded, lost, texts
+
+from webviz import config as config_file
+from webviz import rviz
+from webviz.config import Branch, Config, ConfigError, dump, parse
+from webviz.display import make, set_property
+from webviz.registry import display_types
+from webviz.rviz.tree import write
+
+NASTY = """\
+Panels: ~
+Visualization Manager:
+  Class: ""
+  Displays:
+    - Class: rviz_default_plugins/LaserScan
+      Topic: /scan
+      Unreliable: true
+      Queue Size: 10
+      Size (m): 0.029999999329447746
+      Min Intensity: 999999
+      Max Intensity: -999999
+      Color: '#ff0000'
+      Color Transformer: ""
+      Value: true
+    - Class: rviz_default_plugins/LaserScan
+      Name: 007
+      Enabled: true
+      Value: false
+      Durability Policy: Volatile
+      Topic:
+        Value: <namespace>/scan
+        Reliability Policy: System Default
+      Style: Cones
+      Alpha: {Value: 0.5, Extra: 1e-3}
+      Size (m): -1
+      Autocompute Value Bounds: false
+    - Class: rviz_default_plugins/LaserScan
+      Name: 007
+      Selectable: false
+    - Class: rviz_default_plugins/MarkerArray
+      Name: Markers
+      Namespaces:
+        "": true
+        0: false
+        1: true
+    - Class: rviz_plugins::Thing
+      Name: Thing
+    - {}
+    - just text
+    - Class: rviz_common/Group
+      Name: Empty
+      Displays: ~
+    - Class: rviz_common/Group
+      Name: Full
+      Enabled: true
+      Secret: yes
+      Displays:
+        - Class: rviz_default_plugins/TF
+          Name: TF
+          Frames:
+            All Enabled: false
+            odd [frame]: {Value: true}
+            0: {Value: false, More: ~}
+          Tree: {map: {odom: {}}}
+        - Class: rviz_default_plugins/RobotModel
+          Name: Robot
+          Description Topic: {Value: robot_description, Durability Policy: Volatile}
+          Links:
+            All Links Enabled: false
+            Link Tree Style: ""
+            base: {Alpha: 0.30000001192092896, Value: true, Show Axes: no}
+        - Class: rviz_default_plugins/Grid
+          Line Style: Billboards
+          Offset: {X: 1, Y: two, Z: 3}
+  Global Options:
+    Background Color: 48; 48; 48
+    Default Light: true
+    Fixed Frame: /map
+    Frame Rate: 1000
+  Tools: [{Class: rviz_default_plugins/SetGoal, Topic: /goal}]
+  Views:
+    Current: {Class: rviz_default_plugins/TopDownOrtho, Scale: 54, X: 1, Y: 2, Angle: 0.5}
+    Saved:
+      - {Class: rviz_default_plugins/Orbit, Name: Corner, Distance: 3}
+Window Geometry:
+  QMainWindow State: 0000123400000000
+  Width: 1e3
+Unheard Of: 2001-01-01
+"""
+
+
+def again(text: str) -> str:
+    """The text after import, a save as YAML, and export."""
+    config, _ = rviz.read(text, "x.rviz")
+    return rviz.write(parse(dump(config), "x.yaml"))[0]
+
+
+def test_real_files_come_back_whole(real_file: Path) -> None:
+    text = real_file.read_text()
+    assert list(lost(texts(text), texts(again(text)))) == []
+
+
+def test_nasty_files_come_back_whole() -> None:
+    assert list(lost(texts(NASTY), texts(again(NASTY)))) == []
+
+
+def test_a_file_that_was_exported_comes_back_to_the_letter() -> None:
+    first = again(NASTY)
+    assert again(first) == first
+
+
+def test_an_exported_config_is_imported_as_it_was() -> None:
+    text = again(NASTY)
+    assert dump(rviz.read(text, "x.rviz")[0]) == dump(rviz.read(again(text), "x.rviz")[0])
+
+
+def test_ros_1_classes_are_written_as_those_of_ros_2() -> None:
+    text = "Visualization Manager:\n  Displays: [{Class: rviz/Grid, Name: Floor, Value: true}]\n"
+    where = ["/Visualization Manager/Displays[0]/Class"]
+    assert list(lost(texts(text), texts(again(text)))) == where
+    assert "Class: rviz_default_plugins/Grid" in again(text)
+
+
+def test_every_display_type_goes_to_rviz_and_back() -> None:
+    types = {name: cls for name, cls in display_types().items() if cls.rviz and name != "Group"}
+    config = Config(displays=[make(cls, {"name": f"my {name}"}) for name, cls in types.items()])
+    text, report = rviz.write(config)
+    back, _ = rviz.read(text, "x.rviz")
+    assert report.notes == []
+    assert [type(display) for display in back.displays] == list(types.values())
+    # The QoS that suits a type is written out, and is a choice when it comes back.
+    for before, after in zip(config.displays, back.displays, strict=True):
+        plain = {"reliability": "auto", "durability": "auto"}
+        for display in (before, after):
+            assert not isinstance(display, config_file.Unreadable | Branch)
+            for name in ("topic", "update_topic"):
+                if hasattr(display, name):
+                    for key, value in plain.items():
+                        set_property(display, f"{name}.{key}", value)
+        assert dump(Config(displays=[after])) == dump(Config(displays=[before]))
+
+
+def test_a_new_file_hears_the_usual_publishers_and_has_panels_and_tools() -> None:
+    tree = loaded(rviz.write(config_file.standard())[0])
+    manager = tree["Visualization Manager"]
+    by_name = {display["Name"]: display for display in manager["Displays"]}
+    assert by_name["LaserScan"]["Topic"]["Reliability Policy"] == "Best Effort"
+    assert by_name["Map"]["Topic"]["Durability Policy"] == "Transient Local"
+    assert by_name["Map"]["Update Topic"]["Value"] == "/map_updates"
+    robot = by_name["RobotModel"]["Description Topic"]
+    assert (robot["Value"], robot["Durability Policy"]) == ("/robot_description", "Transient Local")
+    assert {panel["Class"] for panel in tree["Panels"]} >= {"rviz_common/Displays"}
+    assert {"Class": "rviz_default_plugins/SetGoal"} in manager["Tools"]
+    assert manager["Displays"][0]["Line Style"] == {"Line Width": 0.03, "Value": "Lines"}
+
+
+def scan(text: str) -> Config:
+    head = "Visualization Manager:\n  Displays:\n    - Class: rviz_default_plugins/LaserScan\n"
+    return rviz.read(head + textwrap.indent(textwrap.dedent(text), "      "), "x.rviz")[0]
+
+
+def exported(config: Config) -> dict[str, Any]:
+    return loaded(rviz.write(config)[0])["Visualization Manager"]
+
+
+def test_a_change_made_here_wins_over_the_spelling_of_the_file() -> None:
+    config = scan("Topic: /scan\nUnreliable: true\nColor: red\nSelectable: false\n")
+    display: Any = config.displays[0]
+    assert exported(config)["Displays"][0]["Color"] == "red"
+    set_property(display, "color", [0, 0, 255])
+    set_property(display, "topic", {"name": "/front", "reliability": "auto"})
+    tree = exported(config)["Displays"][0]
+    assert tree["Color"] == "0; 0; 255"
+    assert tree["Topic"]["Value"] == "/front"
+    assert tree["Selectable"] is False
+
+
+def test_what_was_kept_goes_with_its_display() -> None:
+    config = scan("Name: A\nGlow: 1\n")
+    text = rviz.write(config)[0].replace("Name: A", "Name: B").replace("Glow: 1", "Glow: 2")
+    config.displays += rviz.read(text, "x.rviz")[0].displays
+    config.settings.rviz["Visualization Manager"]["Displays"] += [
+        {"Class": "rviz_default_plugins/LaserScan", "Name": "B", "Glow": 2}
+    ]
+    config.displays.reverse()
+    assert [d["Glow"] for d in exported(config)["Displays"]] == [2, 1]
+    del config.displays[0]
+    assert [d["Glow"] for d in exported(config)["Displays"]] == [1]
+
+
+def test_a_view_that_was_moved_is_written_as_orbit() -> None:
+    config, _ = rviz.read(NASTY, "x.rviz")
+    assert exported(config)["Views"]["Current"]["Class"] == "rviz_default_plugins/TopDownOrtho"
+    config.settings.view = config_file.View(distance=2.0)
+    current = exported(config)["Views"]["Current"]
+    assert (current["Class"], current["Distance"]) == ("rviz_default_plugins/Orbit", 2)
+    assert "Scale" not in current
+    assert exported(config)["Views"]["Saved"][0]["Name"] == "Corner"
+
+
+def test_what_rviz_has_no_counterpart_for_is_told() -> None:
+    config = parse("displays: [{type: LaserScan, size: -1}, {type: Grid}]", "x.yaml")
+    text, report = rviz.write(config)
+    assert len(loaded(text)["Visualization Manager"]["Displays"]) == 1
+    assert "LaserScan: this entry: it is left out: displays[0].size" in report.sentences()[0]
+
+
+def test_files_are_told_apart_by_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "x.RVIZ"
+    config_file.save(config_file.standard(), path)
+    assert "Visualization Manager" in path.read_text()
+    names = [getattr(display, "name", "") for display in config_file.load(path).displays]
+    assert names == list(config_file.STANDARD)
+
+
+def test_hundreds_of_nested_displays_come_back() -> None:
+    lines = ["Visualization Manager:", "  Displays:"]
+    for depth in range(6):
+        pad = "    " + "  " * 2 * depth
+        lines += [
+            f"{pad}- Class: rviz_default_plugins/LaserScan\n{pad}  Name: {i}" for i in range(40)
+        ]
+        lines += [f"{pad}- Class: rviz_common/Group\n{pad}  Name: G{depth}\n{pad}  Displays:"]
+    lines += ["    " + "  " * 12 + "- {Class: rviz_default_plugins/Grid, Name: last}"]
+    text = "\n".join(lines)
+    assert list(lost(texts(text), texts(again(text)))) == []
+    assert rviz.read(text, "x.rviz")[1].total["displays"] == 247
+
+
+WORDS = [
+    "Visualization Manager",
+    "Displays",
+    "Class",
+    "rviz_default_plugins/LaserScan",
+    "rviz_default_plugins/TF",
+    "rviz_default_plugins/Orbit",
+    "rviz_common/Group",
+    "Topic",
+    "Frames",
+    "Links",
+    "Value",
+    "Enabled",
+    "Views",
+    "Current",
+    "Global Options",
+    "Fixed Frame",
+    "Background Color",
+    "Distance",
+    "Depth",
+    "Size (m)",
+]
+SCALARS = (
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=5)
+    | st.sampled_from(WORDS)
+)
+TREES = st.recursive(
+    SCALARS,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.sampled_from(WORDS) | st.text(max_size=3), inner, max_size=5)
+    ),
+    max_leaves=20,
+)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.text())
+def test_any_text_is_a_config_or_one_sentence(text: str) -> None:
+    with contextlib.suppress(ConfigError):
+        rviz.read(text, "x.rviz")
+
+
+@settings(deadline=None, max_examples=100)
+@given(
+    st.fixed_dictionaries(
+        {
+            "Displays": st.lists(
+                st.dictionaries(st.sampled_from(WORDS), TREES, max_size=6).map(
+                    lambda tree: {**tree, "Class": tree.get("Class", WORDS[3])}
+                ),
+                max_size=4,
+            )
+            | TREES,
+            "Views": TREES,
+            "Global Options": TREES,
+        }
+    )
+)
+def test_any_values_are_a_config_that_is_written_again(manager: dict[str, Any]) -> None:
+    tree = {"Visualization Manager": manager}
+    text = write(tree)
+    config, _ = rviz.read(text, "x.rviz")
+    first = rviz.write(config)[0]
+    assert list(lost_but_shape(texts(text), texts(first))) == []
+    assert again(first) == first
+
+
+def lost_but_shape(before: Any, after: Any) -> list[str]:
+    """What was lost besides lists of displays that are none."""
+    return [path for path in lost(before, after) if not path.endswith("/Displays")]
+
+
+@settings(deadline=None, max_examples=40)
+@given(TREES)
+def test_any_kept_part_of_a_config_is_written(kept: Any) -> None:
+    config = Config()
+    config.settings.rviz = {"Visualization Manager": kept}
+    loaded(rviz.write(config)[0])
+
+
+def test_many_names_of_two_words_survive_the_config_file() -> None:
+    frames = {f"left wheel {i}": bool(i % 2) for i in range(60)}
+    config = parse(dump(Config(displays=[make(display_types()["TF"], {"frames": frames})])), "x")
+    tf: Any = config.displays[0]
+    assert tf.frames == frames

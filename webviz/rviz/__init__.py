@@ -1,0 +1,10 @@
+"""RViz2's config files: `read` and `write`.
+
+What is not understood is kept in the config, so that a file that was read and written again has
+lost no key, and no value but in the last digit of single precision.
+"""
+
+from webviz.rviz.document import read, write
+from webviz.rviz.report import Note, Report
+
+__all__ = ["Note", "Report", "read", "write"]

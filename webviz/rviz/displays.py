@@ -1,0 +1,162 @@
+"""Displays and groups of .rviz files, and what is kept of each for writing it again."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from webviz.config import Branch, Item, Unreadable, read_display
+from webviz.display import Display, make, to_values
+from webviz.group import Group
+from webviz.registry import display_types, type_name
+from webviz.rviz import values
+from webviz.rviz.quiet import is_without_effect
+from webviz.rviz.report import Report
+from webviz.rviz.structs import Reading, struct_tree
+from webviz.rviz.tree import Tree, difference, leaves, restored
+from webviz.rviz.values import Unfit
+
+GROUP = Group.rviz
+
+
+@dataclass
+class Kept:
+    """What is kept of the displays of a file besides what they are here.
+
+    Args:
+        entries: class, name and the keys that writing the display does not give back, in order.
+    """
+
+    entries: list[Tree] = field(default_factory=list)
+
+    def take(self, cls: str, name: str) -> Tree:
+        """The first entry of a class and name that was not taken yet, an empty one if none is."""
+        for index, entry in enumerate(self.entries):
+            if (entry.get("Class"), entry.get("Name")) == (cls, name):
+                del self.entries[index]
+                return {key: v for key, v in entry.items() if key not in ("Class", "Name")}
+        return {}
+
+
+def read_items(entries: list[Any], report: Report, kept: Kept) -> list[Item]:
+    """Displays of a list in a .rviz file."""
+    return [_read_item(entry, report, kept) for entry in entries]
+
+
+def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
+    tree = dict(entry) if isinstance(entry, Mapping) else {}
+    name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
+    found = display_class(cls)
+    report.count("displays", found is not None, 1)
+    if found is None:
+        report.note(name or "?", cls or "a display without class", NO_DISPLAY)
+        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, name or "?")
+    display = _read(found, tree, name, report)
+    if found.rviz != cls:
+        report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
+    inner = tree.pop("Displays", []) if isinstance(display, Group) else []
+    rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, bare(display))
+    kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
+    if not isinstance(display, Group):
+        return display
+    return Branch(display, read_items(inner if isinstance(inner, list) else [], report, kept))
+
+
+NO_DISPLAY = "there is no such display here yet, it is kept for export"
+NO_PROPERTY = "there is no such property here yet, it is kept for export"
+
+
+def display_class(cls: str) -> type[Display] | None:
+    """The display type for RViz's class, also by its name in ROS 1."""
+    return _classes(tuple(display_types().values())).get(cls)
+
+
+@functools.lru_cache(maxsize=4)
+def _classes(types: tuple[type[Display], ...]) -> dict[str, type[Display]]:
+    found = {cls.rviz: cls for cls in types if cls.rviz}
+    return {f"rviz/{name.partition('/')[2]}": cls for name, cls in found.items()} | found
+
+
+def _read(cls: type[Display], tree: Tree, name: str, report: Report) -> Display:
+    reading = Reading()
+    display = display_from(cls, tree, reading)
+    place = name or display.name
+    for path, reason in reading.faults:
+        report.note(place, "/".join(path), reason)
+    own = ("Class", "Name", "Enabled", "Value", "Displays")
+    total = 0
+    for path in leaves({key: value for key, value in tree.items() if key not in own}):
+        if path in reading.used:
+            total += 1
+        elif not is_without_effect(path, tree):
+            total += 1
+            report.note(place, "/".join(path), NO_PROPERTY)
+    report.count("properties", len(reading.used), total)
+    return display
+
+
+def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
+    """A display from RViz's tree of its properties, as RViz would show it."""
+    plain = reading.struct(cls, tree)
+    if tree.get("Class") != cls.rviz:  # of ROS 1, which has other names for some topics
+        plain = {key: value for key, value in plain.items() if value != {"name": ""}}
+    plain |= {"name": values.text(tree.get("Name", "")), "enabled": _is_enabled(tree, reading)}
+    try:
+        return make(cls, plain)
+    except msgspec.ValidationError as error:  # a rule that a plug-in has besides its bounds
+        reading.faults.append(((), f"{error}; the defaults are used"))
+        return make(cls, {"name": plain["name"], "enabled": plain["enabled"]})
+
+
+def _is_enabled(tree: Tree, reading: Reading) -> bool:
+    """RViz reads Enabled after Value; with neither a display is off."""
+    for key in ("Enabled", "Value"):
+        if key in tree:
+            try:
+                return values.read(tree[key], bool)
+            except Unfit as error:
+                reading.faults.append(((key,), f"{error}; it is taken as off"))
+                return False
+    return False
+
+
+def bare(display: Display) -> Tree:
+    """RViz's tree of a display, without what was kept of a file."""
+    switch = {"Enabled": display.enabled, "Value": display.enabled}
+    if isinstance(display, Group):
+        del switch["Value"]
+    return {"Class": type(display).rviz, "Name": display.name, **switch, **struct_tree(display)}
+
+
+def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
+    """Displays as RViz's list of them, which is nothing if it is empty."""
+    written = []
+    for item in items:
+        if isinstance(item, Unreadable):
+            if isinstance(item.values, Mapping) and "rviz" in item.values:
+                written.append(item.values["rviz"])
+            else:
+                report.note(item.name, "this entry", f"it is left out: {item.reason}")
+        elif isinstance(item, Branch):
+            tree = _write(item.group, kept)
+            written.append(tree | {"Displays": write_items(item.displays, report, kept)})
+        elif type(item).rviz:
+            written.append(_write(item, kept))
+        else:
+            name = type_name(type(item))
+            report.note(item.name, name, "it is left out, as RViz has no such display")
+    return written or None
+
+
+def _write(display: Display, kept: Kept) -> Tree:
+    cls = type(display)
+
+    def meaning(tree: Tree) -> dict[str, Any]:
+        return to_values(display_from(cls, tree, Reading()))
+
+    kept_tree = kept.take(cls.rviz, display.name)
+    return restored(bare(display), kept_tree, to_values(display), meaning)

@@ -1,0 +1,125 @@
+"""Single values of RViz properties: how RViz spells them, and what they are here."""
+
+from __future__ import annotations
+
+import math
+import typing
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import numpy as np
+from PIL import ImageColor
+
+LEAST = 1e-4
+"""What stands for 0 where something must have a size (RViz's own minimum of the size of points)."""
+
+_YES = ("true", "yes", "on", "1")
+_NO = ("false", "no", "off", "0")
+_FLOAT_MAX = float(np.finfo(np.float32).max)
+_LONGEST = 1000
+"""Characters of a name or a number."""
+
+
+class Unfit(ValueError):
+    """A value cannot be used; the text says why."""
+
+
+def own_value(raw: Any) -> Any:
+    """The value of a property that may have children; None if it has none of its own."""
+    return raw.get("Value") if isinstance(raw, Mapping) else raw
+
+
+def read(raw: Any, kind: Any) -> Any:
+    """A value as `kind` (bool, int, float, str, a Literal or a tuple of numbers) has it.
+
+    Raises:
+        Unfit: it is none; the text says why.
+    """
+    if typing.get_origin(kind) is tuple:
+        parts = typing.get_args(kind)
+        return _color(raw) if _is_color(parts) else _vector(raw, len(parts))
+    raw = own_value(raw)
+    if isinstance(raw, Mapping | list) or raw is None:
+        raise Unfit("it has no value")
+    if kind is bool:
+        return _bool(raw)
+    if kind is int:
+        number = _number(raw)
+        if number != int(number):
+            raise Unfit(f"{raw} is no whole number")
+        return int(number)
+    if kind is float:
+        return _number(raw)
+    if typing.get_origin(kind) is Literal:
+        labels = typing.get_args(kind)
+        if text(raw) not in labels:
+            raise Unfit(f"`{text(raw)[:80]}` is none of {', '.join(map(str, labels))}")
+        return text(raw)
+    if kind is str:
+        return text(raw)
+    raise Unfit("RViz has no such values")
+
+
+def write(value: Any, kind: Any) -> Any:
+    """A value as RViz spells it."""
+    if typing.get_origin(kind) is tuple:
+        if _is_color(typing.get_args(kind)):
+            return "; ".join(str(part) for part in value)
+        return {axis: _plain(part) for axis, part in zip("XYZW", value, strict=False)}
+    return _plain(value)
+
+
+def text(raw: Any) -> str:
+    """A scalar as RViz reads it."""
+    return str(raw).lower() if isinstance(raw, bool) else str(raw)
+
+
+def human(number: float) -> float:
+    """A number that was printed from single precision, as one would write it: 0.03."""
+    if abs(number) <= _FLOAT_MAX and float(np.float32(number)) == number:
+        return float(str(np.float32(number)))
+    return number
+
+
+def _plain(value: Any) -> Any:
+    is_whole = isinstance(value, float) and value.is_integer() and abs(value) < 1e15
+    return int(value) if is_whole else value
+
+
+def _is_color(parts: tuple[Any, ...]) -> bool:
+    return all(typing.get_origin(part) is typing.Annotated for part in parts)
+
+
+def _bool(raw: Any) -> bool:
+    word = text(raw).strip().lower()
+    if word in _YES or word in _NO:
+        return word in _YES
+    raise Unfit(f"`{word[:80]}` is neither true nor false")
+
+
+def _number(raw: Any) -> float:
+    try:
+        number = float(text(raw)[:_LONGEST])
+    except ValueError:
+        raise Unfit(f"`{text(raw)[:80]}` is no number") from None
+    if not math.isfinite(number):
+        raise Unfit(f"{number} is not finite")
+    return human(number)
+
+
+def _vector(raw: Any, length: int) -> tuple[float, ...]:
+    if not isinstance(raw, Mapping):
+        raise Unfit(f"it needs {', '.join('XYZW'[:length])}")
+    return tuple(_number(own_value(raw.get(axis))) for axis in "XYZW"[:length])
+
+
+def _color(raw: Any) -> tuple[int, ...]:
+    """A colour such as "255; 0; 0", "#ff0000" or "red"."""
+    words = text(own_value(raw))
+    parts = words.split(";")
+    if len(parts) == 3:
+        return tuple(min(max(round(_number(part)), 0), 255) for part in parts)
+    try:
+        return tuple(ImageColor.getrgb(words.strip())[:3])
+    except ValueError:
+        raise Unfit(f"`{words[:80]}` is no colour") from None
