@@ -247,3 +247,11 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(
     b.turn()
     b.turn()
     assert b.source.wanted["/tf_static"].asked == asked
+
+
+def test_a_second_display_of_a_topic_asks_for_what_the_first_one_got_latched(
+    bench: Callable[..., Any],
+) -> None:
+    one, two = bench(Dot(name="One")), bench(Dot(name="One"), Dot(name="Two"))
+    first = one.source.wanted["/pose"].asked
+    assert two.source.wanted["/pose"].asked == first + 2
