@@ -39,10 +39,10 @@ def test_a_grid_lies_in_its_reference_frame(stage: Stages) -> None:
 
 
 def test_axes_have_a_length_a_radius_and_a_frame(stage: Stages) -> None:
-    seen = stage(Axes(), Grid(), view=View(distance=6.0, yaw=0.9, pitch=0.5))
+    view = View(distance=6.0, yaw=0.9, pitch=0.5)
+    seen = stage(Axes(), Grid(), view=view)
     seen.check("axes/default")
-    seen.set("length", 2.0)
-    seen.set("radius", 0.03)
+    seen = stage(Axes(length=2.0, radius=0.03), Grid(), view=view)
     seen.check("axes/length_and_radius")
     seen.transform("map", "camera", (0.0, 0.0, 1.0), turned(roll=-1.5708, yaw=-1.0))
     seen.set("reference_frame", "camera")

@@ -55,9 +55,9 @@ def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(stage: Stages) -> No
     seen.set("shape.alpha", 0.4)
     seen.set("keep", 4)
     seen.check("odometry/keep_4_faded_by_alpha")
-    seen.set("shape.value", "Axes")
     seen.set("shape.axes_length", 0.5)
     seen.set("shape.axes_radius", 0.04)
+    seen.set("shape.value", "Axes")
     seen.check("odometry/axes")
 
 

@@ -72,7 +72,7 @@ def everything(seen: Stage) -> None:
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     seen.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
     measured = building.scan(place)
-    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_link")
+    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
     line = building.path([(-2.0, 0.0), (-1.0, 0.3), (0.0, 0.3)])
     seen.publish("/path", "nav_msgs/msg/Path", line, frame="map")
     pose = {"position": {"x": -3.0}, "orientation": {"w": 1.0}}

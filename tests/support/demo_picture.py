@@ -18,7 +18,7 @@ PATH = REFERENCES / "demo.png"
 WIDTH, HEIGHT = 1280, 800
 SECONDS = 25.0
 """After these the robot is in the middle of the building, with its trail behind it."""
-COLORS = 192
+COLORS = 256
 
 
 def main() -> int:

@@ -51,7 +51,9 @@ def pages() -> dict[str, str]:
     """The text of every generated page by its file name."""
     notes = read_notes()
     types = {n: c for n, c in display_types().items() if c.__module__.split(".")[0] in BUILT_IN}
-    found = {page_name(name): page(name, cls, notes[name]) for name, cls in types.items()}
+    found = {
+        page_name(name): page(name, cls, notes.get(name, Notes())) for name, cls in types.items()
+    }
     return found | {"README.md": index(types, notes["every display"])}
 
 

@@ -1,0 +1,65 @@
+"""PointCloud2 as people see it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from pictures import Stage
+
+from webviz.config import View
+from webviz_displays.grid import Grid
+from webviz_displays.point_cloud2 import PointCloud2
+
+Stages = Callable[..., Stage]
+
+FLOAT32 = 7
+"""sensor_msgs/PointField.FLOAT32"""
+
+
+def cloud() -> dict[str, Any]:
+    """A wavy sheet of 60 x 60 points with intensities and packed colours."""
+    x, y = (c.ravel() for c in np.meshgrid(np.linspace(-2, 2, 60), np.linspace(-2, 2, 60)))
+    z = 0.5 + 0.4 * np.sin(2.0 * x) * np.cos(1.5 * y)
+    red, blue = ((255 * (c + 2) / 4).astype(np.uint32) for c in (x, y))
+    rgb = (red << 16 | 90 << 8 | blue).astype(np.uint32).view(np.float32)
+    points = np.column_stack([x, y, z, np.hypot(x, y), rgb]).astype(np.float32)
+    points[:, 4] = rgb  # bits, not a number to be rounded
+    names = ("x", "y", "z", "intensity", "rgb")
+    return {
+        "height": 1,
+        "width": len(points),
+        "fields": [
+            {"name": name, "offset": 4 * i, "datatype": FLOAT32, "count": 1}
+            for i, name in enumerate(names)
+        ],
+        "point_step": 20,
+        "row_step": 20 * len(points),
+        "data": np.frombuffer(points.tobytes(), np.uint8),
+        "is_dense": True,
+    }
+
+
+def test_points_have_colours_styles_and_fewer_of_them(stage: Stages) -> None:
+    view = View(distance=9.5, yaw=-1.2, pitch=0.7)
+    seen = stage(PointCloud2(size=0.05), Grid(plane_cell_count=8), view=view)
+    seen.transform("map", "camera")
+    seen.publish("/points", "sensor_msgs/msg/PointCloud2", cloud(), frame="camera")
+    seen.turn()
+    seen.check("point_cloud2/default")
+    seen.set("color_transformer", "Intensity")
+    seen.check("point_cloud2/intensity")
+    seen.set("color_transformer", "AxisColor")
+    seen.check("point_cloud2/axis_z")
+    seen.set("voxel_size", 0.3)
+    seen.set("style", "Spheres")
+    seen.set("size", 0.2)
+    seen.check("point_cloud2/spheres_one_per_voxel_of_0.3_m")
+    seen.set("voxel_size", 0.0)
+    seen.set("max_points", 200)
+    seen.set("style", "Boxes")
+    seen.set("color_transformer", "FlatColor")
+    seen.set("color", (80, 200, 255))
+    seen.set("alpha", 0.5)
+    seen.check("point_cloud2/200_transparent_boxes")
