@@ -1,4 +1,4 @@
-"""The command line: `webviz` and `webviz demo`."""
+"""The command line: `webviz`, `webviz demo` and `webviz convert`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from pathlib import Path
 import msgspec
 
 from webviz import config as config_file
-from webviz import plugins
+from webviz import convert, plugins
 from webviz.config import Config, ConfigError
 
 DEMO = Path(__file__).parent / "demo.yaml"
@@ -26,6 +26,8 @@ EPILOG = """\
 examples:
   webviz                          show the usual topics of the robots around
   webviz -d lab.yaml -f odom      open a saved config, in another fixed frame
+  webviz -d nav2.rviz             open RViz's config
+  webviz convert nav2.rviz a.yaml make a config of RViz's, or the other way round
   webviz --plugin my_display.py   with displays of your own, see the README
   webviz demo                     a simulated robot, nothing else needed
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
@@ -47,9 +49,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit status: 0 after Ctrl-C, 1 after an error that is printed as one sentence.
     """
     own, ros = split_ros_arguments(sys.argv[1:] if arguments is None else arguments)
-    options = _parser().parse_args(own)
     logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
     try:
+        if own[:1] == ["convert"]:
+            convert.run(own[1:])
+            return 0
+        options = _parser().parse_args(own)
         if options.command == "demo":
             with _simulator(ros):
                 _serve(options, ros)
@@ -84,7 +89,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add = parser.add_argument
     add("command", nargs="?", choices=["demo"], help="demo: start a simulated robot as well")
-    add("-d", "--display-config", type=Path, metavar="FILE", help="config file to open (YAML)")
+    add("-d", "--display-config", type=Path, metavar="FILE", help="config to open (YAML or .rviz)")
     add(
         "--plugin",
         type=Path,
@@ -163,6 +168,8 @@ def _config(options: argparse.Namespace) -> Config:
     if path is None and options.command == "demo":
         path = DEMO
     config = config_file.standard() if path is None else config_file.load(path)
+    if path is not None:
+        convert.tell(path, config.report)
     if options.fixed_frame:
         config.settings = msgspec.structs.replace(
             config.settings, fixed_frame=options.fixed_frame.removeprefix("/")

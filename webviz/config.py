@@ -117,19 +117,28 @@ def load(path: Path) -> Config:
         ConfigError: the file is missing, no YAML, or not a config. A single display that does not
             fit is no error: it becomes an `Unreadable`.
     """
-    try:
-        if path.stat().st_size > MAX_BYTES:
-            raise ConfigError(f"{path} is larger than {MAX_BYTES >> 20} MB and no config file.")
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
-    except UnicodeDecodeError as error:
-        raise ConfigError(f"{path} is not UTF-8 text.") from error
+    text = read_text(path)
     if is_rviz(path):
         from webviz import rviz  # it stands on this module
 
         return rviz.read(text, str(path))[0]
     return parse(text, str(path))
+
+
+def read_text(path: Path) -> str:
+    """The text of a config file.
+
+    Raises:
+        ConfigError: it is missing, too large or no text.
+    """
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise ConfigError(f"{path} is larger than {MAX_BYTES >> 20} MB and no config file.")
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
+    except UnicodeDecodeError as error:
+        raise ConfigError(f"{path} is not UTF-8 text.") from error
 
 
 def is_rviz(path: Path) -> bool:
@@ -265,18 +274,25 @@ def _fits(nodes: Sequence[Node]) -> bool:
 
 
 def save(config: Config, path: Path) -> None:
-    """Write a config file in one step: after a failure the old file is still there.
-
-    A name that ends with .rviz makes it RViz's.
+    """Write a config file; a name that ends with .rviz makes it RViz's.
 
     Raises:
         ConfigError: it cannot be written.
     """
-    text = dump(config)
     if is_rviz(path):
         from webviz import rviz  # it stands on this module
 
-        text = rviz.write(config)[0]
+        write_text(rviz.write(config)[0], path)
+    else:
+        write_text(dump(config), path)
+
+
+def write_text(text: str, path: Path) -> None:
+    """Write a file in one step: after a failure the old file is still there.
+
+    Raises:
+        ConfigError: it cannot be written.
+    """
     try:
         with tempfile.NamedTemporaryFile(
             "w", encoding="utf-8", dir=path.parent, prefix=path.name, delete=False

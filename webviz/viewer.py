@@ -93,6 +93,9 @@ class Viewer:
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
         self._statuses: dict[str, Status] = {}
+        if config.report:
+            text = f"Not all of the .rviz file has a counterpart here. {' '.join(config.report)}"
+            self._statuses["Import"] = Status(Level.WARN, text)
         self._next_panel = 0.0
         for item in config.displays:
             self._list.add(item)

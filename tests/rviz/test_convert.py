@@ -1,0 +1,98 @@
+"""`webviz convert`, and how the viewer tells what an import left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bench import HandFedSource
+from recording import RecordingScene
+from rviz_trees import lost, texts
+
+from webviz import cli
+from webviz import config as config_file
+from webviz.state import State
+from webviz.viewer import Viewer
+
+SMALL = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Name: Floor
+      Value: true
+      Cell Size: 0.5
+    - Class: my_plugins/Laser
+      Name: Mine
+  Tools:
+    - Class: rviz_default_plugins/Measure
+"""
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> Path:
+    path = tmp_path / "small.rviz"
+    path.write_text(SMALL)
+    return path
+
+
+def convert(*arguments: object) -> int:
+    return cli.main(["convert", *map(str, arguments)])
+
+
+def test_a_file_goes_to_yaml_and_back(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    yaml, back = tmp_path / "a.yaml", tmp_path / "b.rviz"
+    assert convert(small, yaml) == 0
+    printed = capsys.readouterr().out
+    assert "Mine: my_plugins/Laser: there is no such display here yet" in printed
+    assert printed.endswith(f"webviz: wrote {yaml}\n")
+    assert "- {type: Grid, cell_size: 0.5, name: Floor}" in yaml.read_text()
+    assert convert(yaml, back) == 0
+    assert list(lost(texts(SMALL), texts(back.read_text()))) == []
+
+
+def test_a_report_counts_what_is_carried(small: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert convert("--report", small) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["displays", "1", "of", "2", "50", "%"] in lines
+    assert ["tools", "0", "of", "1", "0", "%"] in lines
+
+
+def test_mistakes_are_one_sentence(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert convert(small, small) == 1
+    assert "is the file to be converted: give another name." in capsys.readouterr().err
+    assert convert(tmp_path / "none.rviz", tmp_path / "a.yaml") == 1
+    assert "No such file or directory." in capsys.readouterr().err
+    (tmp_path / "bad.rviz").write_text("a: 1")
+    assert convert(tmp_path / "bad.rviz", tmp_path / "a.yaml") == 1
+    assert "is no RViz config: it has no `Visualization Manager`." in capsys.readouterr().err
+    assert convert(small, tmp_path / "no folder" / "a.yaml") == 1
+    assert "Cannot write" in capsys.readouterr().err
+
+
+def test_a_command_without_a_target_says_what_is_missing(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        convert(small)
+    assert "a TARGET is needed, or --report" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        convert("--report", tmp_path / "a.yaml")
+    assert "--report counts what is carried over from a .rviz file" in capsys.readouterr().err
+
+
+def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
+    states: list[State] = []
+    source, scene = HandFedSource(), RecordingScene()
+    viewer = Viewer(config_file.load(small), source, scene, states.append)
+    viewer.turn()
+    status = states[-1].statuses["Import"]
+    assert (status.level.name, "my_plugins/Laser" in status.text) == ("WARN", True)
+    assert [(row.name, row.level.name) for row in states[-1].rows][1] == ("Mine", "ERROR")
+    # Saving keeps what the import could not use.
+    assert "my_plugins/Laser" in config_file.dump(viewer.config())
+    assert "rviz_default_plugins/Measure" in config_file.dump(viewer.config())
+    viewer._workers.close()
