@@ -111,10 +111,13 @@ class RobotModel(Display):
         return self.description_source == "Topic"
 
     def depends(self, ctx: Context) -> object:
-        """How far loading is, and which links are lost; those turn grey."""
+        """How far loading is, and which links are lost; those turn grey.
+
+        Which were lost when it was drawn counts too: a robot just loaded has never been asked.
+        """
         model: _Model | None = ctx.state.get("model")
         progress = [loading.text for loading in ctx.state.get("loading", {}).values()]
-        return progress, model.lost(ctx.frames) if model else []
+        return progress, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the robot there is; each link moves with its frame."""
@@ -130,7 +133,7 @@ class RobotModel(Display):
             report_joint(model.robot.joints[name], ctx)
         paint: Paint = ctx.state.setdefault("paint", Paint())
         paint.begin()
-        lost = set(model.lost(ctx.frames))
+        lost = ctx.state["grey"] = set(model.lost(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
             group = ctx.follow(
                 model.frame(part.link), keep_last=True, interval_s=self.update_interval

@@ -1,6 +1,7 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -198,3 +199,16 @@ def test_a_file_that_is_not_there_is_said(bench, tmp_path, path, level, said) ->
     wait(at, lambda: "URDF" in at.statuses())
     assert at.statuses()["URDF"][0] == level
     assert said in at.statuses()["URDF"][1]
+
+
+def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_them(bench) -> None:
+    at = bench(RobotModel())
+    at.turn()
+    at.send("std_msgs/msg/String", {"data": ARM})
+    at.turn()
+    while not at.runner._tasks.has_news():
+        time.sleep(0.005)
+    at.turn()
+    place_arm(at)
+    at.turn()
+    assert at.nodes()["tool visual grip"].color == (0, 0, 255)
