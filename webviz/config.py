@@ -270,7 +270,9 @@ class _Representer(SafeRepresenter):
 
 
 def _fits(nodes: Sequence[Node]) -> bool:
-    return sum(len(node.value) + len(", ") for node in nodes) <= LINE
+    # ruamel does not quote what is plain in lines and a mark within braces: {:0: ?1}.
+    is_short = sum(len(node.value) + len(", ") for node in nodes) <= LINE
+    return is_short and not any(mark in node.value for node in nodes for mark in ":?")
 
 
 def save(config: Config, path: Path) -> None:

@@ -257,6 +257,24 @@ def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     assert f"Scan: {what}" in said(report)
 
 
+def test_names_in_a_file_do_nothing_to_the_terminal() -> None:
+    _, report = opened('- {Class: x/Y, Name: "a\\e[2Jb\\nc"}\n')
+    assert said(report).startswith("a [2Jb c: x/Y: ")
+
+
+def test_a_value_that_cannot_be_used_is_told_once() -> None:
+    _, report = opened("- {Class: rviz_default_plugins/LaserScan, Name: Scan, Style: Cones}\n")
+    assert len(report.notes) == 1
+    assert (report.carried["properties"], report.total["properties"]) == (0, 1)
+
+
+def test_a_choice_that_rviz_has_not_made_yet_is_auto_or_the_default() -> None:
+    assert one("Color Transformer: ''\nChannel Name: ''").channel_name == "intensity"
+    assert one("Color Transformer: ''", "PointCloud2").color_transformer == "Auto"
+    _, report = opened("- {Class: rviz_default_plugins/LaserScan, Color Transformer: ''}\n")
+    assert said(report) == ""
+
+
 def test_what_has_no_effect_is_not_told() -> None:
     _, report = opened(
         """\

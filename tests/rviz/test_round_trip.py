@@ -152,10 +152,13 @@ def test_every_display_type_goes_to_rviz_and_back() -> None:
 
 
 def test_a_new_file_hears_the_usual_publishers_and_has_panels_and_tools() -> None:
-    tree = loaded(rviz.write(config_file.standard())[0])
+    config = config_file.standard()
+    config.displays.append(make(display_types()["PointCloud2"], {}))
+    tree = loaded(rviz.write(config)[0])
     manager = tree["Visualization Manager"]
     by_name = {display["Name"]: display for display in manager["Displays"]}
     assert by_name["LaserScan"]["Topic"]["Reliability Policy"] == "Best Effort"
+    assert by_name["PointCloud2"]["Color Transformer"] == ""
     assert by_name["Map"]["Topic"]["Durability Policy"] == "Transient Local"
     assert by_name["Map"]["Update Topic"]["Value"] == "/map_updates"
     robot = by_name["RobotModel"]["Description Topic"]
@@ -328,3 +331,10 @@ def test_many_names_of_two_words_survive_the_config_file() -> None:
     config = parse(dump(Config(displays=[make(display_types()["TF"], {"frames": frames})])), "x")
     tf: Any = config.displays[0]
     assert tf.frames == frames
+
+
+def test_marks_of_yaml_in_names_survive_the_config_file() -> None:
+    frames = {":0": True, "?1": False, "a: b": True, "#c": True, "- d": False, "": True}
+    config = Config(displays=[make(display_types()["TF"], {"name": "?x", "frames": frames})])
+    tf: Any = parse(dump(config), "x").displays[0]
+    assert (tf.name, tf.frames) == ("?x", frames)

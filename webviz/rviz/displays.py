@@ -17,10 +17,12 @@ from webviz.rviz import values
 from webviz.rviz.quiet import is_without_effect
 from webviz.rviz.report import Report
 from webviz.rviz.structs import Reading, struct_tree
-from webviz.rviz.tree import Tree, difference, leaves, restored
+from webviz.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.rviz.values import Unfit
 
-GROUP = Group.rviz
+NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
+NO_DISPLAY = "there is no such display here yet, it is kept for export"
+NO_PROPERTY = "there is no such property here yet, it is kept for export"
 
 
 @dataclass
@@ -54,6 +56,7 @@ def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
     report.count("displays", found is not None, 1)
     if found is None:
         report.note(name or "?", cls or "a display without class", NO_DISPLAY)
+        report.count("properties", 0, len(_effective(tree)))
         return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, name or "?")
     display = _read(found, tree, name, report)
     if found.rviz != cls:
@@ -64,10 +67,6 @@ def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
     if not isinstance(display, Group):
         return display
     return Branch(display, read_items(inner if isinstance(inner, list) else [], report, kept))
-
-
-NO_DISPLAY = "there is no such display here yet, it is kept for export"
-NO_PROPERTY = "there is no such property here yet, it is kept for export"
 
 
 def display_class(cls: str) -> type[Display] | None:
@@ -87,16 +86,18 @@ def _read(cls: type[Display], tree: Tree, name: str, report: Report) -> Display:
     place = name or display.name
     for path, reason in reading.faults:
         report.note(place, "/".join(path), reason)
-    own = ("Class", "Name", "Enabled", "Value", "Displays")
-    total = 0
-    for path in leaves({key: value for key, value in tree.items() if key not in own}):
-        if path in reading.used:
-            total += 1
-        elif not is_without_effect(path, tree):
-            total += 1
+    told = [path for path, _ in reading.faults]
+    for path in _effective(tree):
+        report.count("properties", path in reading.used, 1)
+        if path not in reading.used and not any(path[: len(each)] == each for each in told):
             report.note(place, "/".join(path), NO_PROPERTY)
-    report.count("properties", len(reading.used), total)
     return display
+
+
+def _effective(tree: Tree) -> list[Path]:
+    """Paths of the values of a display that have an effect on what RViz shows."""
+    properties = {key: value for key, value in tree.items() if key not in NO_PROPERTIES}
+    return [path for path in leaves(properties) if not is_without_effect(path, tree)]
 
 
 def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:

@@ -65,7 +65,15 @@ def sentences(notes: Sequence[Note]) -> list[str]:
     things: dict[tuple[str, str], list[str]] = {}
     for (reason, what), where in places.items():
         things.setdefault((_listed(where), reason), []).append(what)
-    return [f"{where}: {', '.join(what)}: {reason}." for (where, reason), what in things.items()]
+    return [
+        _printable(f"{where}: {', '.join(what)}: {reason}.")
+        for (where, reason), what in things.items()
+    ]
+
+
+def _printable(text: str) -> str:
+    """Text of a file that does nothing to a terminal."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
 
 
 def _listed(places: list[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
@@ -59,6 +59,9 @@ class Reading:
         if origin is list:
             self.used.add(path)
             return _converted(raw, place.kind)
+        if origin is Literal and values.own_value(raw) == "":
+            self.used |= {path, (*path, "Value")}
+            return values.AUTO if values.AUTO in typing.get_args(place.kind) else place.default
         value = values.read(raw, place.kind)
         is_leaf = not isinstance(raw, Mapping) or origin is tuple
         self.used |= set(leaves(raw, path)) if is_leaf else {(*path, "Value")}

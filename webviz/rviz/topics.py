@@ -19,14 +19,8 @@ from webviz.rviz.values import Unfit
 
 DEPTH = 5
 FILTER_SIZE = 10
-RELIABILITY = {"auto": "Reliable", "reliable": "Reliable", "best_effort": "Best Effort"}
-DURABILITY = {"auto": "Volatile", "volatile": "Volatile", "transient_local": "Transient Local"}
-SUITABLE = {
-    "sensor_msgs/msg/LaserScan": ("Best Effort", "Volatile"),
-    "nav_msgs/msg/OccupancyGrid": ("Reliable", "Transient Local"),
-}
-"""What `auto` is written as, where RViz's defaults would not hear the usual publishers."""
-
+RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
+DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
 OLD_KEYS = ("Image Topic", "Marker Topic")
 """Where ROS 1's RViz has topics."""
@@ -69,13 +63,14 @@ def complete(display: dict[str, Any], topics: list[Property]) -> None:
 
 def write(topic: Topic, input: Input, first: Topic) -> Tree:
     """A topic as RViz has it; `first` is the first topic of the display."""
-    reliability, durability = SUITABLE.get(input.type, ("Reliable", "Volatile"))
+    # Where RViz's defaults would not hear the usual publishers, `auto` becomes what does.
+    reliability = "Best Effort" if input.type.startswith("sensor_msgs/") else "Reliable"
+    is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
+    durability = "Transient Local" if is_latched else "Volatile"
     if topic.reliability != "auto":
         reliability = RELIABILITY[topic.reliability]
-    if topic.durability != "auto":
+    if topic.durability != "auto" and not input.latched:
         durability = DURABILITY[topic.durability]
-    if input.latched:
-        durability = "Transient Local"
     name = topic.name
     if not name and input.suffix and first.name:
         name = first.name + input.suffix

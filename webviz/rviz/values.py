@@ -13,6 +13,9 @@ from PIL import ImageColor
 LEAST = 1e-4
 """What stands for 0 where something must have a size (RViz's own minimum of the size of points)."""
 
+AUTO = "Auto"
+"""The label of what RViz writes as nothing: a choice it makes when the first message comes."""
+
 _YES = ("true", "yes", "on", "1")
 _NO = ("false", "no", "off", "0")
 _FLOAT_MAX = float(np.finfo(np.float32).max)
@@ -66,6 +69,8 @@ def write(value: Any, kind: Any) -> Any:
         if _is_color(typing.get_args(kind)):
             return "; ".join(str(part) for part in value)
         return {axis: _plain(part) for axis, part in zip("XYZW", value, strict=False)}
+    if typing.get_origin(kind) is Literal:
+        return "" if value == AUTO else value
     return _plain(value)
 
 
