@@ -182,7 +182,8 @@ def test_an_update_topic_that_follows_from_the_topic_is_left_to_follow() -> None
 def test_old_forms_are_understood() -> None:
     scan: LaserScan = one("Topic: /scan\nUnreliable: true\nQueue Size: 20")
     assert (scan.topic.name, scan.topic.reliability) == ("/scan", "best_effort")
-    assert scan.topic.filter_size == 20
+    assert scan.topic.depth == 20
+    assert one("Topic: /scan\nQueue Size: 10").topic.depth == 0
     config, report = opened(
         """\
         - Class: rviz/LaserScan

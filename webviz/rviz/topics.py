@@ -18,7 +18,7 @@ from webviz.rviz.tree import Path, Tree
 from webviz.rviz.values import Unfit
 
 DEPTH = 5
-FILTER_SIZE = 10
+ROS_1_QUEUE_SIZE = 10
 RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
@@ -103,8 +103,9 @@ def _policy(word: str, raw: Any, input: Input) -> dict[str, Any]:
         case "Depth":
             depth = max(values.read(raw, int), 1)
             return {"depth": 0 if depth == DEPTH else depth}
-        case "Queue Size":  # of ROS 1's message filter
-            return {"filter_size": max(values.read(raw, int), 1)}
+        case "Queue Size":  # which rviz1_to_rviz2.py makes the depth
+            size = max(values.read(raw, int), 1)
+            return {"depth": 0 if size == ROS_1_QUEUE_SIZE else size}
         case "Filter size":
             return {"filter_size": max(values.read(raw, int), 1)}
         case "Unreliable":
