@@ -16,8 +16,7 @@ F64 = NDArray[np.float64]
 BACKGROUND = (48, 48, 48)
 """RViz's default background."""
 
-# Red, yellow, green, cyan, blue, magenta: hue 0 to 300 degrees at full saturation and value.
-_RAINBOW: tuple[Rgb, ...] = (
+RAINBOW: tuple[Rgb, ...] = (
     (255, 0, 0),
     (255, 255, 0),
     (0, 255, 0),
@@ -25,6 +24,10 @@ _RAINBOW: tuple[Rgb, ...] = (
     (0, 0, 255),
     (255, 0, 255),
 )
+"""From red to magenta: hue 0 to 300 degrees at full saturation and value."""
+
+_PART = 1 << 14
+"""Values at a time, so that what lies between them and their colours stays in the cache."""
 
 
 def fractions(values: ArrayLike, low: float, high: float) -> F64:
@@ -56,20 +59,21 @@ def bounds(values: ArrayLike, least_span: float = 0.0) -> tuple[float, float]:
     return low, max(high, low + least_span)
 
 
-def rainbow(where: ArrayLike) -> U8:
-    """Colours (N, 3) of fractions (N,): 0 is red, then by hue to 1, which is magenta.
+def ramp(values: ArrayLike, low: float, high: float, stops: tuple[Rgb, ...] = RAINBOW) -> U8:
+    """Colours (N, 3) of values (N,), from the first stop at `low` to the last one at `high`.
 
-    The same as RViz's getRainbowColor(1 - fraction).
+    Stops are evenly spaced. The rainbow is the same as RViz's getRainbowColor(1 - fraction).
     """
-    return ramp(where, *_RAINBOW)
-
-
-def ramp(where: ArrayLike, *stops: Rgb) -> U8:
-    """Colours (N, 3) of fractions (N,) on a straight way through evenly spaced colours."""
     table = _table(stops)
-    index = np.rint(np.multiply(where, len(table) - 1)).astype(np.intp)
-    # A colour as one item of three bytes: numpy copies rows of a matrix far slower.
-    return table.take(index, mode="clip").view(np.uint8).reshape(-1, 3)
+    values = np.asarray(values)
+    colors = np.empty(len(values), table.dtype)
+    for start in range(0, len(values), _PART):
+        where = fractions(values[start : start + _PART], low, high)
+        where *= len(table) - 1
+        index = np.rint(where, out=where).astype(np.intp)
+        # A colour as one item of three bytes: numpy copies rows of a matrix far slower.
+        table.take(index, mode="clip", out=colors[start : start + _PART])
+    return colors.view(np.uint8).reshape(-1, 3)
 
 
 @functools.lru_cache(maxsize=16)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from webviz import Color, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
-from webviz_displays.colors import bounds, faded, faded_color, fractions, rainbow, ramp
+from webviz_displays.colors import RAINBOW, bounds, faded, faded_color, ramp
 from webviz_displays.geometry import conjugate, coordinate
 
 U8 = NDArray[np.uint8]
@@ -147,17 +147,17 @@ class PointsDisplay(Display):
         low, high = limits.min_value, limits.max_value
         if limits.value:
             low, high = bounds(values, _LEAST_SPAN)
-        return rainbow(fractions(values, low, high))
+        return ramp(values, low, high)
 
     def intensity_colors(self, values: ArrayLike) -> U8:
         """Colours (N, 3) of Intensity for values (N,)."""
         low, high = self.min_intensity, self.max_intensity
         if self.autocompute_intensity_bounds:
             low, high = bounds(values)
-        where = fractions(values, low, high)
-        if not self.use_rainbow:
-            return ramp(where, self.min_color, self.max_color)
-        return rainbow(1.0 - where if self.invert_rainbow else where)
+        stops = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
+        return ramp(
+            values, low, high, stops if self.use_rainbow else (self.min_color, self.max_color)
+        )
 
     def draw_points(
         self, xyz: NDArray[Any], colors: U8 | Rgb, group: Group, fixed: Pose, ctx: Context
@@ -178,11 +178,10 @@ class PointsDisplay(Display):
             shape = _SOLIDS[self.style]
             group.instances("solids", shape, xyz, self.size, colors, upright, self.alpha)
             return
-        colors = (
-            faded_color(colors, self.alpha)
-            if isinstance(colors, tuple)
-            else faded(colors, self.alpha)
-        )
+        if isinstance(colors, tuple):
+            colors = faded_color(colors, self.alpha)
+        else:
+            colors = faded(colors, self.alpha)
         if self.style == "Points":
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
             if not isinstance(colors, tuple):

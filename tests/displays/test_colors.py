@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz_displays.colors import bounds, faded, faded_color, fractions, rainbow, ramp
+from webviz_displays.colors import RAINBOW, bounds, faded, faded_color, fractions, ramp
 
 
 @pytest.mark.parametrize(
@@ -22,12 +22,21 @@ from webviz_displays.colors import bounds, faded, faded_color, fractions, rainbo
 def test_the_rainbow_runs_from_red_over_green_to_magenta(
     where: float, color: tuple[int, int, int]
 ) -> None:
-    assert tuple(rainbow([where])[0].tolist()) == color
+    assert tuple(ramp([where], 0.0, 1.0)[0].tolist()) == color
+    assert tuple(ramp([1.0 - where], 0.0, 1.0, RAINBOW[::-1])[0].tolist()) == color
 
 
 def test_a_ramp_mixes_its_two_colours() -> None:
-    colors = ramp([0.0, 0.25, 1.0], (0, 0, 0), (255, 100, 8))
+    colors = ramp([-2.0, -1.75, -1.0], -2.0, -1.0, ((0, 0, 0), (255, 100, 8)))
     assert colors.tolist() == [[0, 0, 0], [64, 25, 2], [255, 100, 8]]
+
+
+def test_long_ramps_are_as_short_ones() -> None:
+    values = np.linspace(-1.0, 1.0, 40_001)
+    colors = ramp(values, -1.0, 1.0)
+    assert len(colors) == len(values)
+    for i in (0, 1, 16_383, 16_384, 16_385, 32_768, 40_000):
+        assert colors[i].tolist() == ramp(values[i : i + 1], -1.0, 1.0)[0].tolist()
 
 
 def test_fractions_are_clamped_between_the_bounds() -> None:
