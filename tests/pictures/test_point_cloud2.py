@@ -22,7 +22,7 @@ def cloud() -> dict[str, Any]:
     """A wavy sheet of 16 x 16 points with intensities and packed colours."""
     x, y = (c.ravel() for c in np.meshgrid(np.linspace(-2, 2, 16), np.linspace(-2, 2, 16)))
     z = 0.5 + 0.4 * np.sin(2.0 * x) * np.cos(1.5 * y)
-    red, blue = ((255 * (c + 2) / 4).astype(np.uint32) for c in (x, y))
+    red, blue = (np.floor(4 * (c + 2) / 4.001).astype(np.uint32) * 80 for c in (x, y))
     rgb = (red << 16 | 90 << 8 | blue).astype(np.uint32).view(np.float32)
     points = np.column_stack([x, y, z, np.hypot(x, y), rgb]).astype(np.float32)
     points[:, 4] = rgb  # bits, not a number to be rounded

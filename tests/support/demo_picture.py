@@ -9,16 +9,16 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
 import PIL.Image
 from page import Page, launched
-from pictures import REFERENCES
+from pictures import REFERENCES, store
 from program import Program
 
 PATH = REFERENCES / "demo.png"
 WIDTH, HEIGHT = 1280, 800
 SECONDS = 25.0
 """After these the robot is in the middle of the building, with its trail behind it."""
-COLORS = 256
 
 
 def main() -> int:
@@ -39,8 +39,7 @@ def main() -> int:
             page.close()
         finally:
             program.end()
-    small = picture.convert("RGB").quantize(COLORS, dither=PIL.Image.Dither.NONE)
-    small.save(PATH, optimize=True)
+    store(np.asarray(picture.convert("RGB")), PATH)
     return 0
 
 

@@ -84,7 +84,8 @@ def load(name: str) -> Pixels:
 def store(pixels: Pixels, path: Path) -> None:
     """Write a picture in few bytes."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    image = PIL.Image.fromarray(pixels).quantize(COLORS, dither=PIL.Image.Dither.NONE)
+    palette = PIL.Image.Quantize.FASTOCTREE  # of all the truest to rainbows
+    image = PIL.Image.fromarray(pixels).quantize(COLORS, palette, dither=PIL.Image.Dither.NONE)
     image.save(path, optimize=True)
 
 
