@@ -46,7 +46,7 @@ def serialized(count: int, channel: str, frame: str, seed: int) -> bytes:
     if channel == "rgb":
         points[:, 3].view(np.uint32)[:] = rng.integers(0, 1 << 24, count)
     make = STORE.types
-    fields = [
+    fields: list[Any] = [
         make["sensor_msgs/msg/PointField"](name, 4 * i, 7, 1)
         for i, name in enumerate(("x", "y", "z", channel))
     ]
