@@ -206,7 +206,9 @@ def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_the
     at.turn()
     at.send("std_msgs/msg/String", {"data": ARM})
     at.turn()
-    while not at.runner._tasks.has_news():
+    for _ in range(1000):
+        if at.runner._painter._tasks.has_news():
+            break
         time.sleep(0.005)
     at.turn()
     place_arm(at)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from dataclasses import dataclass, replace
 
 from webviz.display import Keep
@@ -34,30 +35,36 @@ class History:
 
     def __init__(self) -> None:
         self.held: list[Held] = []
+        self.version = 0
+        """Another one whenever there is something else to draw."""
+        self._free: list[int] = []
 
     def samples(self) -> list[Sample]:
         """What can be drawn, oldest first."""
         return [held.sample for held in self.held if held.has_pose]
 
-    def add(self, sample: Sample, keep: Keep) -> Held:
+    def add(self, sample: Sample, keep: Keep) -> None:
         """Hold a sample. What `keep.count` then excludes goes first, so that its slot is free."""
-        count = min(keep.count or MAX_SAMPLES, MAX_SAMPLES)
-        del self.held[: max(0, len(self.held) - count + 1)]
-        used = {held.slot for held in self.held}
-        slot = next(slot for slot in range(len(used) + 1) if slot not in used)
-        held = Held(sample, slot)
-        self.held.append(held)
-        return held
+        self._let_go(len(self.held) - _most(keep) + 1)
+        slot = heapq.heappop(self._free) if self._free else len(self.held)
+        self.held.append(Held(sample, slot))
+        self.version += 1
 
-    def trim(self, keep: Keep, now_ns: int) -> bool:
-        """Let go of what is too much or too old; whether there was any."""
-        before = len(self.held)
-        count = min(keep.count or MAX_SAMPLES, MAX_SAMPLES)
-        del self.held[: max(0, before - count)]
+    def trim(self, keep: Keep, now_ns: int) -> None:
+        """Let go of what is too much or too old."""
+        self._let_go(len(self.held) - _most(keep))
         if keep.seconds:
             oldest = now_ns - round(keep.seconds * 1e9)
-            self.held = [held for held in self.held if held.sample.received_ns >= oldest]
-        return len(self.held) != before
+            is_young = (held.sample.received_ns >= oldest for held in self.held)
+            self._let_go(next((i for i, young in enumerate(is_young) if young), len(self.held)))
+
+    def _let_go(self, count: int) -> None:
+        """Forget the oldest samples; their slots are used again, the lowest first."""
+        if count > 0:
+            for held in self.held[:count]:
+                heapq.heappush(self._free, held.slot)
+            del self.held[:count]
+            self.version += 1
 
     def move(self, frames: Frames, former_fixed_frame: str, timed: bool) -> None:
         """Place all samples in a new fixed frame.
@@ -81,3 +88,8 @@ class History:
             held.has_pose = pose is not None
             if pose is not None:
                 held.sample = replace(sample, pose=pose)
+        self.version += 1
+
+
+def _most(keep: Keep) -> int:
+    return min(keep.count or MAX_SAMPLES, MAX_SAMPLES)

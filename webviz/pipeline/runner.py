@@ -7,16 +7,16 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from webviz.context import Context, Placement
 from webviz.display import Display, Keep, inputs, overrides, set_property
 from webviz.frames import Frames
 from webviz.messages import MessageError, decode
 from webviz.nodes import Pose
-from webviz.pipeline.background import Tasks, Workers
-from webviz.pipeline.drawing import Drawing, Scene
+from webviz.pipeline.background import Workers
+from webviz.pipeline.drawing import Scene
 from webviz.pipeline.guard import CRASHED, Guard
-from webviz.pipeline.history import Held, History
+from webviz.pipeline.history import History
 from webviz.pipeline.intake import Arrival, Intake, intakes_of
+from webviz.pipeline.painter import Painter
 from webviz.sample import Sample
 from webviz.sources import Offer, Raw, Subscription
 from webviz.status import Level, Status, worst
@@ -52,23 +52,16 @@ class Runner:
 
     def __init__(self, id: str, display: Display, services: Services) -> None:
         self.id = id
-        self._order = 0
         self.display = display
         self.remarks: dict[str, Status] = {}
         """What others have to say of the display, shown with its own statuses."""
         self._services = services
-        self._drawing = Drawing(services.scene, id)
-        self._tasks = Tasks(services.workers)
-        self._state: dict[str, Any] = {}
-        self._statuses: dict[str, dict[str, Status]] = {}
+        self._painter = Painter(id, services.scene, services.workers)
         self._guard = Guard(display, services.strict)
         self._history = History()
         self._newest: Arrival | None = None
         self._folded: Any = None
-        self._drawn: dict[int, Sample] = {}
         self._fixed_frame = ""
-        self._depended: object = None
-        self._is_stale = True
         self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
 
@@ -88,7 +81,7 @@ class Runner:
             self._intakes = intakes_of(self.display, self._services.resolve)
         if not self.display.enabled:
             self.hide()
-        self._is_stale = True
+        self._painter.is_stale = True
 
     def replace(self, display: Display) -> None:
         """Go on as an instance of another class, with the messages and the picture there are.
@@ -100,31 +93,22 @@ class Runner:
             self.reset()
             self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
-        self._tasks = Tasks(self._services.workers)
         self._guard = Guard(display, self._services.strict)
-        self._state.clear()
-        self._statuses.clear()
-        samples = [f"sample{slot}" for slot in self._drawn]
-        for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
-            for scope in () if overrides(display, hook) else scopes:
-                self._drawing.remove(scope)
-        self._is_stale = True
+        self._painter.replace(display)
 
     @property
     def order(self) -> int:
         """Place of the display in the list of displays."""
-        return self._order
+        return self._painter.order
 
     @order.setter
     def order(self, order: int) -> None:
-        self._is_stale |= order != self._order
-        self._order = order
+        self._painter.is_stale |= order != self._painter.order
+        self._painter.order = order
 
     def hide(self) -> None:
         """Draw nothing until `draw` is called again, and forget nothing."""
-        self._drawing.clear()
-        self._drawn.clear()
-        self._is_stale = True
+        self._painter.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
         """What the display needs to hear by topic, nothing while it is disabled."""
@@ -138,14 +122,11 @@ class Runner:
             intake.reset()
         self._history = History()
         self._newest = self._folded = None
-        self._state.clear()
-        self._drawing.clear()
-        self._drawn.clear()
-        self._is_stale = True
+        self._painter.forget()
 
     def close(self) -> None:
         """Remove everything from the scene."""
-        self._drawing.clear()
+        self._painter.hide()
 
     # One tick
 
@@ -184,16 +165,13 @@ class Runner:
                 timed = self._waits(next(iter(self._intakes), ""))
                 self._history.move(frames, self._fixed_frame, timed)
             self._fixed_frame = frames.fixed_frame
-            self._is_stale = True
+            self._painter.is_stale = True
         self._history.trim(self._keep(), frames.now_ns)
-        if self._tasks.has_news() or self._depends_on_news(frames):
-            self._is_stale = True
-        self._redraw(frames)
-        self._drawing.move(frames)
+        self._painter.draw(self.display, self._guard, self._history, frames)
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` will ask for."""
-        return self._drawing.followed() if self.display.enabled else set()
+        return self._painter.followed() if self.display.enabled else set()
 
     def statuses(
         self,
@@ -210,14 +188,13 @@ class Runner:
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
-        for frame in self._drawing.lost(frames):
+        for frame in self._painter.lost(frames):
             result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
-        for said in self._statuses.values():
-            result |= said
+        result |= self._painter.statuses()
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
-        if worst(result.values()) is Level.OK and self._drawing.is_empty():
+        if worst(result.values()) is Level.OK and self._painter.is_empty():
             result["Display"] = Status(Level.WARN, "There is nothing to draw.")
         return result
 
@@ -236,16 +213,6 @@ class Runner:
 
     def _waits(self, name: str) -> bool:
         return self._guard("waits", self.display.waits, name) is not False
-
-    def _depends_on_news(self, frames: Frames) -> bool:
-        if not overrides(self.display, "depends"):
-            return False
-        context = Context(frames, self._tasks, self._state, order=self._order)
-        before, self._depended = (
-            self._depended,
-            self._guard("depends", self.display.depends, context),
-        )
-        return self._depended != before
 
     def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
         """Decode a message and hold it, if the display wants it."""
@@ -283,44 +250,3 @@ class Runner:
             return
         self._folded = folded
         self._history.add(replace(sample, message=folded), self._keep())
-
-    def _redraw(self, frames: Frames) -> None:
-        display = self.display
-        samples = {held.slot: held for held in self._history.held if held.has_pose}
-        changed = self._is_stale or {s: h.sample for s, h in samples.items()} != self._drawn
-        if overrides(display, "draw") and changed:
-            for slot in self._drawn.keys() - samples.keys():
-                self._drawing.remove(f"sample{slot}")
-            for slot, held in samples.items():
-                if self._is_stale or self._drawn.get(slot) is not held.sample:
-                    self._draw_sample(slot, held, frames)
-        if overrides(display, "draw_all") and changed:
-            self._call("all", display.draw_all, frames, self._history.samples())
-        if overrides(display, "tick"):
-            self._call("tick", display.tick, frames)
-        if not samples:
-            self._statuses.pop("sample", None)
-        if changed:
-            self._drawn = {slot: held.sample for slot, held in samples.items()}
-            self._tasks.forget_unasked()
-        self._is_stale = False
-
-    def _draw_sample(self, slot: int, held: Held, frames: Frames) -> None:
-        placement = Placement(offset=held.sample.pose)
-        self._call(f"sample{slot}", self.display.draw, frames, held.sample, placement=placement)
-
-    def _call(
-        self,
-        scope: str,
-        hook: Callable[..., None],
-        frames: Frames,
-        *args: Any,
-        placement: Placement = Placement(),
-    ) -> None:
-        """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
-        context = Context(frames, self._tasks, self._state, placement, self._order)
-        if self._guard(scope, hook, *args, context) is CRASHED:
-            return
-        self._drawing.replace(scope, context)
-        # All samples speak with one voice, the newest one's.
-        self._statuses["sample" if scope.startswith("sample") else scope] = context.statuses

@@ -19,13 +19,20 @@ class AxesDrawn(SingleNode[Axes]):
         )
 
     def props(self, node: Axes) -> tuple[Props, ...]:
-        """Poses, then the look; poses that are not finite are left out."""
+        """All in one set: a page that gets the look apart from the poses may lose the colours.
+
+        Poses that are not finite are left out.
+        """
         positions = np.ascontiguousarray(node.positions, dtype=np.float32)
         wxyzs = np.ascontiguousarray(node.wxyzs, dtype=np.float32)
         rows = finite_rows(positions, wxyzs)
         if rows is not None:
             positions, wxyzs = positions[rows], wxyzs[rows]
         return (
-            {"batched_positions": positions, "batched_wxyzs": wxyzs},
-            {"axes_length": float(node.length), "axes_radius": float(node.radius)},
+            {
+                "batched_positions": positions,
+                "batched_wxyzs": wxyzs,
+                "axes_length": float(node.length),
+                "axes_radius": float(node.radius),
+            },
         )
