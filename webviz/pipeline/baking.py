@@ -17,6 +17,8 @@ from webviz.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Node, Poin
 
 Position = tuple[float, float, float]
 
+PART = 16_384
+"""Points that are moved at once."""
 REACH_M = 1000.0
 """float32 resolves 0.06 mm so far from the origin."""
 
@@ -50,8 +52,7 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
     rotation = rotation_matrix(pose)
 
     def move(xyz: F32) -> F32:
-        moved = xyz.reshape(-1, 3) @ rotation.T.astype(np.float32) + shift.astype(np.float32)
-        return moved.reshape(xyz.shape)
+        return _moved(xyz.reshape(-1, 3), rotation, shift).reshape(xyz.shape)
 
     match node:
         case Points():
@@ -69,6 +70,22 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
             wxyzs = _turned(pose.wxyz, unturned if node.wxyzs is None else node.wxyzs)
             return replace(node, positions=move(node.positions), wxyzs=wxyzs)
     raise TypeError(f"{type(node).__name__} has no coordinates of its own")
+
+
+def _moved(xyz: F32, rotation: NDArray[np.float64], shift: NDArray[np.float64]) -> F32:
+    """Points float32 (N, 3), turned and shifted.
+
+    Not as a matrix product: BLAS starts threads for it, which then spin on every core for longer
+    than the product takes. Parts that stay in the cache are five times faster, too.
+    """
+    r, t = rotation.astype(np.float32), shift.astype(np.float32)
+    moved = np.empty_like(xyz)
+    for start in range(0, len(xyz), PART):
+        rows = slice(start, start + PART)
+        x, y, z = np.ascontiguousarray(xyz[rows].T)
+        for axis in range(3):
+            moved[rows, axis] = x * r[axis, 0] + y * r[axis, 1] + z * r[axis, 2] + t[axis]
+    return moved
 
 
 def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
