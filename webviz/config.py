@@ -23,6 +23,8 @@ from webviz.registry import broken_display_types, display_types, type_name
 
 VERSION = 1
 MAX_BYTES = 16 << 20
+MAX_HINTS = 40
+"""Valid words that an error lists; a tree of transforms may have a thousand frames."""
 MAX_VALUES = 200_000
 """In one file; YAML's aliases can make a few lines endless."""
 LINE = 88
@@ -324,7 +326,10 @@ def nearest(word: str, valid: Iterable[str]) -> str:
     """A hint at the valid word somebody may have meant, or the list of all."""
     valid = sorted(valid)
     close = difflib.get_close_matches(word, valid, n=1)
-    return f"did you mean `{close[0]}`?" if close else f"known are: {', '.join(valid)}"
+    if close:
+        return f"did you mean `{close[0]}`?"
+    more = f" and {len(valid) - MAX_HINTS} more" if len(valid) > MAX_HINTS else ""
+    return f"known are: {', '.join(valid[:MAX_HINTS])}{more}"
 
 
 def _refuse_unknown(values: Mapping[str, Any], valid: Iterable[str], where: str) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -90,6 +90,11 @@ class DisplayList:
         self._entries = [entry for entry in self._entries if not entry.is_within(gone)]
         self._number()
 
+    def group(self, id: str) -> Entry | None:
+        """The entry of an id, if it is a group; nothing else can hold displays."""
+        entry = self.find(id)
+        return entry if entry and isinstance(entry.content, Group) else None
+
     def find(self, id: str) -> Entry | None:
         """The entry of an id."""
         return next((entry for entry in self._entries if entry.id == id), None)
@@ -133,9 +138,9 @@ class DisplayList:
                     entry.content = Runner(entry.id, item, self._services)
         self._number()
 
-    def items(self) -> list[Item]:
-        """What to save."""
-        return self._items(None)
+    def items(self, parent: Entry | None = None) -> list[Item]:
+        """What to save of a group, or of the whole list."""
+        return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
     def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
         """The list as a panel shows it; a group is as well as the worst display in it."""
@@ -150,13 +155,10 @@ class DisplayList:
                 rows[index] = replace(rows[index], statuses=_summary(inner))
         return tuple(rows)
 
-    def _items(self, parent: Entry | None) -> list[Item]:
-        return [self._item(entry) for entry in self._entries if entry.parent is parent]
-
     def _item(self, entry: Entry) -> Item:
         content = entry.content
         if isinstance(content, Group):
-            return Branch(content, self._items(entry))
+            return Branch(content, self.items(entry))
         return content.display if isinstance(content, Runner) else content
 
     def _row(self, entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
@@ -184,9 +186,6 @@ class DisplayList:
         for order, entry in enumerate(self._entries):
             if isinstance(entry.content, Runner):
                 entry.content.order = order
-
-    def __iter__(self) -> Iterator[Entry]:
-        return iter(self._entries)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

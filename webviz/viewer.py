@@ -191,7 +191,7 @@ class Viewer:
             case SetProperty(id, path, value):
                 self._list.set(id, path, value)
             case AddDisplay(type, values, group):
-                self._list.add(make(display_types()[type], values), self._list.find(group))
+                self._list.add(make(display_types()[type], values), self._list.group(group))
             case RemoveDisplay(id):
                 self._list.remove(id)
             case SetFixedFrame(frame):

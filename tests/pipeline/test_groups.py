@@ -103,3 +103,10 @@ def test_displays_are_added_to_groups_and_go_with_them(bench: Callable[..., Any]
     b.viewer.enqueue(RemoveDisplay("display1"))
     assert names(b) == [("A", 0)]
     assert len(list(b.scene.visible())) == 1
+
+
+def test_only_groups_hold_displays(bench: Callable[..., Any]) -> None:
+    b = bench(Axes(name="A"))
+    b.viewer.enqueue(AddDisplay("Axes", {"name": "B"}, group="display1"))
+    assert names(b) == [("A", 0), ("B", 0)]
+    assert len(b.viewer.config().displays) == 2
