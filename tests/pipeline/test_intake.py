@@ -35,13 +35,19 @@ def offer(
 
 def test_nobody_publishes(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
-    assert b.statuses()["Topic"] == ("WARN", "Nobody publishes /pose.")
+    assert b.statuses()["Topic"] == (
+        "WARN",
+        "Nobody publishes /pose: start the node that does, or choose another topic.",
+    )
 
 
 def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     b.source.known["/goal_pose"] = offer()
-    text = "Nobody publishes /pose. geometry_msgs/msg/PoseStamped is published on /goal_pose."
+    text = (
+        "Nobody publishes /pose; geometry_msgs/msg/PoseStamped is published on /goal_pose: "
+        "choose that topic, or remap."
+    )
     assert b.statuses()["Topic"] == ("WARN", text)
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from webviz.display import Display, Input, Topic, inputs
 from webviz.frames import Frames
 from webviz.messages import MessageError, peek_header
-from webviz.sources import Offer, Raw, Subscription
+from webviz.sources import Offer, Publisher, Raw, Subscription
 from webviz.status import Level, Status
 from webviz.transforms import MessageFilter
 
@@ -165,7 +165,7 @@ class Intake:
             )
         if not publishers:
             return Status(Level.WARN, self._nobody(offers, clock))
-        if refusal := self._refusal(offer):
+        if refusal := self._refusal(offer, publishers):
             return Status(Level.ERROR, refusal)
         who = ", ".join(
             sorted(
@@ -198,21 +198,23 @@ class Intake:
             for topic, offer in offers.items()
             if any(p.type == self.spec.type for p in offer.publishers)
         )
-        hint = f" {self.spec.type} is published on {', '.join(others[:3])}." if others else ""
-        return f"Nobody publishes {self.name}.{hint}"
+        if others:
+            there = f"{self.spec.type} is published on {', '.join(others[:3])}"
+            return f"Nobody publishes {self.name}; {there}: choose that topic, or remap."
+        return f"Nobody publishes {self.name}: start the node that does, or choose another topic."
 
-    def _refusal(self, offer: Offer | None) -> str:
+    def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
         """Why DDS does not connect us to anybody, though the type fits."""
         if offer is None or offer.requested is None:
             return ""
         reliability, durability = offer.requested
-        for publisher in offer.publishers:
+        for publisher in publishers:
             unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
             forgetful = durability == "transient_local" and publisher.durability == "volatile"
             if not unreliable and not forgetful:
                 return ""
         ours = _words(reliability, durability)
-        theirs = _words(offer.publishers[0].reliability, offer.publishers[0].durability)
+        theirs = _words(publishers[0].reliability, publishers[0].durability)
         return (
             f"QoS does not match on {self.name}: this display asks for {ours}, "
             f"the publisher offers {theirs}. Set reliability and durability to auto."

@@ -53,8 +53,7 @@ class Scene:
     """Groups of nodes, each group placed by one pose in the fixed frame.
 
     Methods only note what is wanted; `flush` compares it with what was sent and sends the
-    difference in one piece, so that poses and data of one tick are never seen apart, and what did
-    not change costs nothing. All methods belong to one thread.
+    difference in one piece; what did not change costs nothing. All methods belong to one thread.
 
     Args:
         server: as from `open_server`.
