@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
 from webviz import config as config_file
-from webviz.config import Config, ConfigError, Unreadable, View, dump, load, parse, save
+from webviz.config import Config, ConfigError, Unreadable, dump, load, parse, save
 from webviz.display import to_values
 from webviz.registry import display_types
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 

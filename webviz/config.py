@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import msgspec
 from ruamel.yaml import YAML
@@ -20,6 +20,7 @@ from ruamel.yaml.representer import SafeRepresenter
 from webviz.display import Color, Display, make, to_values
 from webviz.group import Group
 from webviz.registry import broken_display_types, display_types, type_name
+from webviz.views import View
 
 VERSION = 1
 MAX_BYTES = 16 << 20
@@ -35,16 +36,6 @@ STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 
 class ConfigError(Exception):
     """A file cannot be used; one sentence that names the file and the place in it."""
-
-
-class View(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The camera: RViz's Orbit view, in metres and radians."""
-
-    type: Literal["Orbit"] = "Orbit"
-    distance: Annotated[float, msgspec.Meta(gt=0, le=1e6)] = 10.0
-    yaw: float = 0.785398
-    pitch: Annotated[float, msgspec.Meta(ge=-1.5698, le=1.5698)] = 0.785398
-    focal_point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):

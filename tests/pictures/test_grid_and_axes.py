@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from pictures import Stage, turned
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 

@@ -8,7 +8,7 @@ import building
 from pictures import Stage, turned
 from ros_messages import SECOND
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.axes import Axes
 from webviz_displays.laser_scan import LaserScan
 from webviz_sim.pose import Pose

@@ -9,7 +9,7 @@ import numpy as np
 from pictures import Stage, turned
 from scipy.ndimage import distance_transform_edt
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.map import Map
 

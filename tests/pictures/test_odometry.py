@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from pictures import Stage, turned
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.odometry import Odometry
 from webviz_displays.pose_properties import Covariance, PoseShape

@@ -13,7 +13,7 @@ from pictures import REFERENCES, TOLERANCE, Stage, Studio, load, share_of_differ
 from robots import DEMO, place_links
 
 from webviz import Display
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan

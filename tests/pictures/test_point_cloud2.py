@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from pictures import Stage
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.point_cloud2 import PointCloud2
 

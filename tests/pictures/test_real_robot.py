@@ -13,7 +13,7 @@ from pictures import Stage
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map

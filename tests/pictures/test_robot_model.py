@@ -8,7 +8,7 @@ import pytest
 from pictures import REFERENCES, Stage
 from robots import DEMO, place_links, robots_folder
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_parts import LinkSettings

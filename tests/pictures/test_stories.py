@@ -10,7 +10,7 @@ from pictures import Stage, turned
 from robots import DEMO, place_links
 from ros_messages import SECOND
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.path import Path

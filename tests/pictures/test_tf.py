@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pictures import Stage, turned
 from ros_messages import SECOND
 
-from webviz.config import View
+from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.tf import TF
 

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from webviz import rviz
-from webviz.config import Branch, Config, ConfigError, Unreadable, View, dump, parse
+from webviz.config import Branch, Config, ConfigError, Unreadable, dump, parse
 from webviz.display import to_values
+from webviz.views import View
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry

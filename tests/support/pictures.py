@@ -17,12 +17,13 @@ from page import Page, Pixels
 from ros_messages import header, serialized
 
 from webviz.commands import SetFixedFrame, SetProperty
-from webviz.config import Config, Settings, View
+from webviz.config import Config, Settings
 from webviz.display import Display
 from webviz.scene import Scene, open_server
 from webviz.sources import Offer, Publisher, Raw
 from webviz.state import State
 from webviz.viewer import Viewer
+from webviz.views import View
 
 TESTS = Path(__file__).parents[1]
 REFERENCES = TESTS / "pictures"

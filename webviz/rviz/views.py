@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.config import View
 from webviz.rviz import values
 from webviz.rviz.report import Report
 from webviz.rviz.tree import Tree
 from webviz.rviz.values import Unfit
+from webviz.views import View
 
 ORBIT = "rviz_default_plugins/Orbit"
 TOP_DOWN = "rviz_default_plugins/TopDownOrtho"

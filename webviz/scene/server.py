@@ -15,11 +15,11 @@ import rich
 import viser
 import websockets.asyncio.server as websocket
 
-from webviz.config import View
 from webviz.nodes import Rgb
 from webviz.scene.guard import HostList, guarded_serve
 from webviz.scene.gui_values import accepts_update
 from webviz.scene.view import set_view
+from webviz.views import View
 
 BACKGROUND: Rgb = (48, 48, 48)
 """RViz's default."""

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import viser
 
-from webviz.config import View
+from webviz.views import View
 
 FIELD_OF_VIEW = math.pi / 4
 """Vertical; RViz's, which comes from Ogre."""
