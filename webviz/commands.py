@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from webviz.display import Color
+
 
 @dataclass(frozen=True)
 class SetProperty:
@@ -27,9 +29,31 @@ class AddDisplay:
 
 @dataclass(frozen=True)
 class RemoveDisplay:
-    """Remove a display."""
+    """Remove a display, or a group with all that is in it."""
 
     display: str
+
+
+@dataclass(frozen=True)
+class DuplicateDisplay:
+    """Add a copy right behind a display, or a group with all that is in it."""
+
+    display: str
+
+
+@dataclass(frozen=True)
+class MoveDisplay:
+    """Put a display or a group elsewhere in the list.
+
+    Args:
+        display: what to move.
+        group: where to; "" is the list itself.
+        before: goes before this one of that group; "" is the end.
+    """
+
+    display: str
+    group: str = ""
+    before: str = ""
 
 
 @dataclass(frozen=True)
@@ -40,8 +64,70 @@ class SetFixedFrame:
 
 
 @dataclass(frozen=True)
+class SetBackground:
+    """Choose the colour behind the scene."""
+
+    color: Color
+
+
+@dataclass(frozen=True)
+class SetFrameRate:
+    """Choose how often in a second the scene may change."""
+
+    hz: float
+
+
+@dataclass(frozen=True)
 class Reset:
     """Forget transforms and messages, as RViz's Reset does."""
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Let time stand still on the page, or go on; messages wait meanwhile."""
+
+    paused: bool = True
+
+
+@dataclass(frozen=True)
+class Open:
+    """Show what a config file says instead of what is shown."""
+
+    path: str
+
+
+@dataclass(frozen=True)
+class Load:
+    """Show what the text of a config says instead of what is shown.
+
+    Args:
+        text: YAML, or RViz's if the name ends with .rviz.
+        name: of the file it came from; it is not read or written.
+    """
+
+    text: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Save:
+    """Write what is shown to a file, "" to where it came from."""
+
+    path: str = ""
+
+
+@dataclass(frozen=True)
+class InspectTopic:
+    """Follow a topic that need not be shown: its rate and its last message; "" is none."""
+
+    topic: str
+
+
+@dataclass(frozen=True)
+class InspectTransforms:
+    """Report on the tree of transforms, or no longer."""
+
+    inspect: bool = True
 
 
 @dataclass(frozen=True)
@@ -51,4 +137,21 @@ class ReloadPlugin:
     path: Path
 
 
-Command = SetProperty | AddDisplay | RemoveDisplay | SetFixedFrame | Reset | ReloadPlugin
+Command = (
+    SetProperty
+    | AddDisplay
+    | RemoveDisplay
+    | DuplicateDisplay
+    | MoveDisplay
+    | SetFixedFrame
+    | SetBackground
+    | SetFrameRate
+    | Reset
+    | Pause
+    | Open
+    | Load
+    | Save
+    | InspectTopic
+    | InspectTransforms
+    | ReloadPlugin
+)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from webviz.config import Settings
 from webviz.display import Display
+from webviz.sources import Offer
 from webviz.status import Level, Status, worst
 
 
@@ -36,6 +38,78 @@ class Row:
 
 
 @dataclass(frozen=True)
+class File:
+    """Where the config is saved.
+
+    Args:
+        path: of the file, "" if there is none.
+        is_changed: whether the viewer shows something else than the file says.
+        folder: where a name without folder is looked for and saved.
+        others: names of the config files in the folder, sorted.
+    """
+
+    path: str = ""
+    is_changed: bool = False
+    folder: str = ""
+    others: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of the last command that has an answer.
+
+    Args:
+        number: one more for each answer.
+        status: how it went.
+    """
+
+    number: int = 0
+    status: Status = Status(Level.OK, "")
+
+
+@dataclass(frozen=True)
+class Clock:
+    """RViz's panel "Time".
+
+    Args:
+        ros_ns: ROS time that is shown; stands still while paused; 0 while it is not known.
+        ros_elapsed_ns: since the viewer started or was reset.
+        wall_s: seconds since 1970.
+        wall_elapsed_s: since the viewer started or was reset.
+        is_paused: whether somebody let the time stand still.
+    """
+
+    ros_ns: int = 0
+    ros_elapsed_ns: int = 0
+    wall_s: float = 0.0
+    wall_elapsed_s: float = 0.0
+    is_paused: bool = False
+
+
+@dataclass(frozen=True)
+class Traffic:
+    """What arrives on a topic, over the last seconds."""
+
+    rate_hz: float
+    bytes_per_s: float
+
+
+@dataclass(frozen=True)
+class Inspected:
+    """A topic that somebody looks into.
+
+    Args:
+        topic: its name.
+        text: its last message, or why there is none.
+        age_s: since the last message came, None without one.
+    """
+
+    topic: str
+    text: str
+    age_s: float | None = None
+
+
+@dataclass(frozen=True)
 class State:
     """A viewer at one moment.
 
@@ -45,6 +119,14 @@ class State:
         frames: every frame id known, sorted.
         topics: message types by topic name.
         statuses: what holds for the viewer as a whole, such as "Fixed Frame".
+        settings: all that a config says besides its displays.
+        file: where that is saved.
+        answer: to the last command.
+        clock: the time.
+        offers: publishers and QoS by topic name.
+        traffic: by topic name, of the topics that are subscribed to.
+        inspected: a topic that somebody looks into.
+        transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
     """
 
     rows: tuple[Row, ...]
@@ -52,3 +134,11 @@ class State:
     frames: tuple[str, ...]
     topics: Mapping[str, tuple[str, ...]]
     statuses: Mapping[str, Status]
+    settings: Settings = field(default_factory=Settings)
+    file: File = File()
+    answer: Answer = Answer()
+    clock: Clock = Clock()
+    offers: Mapping[str, Offer] = field(default_factory=dict)
+    traffic: Mapping[str, Traffic] = field(default_factory=dict)
+    inspected: Inspected | None = None
+    transforms: str = ""
