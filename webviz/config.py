@@ -228,23 +228,28 @@ def _is_endless(document: Any) -> bool:
     return False
 
 
-def dump(config: Config) -> str:
-    """A config as YAML text; defaults are left out."""
+def document(config: Config) -> dict[str, Any]:
+    """A config as the values of its file; defaults are left out."""
     settings = msgspec.to_builtins(config.settings)
     basis = msgspec.to_builtins(Settings())
-    document: dict[str, Any] = {"version": VERSION}
-    document |= {key: value for key, value in settings.items() if value != basis[key]}
-    kept = document.pop("rviz", None)
-    document["displays"] = [_entry(display) for display in config.displays]
+    values: dict[str, Any] = {"version": VERSION}
+    values |= {key: value for key, value in settings.items() if value != basis[key]}
+    kept = values.pop("rviz", None)
+    values["displays"] = [_entry(display) for display in config.displays]
     if kept:
-        document["rviz"] = kept  # last, as nobody wants to read it
+        values["rviz"] = kept  # last, as nobody wants to read it
+    return values
+
+
+def dump(config: Config) -> str:
+    """A config as YAML text; see `document`."""
     yaml = YAML(typ="safe", pure=True)
     yaml.Representer = _Representer
     yaml.default_flow_style = None  # short lists such as colours stay on one line
     yaml.width = 1 << 20  # a key of two words that is broken cannot be read again
     yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
     stream = io.StringIO()
-    yaml.dump(document, stream)
+    yaml.dump(document(config), stream)
     return stream.getvalue()
 
 

@@ -60,11 +60,12 @@ class Answer:
 
     Args:
         number: one more for each answer.
-        status: how it went.
+        level, text: how it went, in a sentence.
     """
 
     number: int = 0
-    status: Status = Status(Level.OK, "")
+    level: Level = Level.OK
+    text: str = ""
 
 
 @dataclass(frozen=True)

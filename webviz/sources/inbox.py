@@ -36,6 +36,7 @@ class Inbox:
         self._limits: dict[str, int] = {}
         self._bytes: dict[str, int] = {}
         self._dropped: dict[str, int] = {}
+        self._received: dict[str, tuple[int, int]] = {}
         self._max_bytes = max_bytes
         self.arrived = threading.Event()
         """Set by every arrival, and by whoever else wants the frame loop to wake."""
@@ -48,7 +49,8 @@ class Inbox:
     def close(self, topic: str) -> None:
         """Refuse and forget messages of a topic."""
         with self._lock:
-            for table in (self._limits, self._queues, self._bytes, self._dropped):
+            tables = (self._limits, self._queues, self._bytes, self._dropped, self._received)
+            for table in tables:
                 table.pop(topic, None)
 
     def put(self, topic: str, raw: Raw) -> None:
@@ -57,6 +59,8 @@ class Inbox:
             limit = self._limits.get(topic)
             if limit is None:
                 return
+            count, total = self._received.get(topic, (0, 0))
+            self._received[topic] = count + 1, total + len(raw.cdr)
             queue = self._queues.setdefault(topic, deque())
             queue.append(raw)
             size = self._bytes.get(topic, 0) + len(raw.cdr)
@@ -76,3 +80,8 @@ class Inbox:
         """How many messages of a topic gave way since it was opened."""
         with self._lock:
             return self._dropped.get(topic, 0)
+
+    def received(self) -> dict[str, tuple[int, int]]:
+        """How many messages and bytes came on each topic since it was opened."""
+        with self._lock:
+            return dict(self._received)
