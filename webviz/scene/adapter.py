@@ -102,28 +102,38 @@ class Adapter:
     def acknowledge(self, timeout: float = 10.0) -> None:
         """Waits until every connected browser has applied everything queued so far.
 
+        That is what was queued for everybody and for that browser alone, which travel apart.
         Applied means handled in order; the pixels follow with the next frame. Not to be called on
         viser's event loop.
 
         Raises:
             TimeoutError: a browser that is still connected did not answer within `timeout` seconds.
         """
-        request = uuid.uuid4().hex
-        answered = self._acknowledged[request] = set()
-        question = wire.LocalStorageGetItemRequestMessage(key="webviz", request_uuid=request)
-        asked = set(self.server.get_clients())
+        shared, own = (
+            wire.LocalStorageGetItemRequestMessage(key="webviz", request_uuid=uuid.uuid4().hex)
+            for _ in range(2)
+        )
+        answered = {question.request_uuid: set[int]() for question in (shared, own)}
+        self._acknowledged |= answered
+        asked = self.server.get_clients()
         deadline = time.monotonic() + timeout
         try:
-            self._queue(question)
+            self._queue(shared)
             self.flush()
+            for client in asked.values():
+                client._websock_connection.queue_message(own)
+                client.flush()
             with self._answered:
-                while asked & set(self.server.get_clients()) - answered:
+                while (asked.keys() & self.server.get_clients().keys()) - set.intersection(
+                    *answered.values()
+                ):
                     if time.monotonic() > deadline:
                         raise TimeoutError(f"A browser did not answer within {timeout:g} s.")
                     self._answered.wait(0.05)
         finally:
-            del self._acknowledged[request]
-            self._buffer.remove_from_buffer(lambda message: message is question)
+            for request in answered:
+                del self._acknowledged[request]
+            self._buffer.remove_from_buffer(lambda message: message is shared)
 
     def _on_acknowledgement(
         self, client_id: int, message: wire.LocalStorageGetItemResponseMessage
