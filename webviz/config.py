@@ -69,6 +69,11 @@ class Unreadable:
             return str(self.values.get("name") or self.values.get("type") or "?")
         return "?"
 
+    @property
+    def is_from_rviz(self) -> bool:
+        """Whether it is kept of a .rviz file, for want of a counterpart."""
+        return isinstance(self.values, Mapping) and "rviz" in self.values
+
 
 @dataclass
 class Branch:
