@@ -112,6 +112,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="name under which browsers may reach this machine, with --host (repeatable)",
     )
+    add(
+        "--autosave",
+        action="store_true",
+        help=f"keep the last session in {_last_session()}, and begin with it unless -d is given",
+    )
     version = importlib.metadata.version("webviz")
     add("--version", action="version", version=f"webviz {version}")
     add("--ros-args", action="store_true", help="arguments for ROS follow, up to `--`")
@@ -127,7 +132,7 @@ def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
     with contextlib.ExitStack() as stack:
         # viser takes a while to import; --help and errors in the config come before.
         from webviz.gui import Panel
-        from webviz.scene import CannotListen, Scene, open_server, set_background, set_view
+        from webviz.scene import CannotListen, Scene, open_server, set_view
         from webviz.viewer import Viewer
 
         try:
@@ -135,11 +140,17 @@ def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
         except CannotListen as error:
             raise UserError(str(error)) from error
         stack.callback(server.stop)
-        set_background(server, config.settings.background)
         set_view(server, config.settings.view)
         source = _ros_source(ros)
         stack.callback(source.close)
-        viewer = Viewer(config, source, Scene(server), lambda state: panel.update(state))
+        viewer = Viewer(
+            config,
+            source,
+            Scene(server),
+            lambda state: panel.update(state),
+            path=options.display_config,
+            autosave=_last_session() if options.autosave else None,
+        )
         panel = Panel(server, viewer.enqueue)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: viewer.stop())
@@ -163,8 +174,16 @@ def _announce(options: argparse.Namespace, port: int) -> None:
     sys.stdout.flush()
 
 
+def _last_session() -> Path:
+    """Where the last session is kept, by the XDG base directory specification."""
+    home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return Path(home) / "webviz" / "last.yaml"
+
+
 def _config(options: argparse.Namespace) -> Config:
     path = options.display_config
+    if path is None and options.autosave and _last_session().exists():
+        path = _last_session()
     if path is None and options.command == "demo":
         path = DEMO
     config = config_file.standard() if path is None else config_file.load(path)

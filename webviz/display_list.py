@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import copy
+import itertools
 import logging
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from webviz import config as config_file
 from webviz.config import Branch, Item, Unreadable
-from webviz.display import set_property
+from webviz.display import Display, make, set_property, to_values
 from webviz.group import Group
 from webviz.pipeline import Runner, Services
 from webviz.registry import type_name
@@ -17,6 +20,8 @@ from webviz.state import Row
 from webviz.status import Level, Status
 
 log = logging.getLogger("webviz")
+
+D = TypeVar("D", bound=Display)
 
 
 @dataclass(eq=False)
@@ -32,6 +37,11 @@ class Entry:
     id: str
     content: Runner | Group | Unreadable
     parent: Entry | None = None
+
+    @property
+    def name(self) -> str:
+        """As shown in the list."""
+        return self.content.display.name if isinstance(self.content, Runner) else self.content.name
 
     @property
     def depth(self) -> int:
@@ -63,22 +73,25 @@ class DisplayList:
         self._entries: list[Entry] = []
         self._made = 0
 
-    def add(self, item: Item, parent: Entry | None = None) -> None:
+    def add(self, item: Item, parent: Entry | None = None) -> Entry:
         """Add a display, or a group with all that is in it, at the end of a group or the list."""
         self._made += 1
         id = f"display{self._made}"
         if isinstance(item, Branch):
-            group = Entry(id, item.group, parent)
-            self._insert(group)
-            for each in item.displays:
-                self.add(each, group)
+            entry = Entry(id, item.group, parent)
         elif isinstance(item, Unreadable):
-            log.warning("%s", item.reason)
-            self._insert(Entry(id, item, parent))
+            if not item.is_from_rviz:  # those are in the report on the whole file
+                log.warning("%s", item.reason)
+            entry = Entry(id, item, parent)
         elif isinstance(item, Group):
-            self._insert(Entry(id, item, parent))
+            entry = Entry(id, item, parent)
         else:
-            self._insert(Entry(id, Runner(id, item, self._services), parent))
+            entry = Entry(id, Runner(id, item, self._services), parent)
+        self._insert([entry], parent)
+        if isinstance(item, Branch):
+            for each in item.displays:
+                self.add(each, entry)
+        return entry
 
     def remove(self, id: str) -> None:
         """Remove a display, or a group with all that is in it."""
@@ -89,6 +102,44 @@ class DisplayList:
                 entry.content.close()
         self._entries = [entry for entry in self._entries if not entry.is_within(gone)]
         self._number()
+
+    def clear(self) -> None:
+        """Remove everything."""
+        for runner in self.runners():
+            runner.close()
+        self._entries = []
+
+    def duplicate(self, id: str) -> None:
+        """Add a copy right behind a display, or a group with all that is in it."""
+        if not (original := self.find(id)):
+            return
+        copied = _copy(self._item(original))
+        names = {entry.name for entry in self._entries}
+        if not isinstance(copied, Unreadable):
+            own = copied.group if isinstance(copied, Branch) else copied
+            own.name = _fresh(own.name, names)
+        twin = self.add(copied, original.parent)
+        siblings = [entry for entry in self._entries if entry.parent is original.parent]
+        self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
+
+    def move(self, id: str, group: str = "", before: str = "") -> None:
+        """Put a display, or a group with all that is in it, elsewhere.
+
+        Args:
+            id: what to move.
+            group: where to; "" is the list itself.
+            before: goes before this one of that group; "" is the end.
+        """
+        moved, parent, successor = self.find(id), self.group(group), self.find(before)
+        if moved is None or moved is successor or (parent and parent.is_within(moved)):
+            return
+        block = [entry for entry in self._entries if entry.is_within(moved)]
+        shown = set(self.active())
+        self._entries = [entry for entry in self._entries if not entry.is_within(moved)]
+        moved.parent = parent
+        self._insert(block, parent, successor)
+        for runner in shown - set(self.active()):
+            runner.hide()
 
     def group(self, id: str) -> Entry | None:
         """The entry of an id, if it is a group; nothing else can hold displays."""
@@ -165,20 +216,23 @@ class DisplayList:
         content, depth = entry.content, entry.depth
         if isinstance(content, Unreadable):
             status = {"Config": Status(Level.ERROR, content.reason)}
-            return Row(entry.id, "", None, content.name, status, depth)
+            return Row(entry.id, "", None, entry.name, status, depth)
         if isinstance(content, Group):
             return Row(entry.id, "Group", content, content.name, {}, depth)
         statuses = statuses_of(content) if entry.is_enabled else {}
         name = type_name(type(content.display))
         return Row(entry.id, name, content.display, content.display.name, statuses, depth)
 
-    def _insert(self, entry: Entry) -> None:
-        """Put an entry behind the last one of its group."""
+    def _insert(
+        self, block: list[Entry], parent: Entry | None, before: Entry | None = None
+    ) -> None:
+        """Put entries before one of their group, or behind the last one."""
         index = len(self._entries)
-        if entry.parent is not None:
-            within = (i for i, e in enumerate(self._entries) if e.is_within(entry.parent))
-            index = max(within) + 1
-        self._entries.insert(index, entry)
+        if before is not None and before.parent is parent:
+            index = self._entries.index(before)
+        elif parent is not None:
+            index = max(i for i, e in enumerate(self._entries) if e.is_within(parent)) + 1
+        self._entries[index:index] = block
         self._number()
 
     def _number(self) -> None:
@@ -186,6 +240,26 @@ class DisplayList:
         for order, entry in enumerate(self._entries):
             if isinstance(entry.content, Runner):
                 entry.content.order = order
+
+
+def _copy(item: Item) -> Item:
+    if isinstance(item, Branch):
+        return Branch(_copied(item.group), [_copy(each) for each in item.displays])
+    return copy.deepcopy(item) if isinstance(item, Unreadable) else _copied(item)
+
+
+def _copied(display: D) -> D:
+    return make(type(display), to_values(display))
+
+
+def _fresh(name: str, taken: set[str]) -> str:
+    """A name that nothing has: `Scan`, then `Scan 2`."""
+    stem = re.sub(r" \d+$", "", name)
+    return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)
+
+
+def _id(entry: Entry | None) -> str:
+    return entry.id if entry else ""
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Protocol
 
 import msgspec
@@ -15,33 +16,37 @@ import msgspec
 from webviz import config as config_file
 from webviz import plugins
 from webviz.commands import (
-    AddDisplay,
     Command,
+    InspectTopic,
+    InspectTransforms,
+    Pause,
     ReloadPlugin,
-    RemoveDisplay,
     Reset,
-    SetFixedFrame,
-    SetProperty,
 )
-from webviz.config import Config
-from webviz.display import make
+from webviz.config import Config, ConfigError, Settings
+from webviz.display import Color
 from webviz.display_list import DisplayList
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
 from webviz.pipeline.listener import TransformListener
 from webviz.pipeline.ros_time import RosTime
-from webviz.registry import display_types
+from webviz.pipeline.stopwatch import Stopwatch
+from webviz.pipeline.topic_monitor import TopicMonitor
+from webviz.session import Session
 from webviz.sources import Offer, Source, Subscription
-from webviz.state import State
+from webviz.state import Answer, State
 from webviz.status import Level, Status
-from webviz.transforms import TransformBuffer
+from webviz.transforms import TransformBuffer, tree_text
 
 log = logging.getLogger("webviz")
 
 IDLE_S = 0.25
 """How often to look around when nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
+FOLDER_S = 2.0
+"""How often to look for config files that others wrote."""
+AUTOSAVE_S = 2.0
 MAX_COMMANDS = 1000
 
 
@@ -56,6 +61,10 @@ class Scene(DrawingScene, Protocol):
         """Whether anybody looks."""
         ...
 
+    def set_background(self, rgb: Color) -> None:
+        """Fill what lies behind everything with one colour."""
+        ...
+
 
 class Viewer:
     """Keeps a scene true to a source, as a config says.
@@ -65,6 +74,8 @@ class Viewer:
         source: where messages come from.
         scene: where to draw.
         show: called with the state whenever a panel should show a new one.
+        path: the file that the config came from, None for none.
+        autosave: a file that follows every change, None for none.
         strict: raise what displays raise, as tests want it.
         clock: monotonic time in seconds, for rates and ages.
     """
@@ -76,29 +87,37 @@ class Viewer:
         scene: Scene,
         show: Callable[[State], None] = lambda state: None,
         *,
+        path: Path | None = None,
+        autosave: Path | None = None,
         strict: bool = False,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self.settings = config.settings
         self.buffer = TransformBuffer()
         self._listener = TransformListener(self.buffer, clock)
         self._time = RosTime(clock)
-        self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
+        self._stopwatch = Stopwatch()
+        self._paused_ns: int | None = None
         self._source = source
+        self._monitor = TopicMonitor(source.inbox, clock)
+        self._inspects_transforms = False
         self._scene = scene
         self._show = show
         self._workers = Workers(self._wake)
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
         self._commands: queue.Queue[Command] = queue.Queue(MAX_COMMANDS)
+        self._answer = Answer()
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
+        self._session = Session(self._list, config, path, autosave)
+        self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
         self._statuses: dict[str, Status] = {}
-        if config.report:
-            text = f"Not all of the .rviz file has a counterpart here. {' '.join(config.report)}"
-            self._statuses["Import"] = Status(Level.WARN, text)
-        self._next_panel = 0.0
-        for item in config.displays:
-            self._list.add(item)
+        self._next_panel = self._next_folder = self._next_autosave = 0.0
+        self._background: Color | None = None
+
+    @property
+    def settings(self) -> Settings:
+        """All that is shown besides displays."""
+        return self._session.settings
 
     def enqueue(self, command: Command) -> None:
         """Ask for a change from any thread; it is done on the next turn of the loop."""
@@ -126,13 +145,20 @@ class Viewer:
                     break
                 arrived.wait(IDLE_S)
         finally:
-            self._workers.close()
+            self.close()
+
+    def close(self) -> None:
+        """End the slow work beside the loop, and keep the last state if that is wanted."""
+        if keep := self._session.keep():
+            keep()
+        self._workers.close()
 
     def turn(self) -> None:
         """One turn of the frame loop."""
         commanded = self._obey()
-        batches = self._source.inbox.drain()
         now_ns, offers = self._source.now_ns(), self._source.offers()
+        # While paused, messages wait in the inbox, which is bounded and counts what gives way.
+        batches = self._source.inbox.drain() if self._paused_ns is None else {}
         if self._time.step(now_ns):
             # What arrived with it may be older or newer; what is latched is asked for again.
             batches = {}
@@ -140,18 +166,18 @@ class Viewer:
         if self._listener.take(batches, offers):
             self._time.tell("The transforms started over in the past: everything was reset.")
             self._reset()
-        frames = self._frames = self._frames.next(self.settings.fixed_frame, now_ns)
+        self._monitor.take(batches)
+        shown_ns = now_ns if self._paused_ns is None else self._paused_ns
+        frames = self._frames = self._frames.next(self.settings.fixed_frame, shown_ns)
         runners = self._list.active()
         for runner in runners:
             runner.take(batches, frames, offers)
         if self._scene.has_watchers():
-            frames.prepare(set().union(*(runner.followed() for runner in runners)))
-            for runner in runners:
-                runner.draw(frames)
-            self._flush()
-        self._source.want(self._wanted())
+            self._draw(runners, frames)
+        self._source.want(self._wanted(offers))
         if commanded or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
+            self._keep_up(commanded)
             self._show(self.state(frames))
 
     def state(self, frames: Frames) -> State:
@@ -167,11 +193,19 @@ class Viewer:
             tuple(sorted(self.buffer.frames())),
             topics,
             {"Fixed Frame": self._fixed_frame_status(), **self._global_statuses(offers, frames)},
+            self.settings,
+            self._session.file(),
+            self._answer,
+            self._stopwatch.clock(frames.now_ns, self._paused_ns is not None),
+            offers,
+            self._monitor.traffic(),
+            self._monitor.look(offers),
+            tree_text(self.buffer, frames.now_ns) if self._inspects_transforms else "",
         )
 
     def config(self) -> Config:
         """What to save to come back to this."""
-        return Config(self.settings, self._list.items())
+        return self._session.config()
 
     # Commands
 
@@ -180,36 +214,70 @@ class Viewer:
         while not self._commands.empty():
             command = self._commands.get_nowait()
             obeyed = True
-            try:
-                self._do(command)
-            except (msgspec.ValidationError, AttributeError, KeyError) as error:
-                log.warning("Refused %s: %s", command, error)
+            self._in_one_sentence(lambda command=command: self._do(command))
         return obeyed
 
-    def _do(self, command: Command) -> None:
+    def _in_one_sentence(self, do: Callable[[], str | None]) -> None:
+        """Do something that people asked for, and tell what came of it."""
+        try:
+            level, text = Level.OK, do()
+        except (ConfigError, plugins.PluginError) as error:
+            level, text = Level.ERROR, str(error)
+        except msgspec.ValidationError as error:
+            level, text = Level.ERROR, f"Not changed: {config_file.describe(error)}."
+        except AttributeError as error:
+            level, text = Level.ERROR, f"Not changed: {error}."
+        if not text:
+            return
+        log.log(logging.INFO if level is Level.OK else logging.WARNING, "%s", text)
+        self._answer = Answer(self._answer.number + 1, level, text)
+
+    def _do(self, command: Command) -> str | None:
         match command:
-            case SetProperty(id, path, value):
-                self._list.set(id, path, value)
-            case AddDisplay(type, values, group):
-                self._list.add(make(display_types()[type], values), self._list.group(group))
-            case RemoveDisplay(id):
-                self._list.remove(id)
-            case SetFixedFrame(frame):
-                self.settings = msgspec.structs.replace(self.settings, fixed_frame=frame)
             case Reset():
                 self._reset()
+                self._stopwatch.start()
+            case Pause(paused):
+                self._paused_ns = self._frames.now_ns if paused else None
+            case InspectTopic(topic):
+                self._monitor.inspected = topic
+            case InspectTransforms(inspect):
+                self._inspects_transforms = inspect
             case ReloadPlugin(path):
                 plugins.reload(path, self._list.runners())
                 self._list.read_again()
+            case _:
+                return self._session.do(command)
+        return None
 
     def _reset(self) -> None:
         self._listener.reset()
         for runner in self._list.runners():
             runner.reset()
 
+    def _keep_up(self, commanded: bool) -> None:
+        """What has to be done now and then, and after commands."""
+        now = time.monotonic()
+        if commanded:
+            self._session.look()
+            self._next_folder = 0.0
+        if now >= self._next_folder:
+            self._next_folder = now + FOLDER_S
+            self._session.look_around()
+        if now >= self._next_autosave:
+            self._next_autosave = now + AUTOSAVE_S
+            if keep := self._session.keep():
+                self._workers.submit(keep)
+
     # Parts of a turn
 
-    def _flush(self) -> None:
+    def _draw(self, runners: list[Runner], frames: Frames) -> None:
+        if self.settings.background != self._background:
+            self._background = self.settings.background
+            self._scene.set_background(self._background)
+        frames.prepare(set().union(*(runner.followed() for runner in runners)))
+        for runner in runners:
+            runner.draw(frames)
         try:
             self._scene.flush()
         except Exception as error:  # a display made a malformed node; the scene has dropped it
@@ -220,22 +288,26 @@ class Viewer:
                 log.exception("A node could not be drawn")
             self._statuses["Scene"] = Status(Level.ERROR, f"A node could not be drawn: {text}")
 
-    def _wanted(self) -> Mapping[str, Subscription]:
+    def _wanted(self, offers: Mapping[str, Offer]) -> Mapping[str, Subscription]:
         """All subscriptions by topic. The first display decides on the type and QoS of a topic."""
         wanted = self._listener.subscriptions()
         for runner in self._list.active():
             for name, subscription in runner.subscriptions().items():
                 first = wanted.setdefault(name, subscription)
                 wanted[name] = replace(first, asked=max(first.asked, subscription.asked))
-        return wanted
+        return self._monitor.subscription(offers) | wanted
 
     def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
         return runner.statuses(self._source.offers(), frames, self._source.inbox.dropped)
 
     def _global_statuses(self, offers: Mapping[str, Offer], frames: Frames) -> Mapping[str, Status]:
         time_status = self._time.status(offers)
-        times = {"Time": time_status} if time_status else {}
-        return times | self._listener.statuses(offers, frames.now_ns) | self._statuses
+        statuses = {"Time": time_status} if time_status else {}
+        statuses |= self._listener.statuses(offers, frames.now_ns) | self._statuses
+        if report := self._session.report:
+            text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
+            statuses["Import"] = Status(Level.WARN, text)
+        return statuses
 
     def _fixed_frame_status(self) -> Status:
         fixed_frame, known = self.settings.fixed_frame, self.buffer.frames()

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from webviz.frames import compose
-from webviz.nodes import Node, Pose
+from webviz.nodes import Node, Pose, Rgb
 
 
 @dataclass
@@ -19,6 +19,10 @@ class RecordingScene:
     hidden: set[str] = field(default_factory=set)
     watched: bool = True
     upserts: int = 0
+    background: Rgb | None = None
+
+    def set_background(self, rgb: Rgb) -> None:
+        self.background = rgb
 
     def set_pose(self, group: str, pose: Pose) -> None:
         self.poses[group] = pose

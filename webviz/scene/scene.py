@@ -20,6 +20,7 @@ from webviz.nodes import (
     Node,
     Points,
     Pose,
+    Rgb,
 )
 from webviz.scene.adapter import Adapter
 from webviz.scene.axes import AxesDrawn
@@ -32,6 +33,7 @@ from webviz.scene.meshes import GlbDrawn, MeshDrawn
 from webviz.scene.names import ROOT, node_path
 from webviz.scene.page import PAGE_SCRIPT
 from webviz.scene.points import PointsDrawn, keep_shaders
+from webviz.scene.server import set_background
 
 _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Points: PointsDrawn,
@@ -72,6 +74,10 @@ class Scene:
     def has_watchers(self) -> bool:
         """Whether any browser is connected."""
         return self.link.watchers > 0
+
+    def set_background(self, rgb: Rgb) -> None:
+        """Fills what lies behind everything with one colour."""
+        set_background(self.link.server, rgb)
 
     def set_pose(self, group: str, pose: Pose) -> None:
         """Places a group in the fixed frame; a new group stands at the identity.
@@ -214,6 +220,7 @@ class _Group:
         self._drawn[key] = (node, pose, drawn)
 
     def remove(self, link: Adapter) -> None:
+        link.late.drop(node_path(self._name))
         if self._handle is not None:
             self._handle.remove()
             link.count_removals(1 + len(self._drawn))
