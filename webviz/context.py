@@ -144,10 +144,16 @@ class Group:
         self.nodes[key] = nodes.Instances(xyz, sizes, _colors(colors), shape, turns, opacity)
 
     def image(
-        self, key: str, rgba: NDArray[np.uint8], width: float, height: float, layer: int = 0
+        self,
+        key: str,
+        cells: NDArray[np.uint8],
+        width: float,
+        height: float,
+        layer: int = 0,
+        palette: NDArray[np.uint8] | None = None,
     ) -> None:
         """Draw a flat picture; see `webviz.nodes.Image`."""
-        self.nodes[key] = nodes.Image(rgba, width, height, layer)
+        self.nodes[key] = nodes.Image(cells, width, height, layer, palette)
 
 
 class Background(Protocol):

@@ -18,6 +18,9 @@ U8 = NDArray[np.uint8]
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
+_COMPARED = 4096
+"""Rows of arrays that are compared at once."""
+
 
 class _Node:
     """Equality by content, so that the scene sends only what changed."""
@@ -28,19 +31,21 @@ class _Node:
         if type(self) is not type(other):
             return NotImplemented
         return all(
-            _same(getattr(self, f.name), getattr(other, f.name))
+            same(getattr(self, f.name), getattr(other, f.name))
             for f in fields(self)  # pyright: ignore[reportArgumentType]
         )
 
     __hash__ = None  # pyright: ignore[reportAssignmentType]
 
 
-def _same(a: object, b: object) -> bool:
+def same(a: object, b: object) -> bool:
+    """Whether two values are equal; arrays that differ are told apart without reading all."""
     if a is b:
         return True
-    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
-        return np.array_equal(a, b)  # pyright: ignore[reportArgumentType]
-    return a == b
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        parts = (slice(i, i + _COMPARED) for i in range(0, len(a), _COMPARED))
+        return a.shape == b.shape and all(np.array_equal(a[part], b[part]) for part in parts)
+    return not isinstance(a, np.ndarray) and not isinstance(b, np.ndarray) and a == b
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,15 +184,23 @@ class Image(_Node):
     """A flat picture in the x-y plane, unlit, with sharp cells (nearest filtering).
 
     Args:
-        rgba: uint8 (H, W, 4). As in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
+        cells: RGBA, uint8 (H, W, 4), or rows of `palette`, uint8 (H, W), which cost a fraction. As
+            in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
         width, height: extent along x and y in metres; the corner of cell (0, 0) is the origin.
         layer: of two pictures in one plane, the one of the higher layer lies on top.
+        palette: RGBA, uint8 (256, 4).
     """
 
-    rgba: U8
+    cells: U8
     width: float
     height: float
     layer: int = 0
+    palette: U8 | None = None
+
+    @property
+    def rgba(self) -> U8:
+        """The colours of all cells, uint8 (H, W, 4)."""
+        return self.cells if self.palette is None else self.palette[self.cells]
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Glb | Image

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic, compose
-from webviz_displays.palettes import colorize, lookup_table
+from webviz_displays.palettes import lookup_table
 from webviz_displays.tiles import Corner, GridFault, TiledGrid, tiled, updated
 
 OPAQUE = 0.9998
@@ -197,7 +197,8 @@ def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, 
         if old is None or old[0] is not cells:
             rows, columns = cells.shape
             width, height = columns * grid.resolution, rows * grid.resolution
-            old = (cells, Image(colorize(cells, look.table), width, height, look.layer))
+            image = Image(cells.view(np.uint8), width, height, look.layer, look.table)
+            old = (cells, image)
         tiles[corner] = old
     state["look"], state["tiles"] = look, tiles
     return {corner: image for corner, (_, image) in tiles.items()}

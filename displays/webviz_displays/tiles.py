@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from webviz import Pose
 from webviz_displays.geometry import normalized
 
-TILE = 256
+TILE = 512
 """Cells along the edge of a tile."""
 
 Corner = tuple[int, int]

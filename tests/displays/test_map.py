@@ -86,7 +86,7 @@ def test_a_map_is_drawn_cell_by_cell_in_the_colours_of_its_scheme(bench) -> None
 
 def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> None:
     at = bench(Map(alpha=1.0))
-    cells = np.random.default_rng(0).integers(-1, 101, (300, 520), np.int8)
+    cells = np.random.default_rng(0).integers(-1, 101, (TILE + 44, 2 * TILE + 8), np.int8)
     send_map(at, cells)
     assert len(at.nodes()) == 6
     assert all(max(node.rgba.shape[:2]) <= TILE for node in at.nodes().values())
@@ -97,12 +97,12 @@ def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(bench) -> None:
     at = bench(Map())
     half = math.radians(90) / 2
     yaw = (0.0, 0.0, math.sin(half), math.cos(half))
-    send_map(at, np.zeros((300, 300)), resolution=0.1, origin=(5.0, 7.0, 1.0), xyzw=yaw)
+    send_map(at, np.zeros((TILE + 44, TILE + 44)), resolution=0.1, origin=(5.0, 7.0, 1.0), xyzw=yaw)
     poses = at.poses()
     # Columns run along the origin's x, which is y of the map; rows along its y, which is -x.
     assert corner_of_cell(poses["tile 0 0"], 0, 0) == pytest.approx((5.0, 7.0, 1.0))
-    assert poses["tile 0 256"].position == pytest.approx((5.0, 7.0 + 25.6, 1.0))
-    assert poses["tile 256 0"].position == pytest.approx((5.0 - 25.6, 7.0, 1.0))
+    assert poses[f"tile 0 {TILE}"].position == pytest.approx((5.0, 7.0 + 0.1 * TILE, 1.0))
+    assert poses[f"tile {TILE} 0"].position == pytest.approx((5.0 - 0.1 * TILE, 7.0, 1.0))
     assert corner_of_cell(poses["tile 0 0"], 1.0, 2.0) == pytest.approx((3.0, 8.0, 1.0))
 
 
@@ -170,32 +170,32 @@ def test_a_map_in_a_new_fixed_frame_needs_no_new_message(bench) -> None:
 
 def test_an_update_changes_its_cells_and_makes_only_its_tiles_anew(bench) -> None:
     at = bench(Map(alpha=1.0))
-    cells = np.zeros((300, 300), np.int8)
+    cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
     before = at.nodes()
-    send_update(at, 250, 10, np.full((5, 10), 100))
+    send_update(at, TILE - 6, 10, np.full((5, 10), 100))
     after = at.nodes()
-    cells[10:15, 250:260] = 100
+    cells[10:15, TILE - 6 : TILE + 4] = 100
     assert (whole_picture(at) == colorize(cells, lookup_table("map"))).all()
     same = {key for key in after if after[key] is before[key]}
-    assert same == {"tile 256 0", "tile 256 256"}
+    assert same == {f"tile {TILE} 0", f"tile {TILE} {TILE}"}
     assert at.statuses()["Update"] == ("OK", "1 update since the last whole map.")
 
 
 def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(bench) -> None:
     at = bench(Map())
-    cells = np.zeros((300, 300), np.int8)
+    cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
     before = at.nodes()
-    cells[299, 299] = 100
+    cells[-1, -1] = 100
     send_map(at, cells)
     after = at.nodes()
-    assert {key for key in after if after[key] is not before[key]} == {"tile 256 256"}
+    assert {key for key in after if after[key] is not before[key]} == {f"tile {TILE} {TILE}"}
 
 
 def test_a_smaller_map_leaves_no_tile_of_the_larger_one(bench) -> None:
     at = bench(Map())
-    send_map(at, np.zeros((300, 300)))
+    send_map(at, np.zeros((TILE + 1, TILE + 1)))
     send_map(at, np.zeros((2, 2)))
     assert list(at.nodes()) == ["tile 0 0"]
 

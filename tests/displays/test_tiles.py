@@ -29,7 +29,7 @@ def cells_of(width: int, height: int):
 
 @st.composite
 def maps_with_updates(draw):
-    width, height = draw(st.sampled_from([(1, 1), (256, 3), (600, 2), (3, 513), (257, 257)]))
+    width, height = draw(st.sampled_from([(1, 1), (512, 3), (1200, 2), (3, 1025), (513, 513)]))
     cells = draw(cells_of(width, height))
     updates = []
     for _ in range(draw(st.integers(0, 4))):

@@ -44,11 +44,12 @@ NODES: dict[str, Callable[[], Node]] = {
 
 @pytest.fixture
 def sent(scene: Scene) -> Callable[[], int]:
-    """Flushes and counts the messages that this took."""
+    """Flushes and counts the messages that this took, late ones too."""
 
     def sent() -> int:
         before = scene.link.queued_messages
         scene.flush()
+        assert scene.link.late.wait(10.0)
         return scene.link.queued_messages - before
 
     return sent

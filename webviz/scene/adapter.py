@@ -20,6 +20,8 @@ from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
+from webviz.scene.late import Late
+
 # Removal messages that may wait in the buffer before browsers that do not read are let go.
 MAX_TOMBSTONES = 10_000
 _PRUNE_EVERY = 500
@@ -40,6 +42,8 @@ class Adapter:
         self._acknowledged: dict[str, set[int]] = {}
         self._answered = threading.Condition()
         self._removed = 0
+        self.late = Late()
+        """What is slow to make, and sent when it is made."""
         replay_live_messages_only(self._buffer)
         self._socket.register_handler(
             wire.LocalStorageGetItemResponseMessage, self._on_acknowledgement
@@ -118,6 +122,7 @@ class Adapter:
         asked = self.server.get_clients()
         deadline = time.monotonic() + timeout
         try:
+            self.late.wait(timeout)
             self._queue(shared)
             self.flush()
             for client in asked.values():

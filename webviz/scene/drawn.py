@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.nodes import U8, Rgb
+from webviz.nodes import U8, Rgb, same
 from webviz.scene.adapter import Adapter
 
 Props = dict[str, Any]
@@ -54,7 +54,7 @@ class SingleNode(ABC, Generic[NodeT]):
         """Sends the sets of properties that differ from those sent before."""
         sets = self.props(node)
         for index, props in enumerate(sets):
-            if index >= len(self._sent) or not _same(props, self._sent[index]):
+            if index >= len(self._sent) or not _is_same(props, self._sent[index]):
                 self._link.update(self._name, props)
         self._sent = sets
 
@@ -83,11 +83,5 @@ def finite_rows(*arrays: NDArray[np.floating[Any]]) -> NDArray[np.bool_] | None:
     return None if rows.all() else rows
 
 
-def _same(a: Props, b: Props) -> bool:
-    return all(_equal(a[name], b[name]) for name in a)
-
-
-def _equal(a: Any, b: Any) -> bool:
-    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
-        return a is b or np.array_equal(a, b)
-    return a == b
+def _is_same(a: Props, b: Props) -> bool:
+    return all(same(a[name], b[name]) for name in a)

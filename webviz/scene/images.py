@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import io
+import functools
 
 import numpy as np
-import PIL.Image
 from viser import ImageHandle
 
-from webviz.nodes import U8, Image
+from webviz.nodes import U8, Image, same
 from webviz.scene.adapter import Adapter
+from webviz.scene.png import encode_png
 
 # Cells per edge of a tile. An update sends only tiles that changed, and no texture comes near the
 # 8192 texels that every WebGL 2 browser of the last years has.
@@ -21,6 +21,9 @@ TILE_PREFIX = "%tile "
 Tile = tuple[int, int, int]
 """Layer, and row and column of the first cell. The page reads the layer from the name."""
 
+Extent = tuple[tuple[float, float], tuple[float, float]]
+"""Centre and size in metres."""
+
 _BLANK = np.zeros((1, 1, 4), np.uint8)
 
 
@@ -30,63 +33,93 @@ class ImageDrawn:
     viser's image is unlit, in exact colours, and shows the old texture until the new one is
     decoded, so an update never blanks. Its rows run along y already, for viser hangs images upside
     down. Sharp cells are the page's work (page.py).
+
+    Tiles are encoded beside the frame loop. So until a tile is dropped there, its handle belongs
+    to that thread.
     """
 
     def __init__(self, link: Adapter, name: str) -> None:
         self._link = link
         self._name = name
         self._frame = link.server.scene.add_frame(name, show_axes=False)
-        self._tiles: dict[Tile, ImageHandle] = {}
+        self._wanted: set[Tile] = set()
+        self._handles: dict[Tile, ImageHandle] = {}
+        self._extents: dict[Tile, Extent] = {}
         self._sent: Image | None = None
 
     def draw(self, node: Image) -> None:
-        """Sends the tiles that changed."""
+        """Sends the tiles that changed.
+
+        Raises:
+            ValueError: the cells are not as `Image` says.
+        """
+        cells, shape = node.cells, node.cells.shape
+        if cells.dtype != np.uint8 or shape[2:] != (() if node.palette is not None else (4,)):
+            raise ValueError(f"No picture can be made of cells {cells.dtype} {shape}.")
         old, self._sent = self._sent, node
-        rows, columns = node.rgba.shape[:2]
-        wanted = [(node.layer, y, x) for y in range(0, rows, TILE) for x in range(0, columns, TILE)]
-        for corner in set(self._tiles) - set(wanted):
-            self._tiles.pop(corner).remove()
-            self._link.count_removals(1)
-        for corner in wanted:
-            self._draw_tile(corner, node, old)
+        rows, columns = shape[:2]
+        wanted = {(node.layer, y, x) for y in range(0, rows, TILE) for x in range(0, columns, TILE)}
+        for tile in self._wanted - wanted:
+            self._drop(tile)
+        for tile in sorted(wanted):
+            if old is None or tile not in self._wanted or not _is_same(tile, node, old):
+                self._draw_tile(tile, node)
+        self._wanted = wanted
 
     def remove(self) -> None:
         """Takes the picture off the scene."""
-        self._link.count_removals(len(self._tiles))
+        for tile in self._wanted:
+            self._drop(tile)
         self._frame.remove()
 
-    def _draw_tile(self, corner: Tile, node: Image, old: Image | None) -> None:
-        name = f"{self._name}/{TILE_PREFIX}{corner[0]} {corner[1]} {corner[2]}"
-        cells = _cells(node, corner)
-        is_new = corner not in self._tiles
-        if is_new:
-            self._tiles[corner] = self._link.server.scene.add_image(
-                name, _BLANK, 1.0, 1.0, format="png", cast_shadow=False, receive_shadow=False
-            )
-        if is_new or old is None or not np.array_equal(cells, _cells(old, corner)):
-            self._link.update(name, {"_data": encode_png(cells), "_format": "png"})
-        extent = _extent(node, corner)
-        if is_new or old is None or extent != _extent(old, corner):
-            (x, y), (width, height) = extent
-            self._link.update(name, {"render_width": width, "render_height": height})
-            self._link.set_position(name, (x, y, 0.0))
+    def _draw_tile(self, tile: Tile, node: Image) -> None:
+        encode = functools.partial(encode_png, _cells(node, tile), node.palette)
+        send = functools.partial(self._send, tile, _extent(node, tile))
+        self._link.late.put(self._path(tile), encode, send)
+
+    def _send(self, tile: Tile, extent: Extent, png: bytes) -> None:
+        name = self._path(tile)
+        (x, y), (width, height) = extent
+        size = {"render_width": width, "render_height": height}
+        with self._link.atomic():
+            if tile not in self._handles:
+                self._handles[tile] = self._link.server.scene.add_image(
+                    name, _BLANK, 1.0, 1.0, format="png", cast_shadow=False, receive_shadow=False
+                )
+            self._link.update(name, {"_data": png, "_format": "png", **size})
+            if self._extents.get(tile) != extent:
+                self._extents[tile] = extent
+                self._link.set_position(name, (x, y, 0.0))
+        self._link.flush()
+
+    def _drop(self, tile: Tile) -> None:
+        self._link.late.drop(self._path(tile))
+        handle = self._handles.pop(tile, None)
+        if handle is not None:
+            handle.remove()
+            del self._extents[tile]
+            self._link.count_removals(1)
+
+    def _path(self, tile: Tile) -> str:
+        layer, y, x = tile
+        return f"{self._name}/{TILE_PREFIX}{layer} {y} {x}"
 
 
-def encode_png(rgba: U8) -> bytes:
-    """Encodes uint8 (H, W, 4) fast: a map is sent once, and it compresses well at any level."""
-    file = io.BytesIO()
-    PIL.Image.fromarray(np.ascontiguousarray(rgba)).save(file, "PNG", compress_level=1)
-    return file.getvalue()
+def _is_same(tile: Tile, new: Image, old: Image) -> bool:
+    return (
+        same(new.palette, old.palette)
+        and same(_cells(new, tile), _cells(old, tile))
+        and _extent(new, tile) == _extent(old, tile)
+    )
 
 
-def _cells(node: Image, corner: Tile) -> U8:
-    _, y, x = corner
-    return node.rgba[y : y + TILE, x : x + TILE]
+def _cells(node: Image, tile: Tile) -> U8:
+    _, y, x = tile
+    return node.cells[y : y + TILE, x : x + TILE]
 
 
-def _extent(node: Image, corner: Tile) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Centre and size of a tile in metres."""
-    height, width = _cells(node, corner).shape[:2]
-    dx, dy = node.width / node.rgba.shape[1], node.height / node.rgba.shape[0]
-    centre = ((corner[2] + width / 2) * dx, (corner[1] + height / 2) * dy)
+def _extent(node: Image, tile: Tile) -> Extent:
+    height, width = _cells(node, tile).shape[:2]
+    dx, dy = node.width / node.cells.shape[1], node.height / node.cells.shape[0]
+    centre = ((tile[2] + width / 2) * dx, (tile[1] + height / 2) * dy)
     return centre, (width * dx, height * dy)
