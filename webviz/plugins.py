@@ -96,7 +96,7 @@ class Watcher:
         self._ended = threading.Event()
         self._thread: threading.Thread | None = None
 
-    def start(self, enqueue: Callable[[Command], None]) -> None:
+    def start(self, enqueue: Callable[[Command], object]) -> None:
         """Look every second, in a thread, until `stop`."""
         if self._known:
             self._thread = threading.Thread(target=self._watch, args=[enqueue], daemon=True)
@@ -115,7 +115,7 @@ class Watcher:
         self._known = now
         return changed
 
-    def _watch(self, enqueue: Callable[[Command], None]) -> None:
+    def _watch(self, enqueue: Callable[[Command], object]) -> None:
         while not self._ended.wait(POLL_S):
             for path in self.look():
                 enqueue(ReloadPlugin(path))

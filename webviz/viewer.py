@@ -7,6 +7,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
@@ -48,6 +49,10 @@ FOLDER_S = 2.0
 """How often to look for config files that others wrote."""
 AUTOSAVE_S = 2.0
 MAX_COMMANDS = 1000
+
+
+class Refused(Exception):
+    """A command that cannot be done; one sentence says why."""
 
 
 class Scene(DrawingScene, Protocol):
@@ -104,7 +109,7 @@ class Viewer:
         self._show = show
         self._workers = Workers(self._wake)
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
-        self._commands: queue.Queue[Command] = queue.Queue(MAX_COMMANDS)
+        self._commands: queue.Queue[tuple[Command, Future[str]]] = queue.Queue(MAX_COMMANDS)
         self._answer = Answer()
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
@@ -119,13 +124,20 @@ class Viewer:
         """All that is shown besides displays."""
         return self._session.settings
 
-    def enqueue(self, command: Command) -> None:
-        """Ask for a change from any thread; it is done on the next turn of the loop."""
+    def enqueue(self, command: Command) -> Future[str]:
+        """Ask for a change from any thread; it is done on the next turn of the loop.
+
+        Returns:
+            What there is to tell of it, once it is done; a `Refused` if it could not be done.
+        """
+        answer: Future[str] = Future()
         try:
-            self._commands.put_nowait(command)
+            self._commands.put_nowait((command, answer))
         except queue.Full:
             log.warning("Too many requests at once, ignored: %s", command)
+            answer.set_exception(Refused("Too many requests at once."))
         self._wake()
+        return answer
 
     def stop(self) -> None:
         """End `run`, from any thread or a signal handler."""
@@ -212,27 +224,31 @@ class Viewer:
     def _obey(self) -> bool:
         obeyed = False
         while not self._commands.empty():
-            command = self._commands.get_nowait()
+            command, answer = self._commands.get_nowait()
             obeyed = True
-            self._in_one_sentence(lambda command=command: self._do(command))
+            try:
+                text = self._do_or_say_why(command)
+            except Refused as error:
+                log.warning("%s", error)
+                self._answer = Answer(self._answer.number + 1, Level.ERROR, str(error))
+                answer.set_exception(error)
+            else:
+                if text:
+                    self._answer = Answer(self._answer.number + 1, Level.OK, text)
+                answer.set_result(text)
         return obeyed
 
-    def _in_one_sentence(self, do: Callable[[], str | None]) -> None:
-        """Do something that people asked for, and tell what came of it."""
+    def _do_or_say_why(self, command: Command) -> str:
         try:
-            level, text = Level.OK, do()
-        except (ConfigError, plugins.PluginError) as error:
-            level, text = Level.ERROR, str(error)
+            return self._do(command)
+        except ConfigError as error:
+            raise Refused(str(error)) from error
         except msgspec.ValidationError as error:
-            level, text = Level.ERROR, f"Not changed: {config_file.describe(error)}."
+            raise Refused(f"Not changed: {config_file.describe(error)}.") from error
         except AttributeError as error:
-            level, text = Level.ERROR, f"Not changed: {error}."
-        if not text:
-            return
-        log.log(logging.INFO if level is Level.OK else logging.WARNING, "%s", text)
-        self._answer = Answer(self._answer.number + 1, level, text)
+            raise Refused(f"Not changed: {error}.") from error
 
-    def _do(self, command: Command) -> str | None:
+    def _do(self, command: Command) -> str:
         match command:
             case Reset():
                 self._reset()
@@ -248,7 +264,7 @@ class Viewer:
                 self._list.read_again()
             case _:
                 return self._session.do(command)
-        return None
+        return ""
 
     def _reset(self) -> None:
         self._listener.reset()
