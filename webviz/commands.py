@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -117,6 +118,19 @@ class Save:
 
 
 @dataclass(frozen=True)
+class Export:
+    """Hand what is shown to somebody as the text of a config, such as a browser that downloads it.
+
+    Args:
+        deliver: called with that text by the frame loop, so it must not block.
+        name: of the file it is for; RViz's text if it ends with .rviz, else YAML.
+    """
+
+    deliver: Callable[[str], None]
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class InspectTopic:
     """Follow a topic that need not be shown: its rate and its last message; "" is none."""
 
@@ -128,6 +142,11 @@ class InspectTransforms:
     """Report on the tree of transforms, or no longer."""
 
     inspect: bool = True
+
+
+@dataclass(frozen=True)
+class Refresh:
+    """Show a new state at once, since somebody asked a panel for something else of it."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +170,9 @@ Command = (
     | Open
     | Load
     | Save
+    | Export
     | InspectTopic
     | InspectTransforms
+    | Refresh
     | ReloadPlugin
 )
