@@ -1,0 +1,33 @@
+"""Sentences about what is wrong with a config."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+import msgspec
+
+MAX_HINTS = 40
+"""Valid words that an error lists; a tree of transforms may have a thousand frames."""
+
+
+class ConfigError(Exception):
+    """A file cannot be used; one sentence that names the file and the place in it."""
+
+
+def describe(error: msgspec.ValidationError) -> str:
+    """A validation error with its place first: ``displays[2].size: expected `float` > 0.0``."""
+    text, _, path = str(error).partition(" - at `")
+    place = path.removesuffix("`").lstrip("$").lstrip(".")
+    text = text[:1].lower() + text[1:]
+    return f"{place}: {text}" if place else text
+
+
+def nearest(word: str, valid: Iterable[str]) -> str:
+    """A hint at the valid word somebody may have meant, or the list of all."""
+    valid = sorted(valid)
+    close = difflib.get_close_matches(word, valid, n=1)
+    if close:
+        return f"did you mean `{close[0]}`?"
+    more = f" and {len(valid) - MAX_HINTS} more" if len(valid) > MAX_HINTS else ""
+    return f"known are: {', '.join(valid[:MAX_HINTS])}{more}"

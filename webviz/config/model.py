@@ -1,0 +1,88 @@
+"""What a config holds: settings, and the list of displays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+import msgspec
+
+from webviz.display import Color, Display, make
+from webviz.group import Group
+from webviz.registry import display_types
+from webviz.views import View
+
+VERSION = 1
+STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
+"""What is shown when nobody says what to show."""
+
+
+class Settings(msgspec.Struct, forbid_unknown_fields=True):
+    """What a config file says besides its displays."""
+
+    version: int = VERSION
+    fixed_frame: str = "map"
+    background: Color = (48, 48, 48)
+    frame_rate: Annotated[float, msgspec.Meta(ge=1, le=240)] = 60.0
+    view: View = View()
+    rviz: dict[str, Any] = {}  # msgspec copies it
+    """What a .rviz file says that has no counterpart here; kept for writing it again."""
+
+
+@dataclass
+class Unreadable:
+    """A display that cannot be shown: kept as it was written, and saved again so.
+
+    Args:
+        values: the entry of the file.
+        reason: a sentence with the place of the fault.
+    """
+
+    values: Any
+    reason: str
+
+    @property
+    def name(self) -> str:
+        """What the list of displays calls it."""
+        if isinstance(self.values, Mapping):
+            return str(self.values.get("name") or self.values.get("type") or "?")
+        return "?"
+
+    @property
+    def is_from_rviz(self) -> bool:
+        """Whether it is kept of a .rviz file, for want of a counterpart."""
+        return isinstance(self.values, Mapping) and "rviz" in self.values
+
+
+@dataclass
+class Branch:
+    """A group and what is in it, in order."""
+
+    group: Group
+    displays: list[Item]
+
+
+Item = Display | Unreadable | Branch
+"""What a list of displays consists of."""
+
+
+@dataclass
+class Config:
+    """A whole config.
+
+    Args:
+        settings: all but the displays.
+        displays: in order.
+        report: sentences on what could not be read from RViz's config file.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    displays: list[Item] = field(default_factory=list)
+    report: list[str] = field(default_factory=list)
+
+
+def standard() -> Config:
+    """What is shown without a config file: the usual displays on their usual topics."""
+    types = display_types()
+    return Config(displays=[make(types[name], {}) for name in STANDARD if name in types])
