@@ -161,9 +161,9 @@ class Viewer:
 
     def close(self) -> None:
         """End the slow work beside the loop, and keep the last state if that is wanted."""
+        self._workers.close()
         if keep := self._session.keep():
             keep()
-        self._workers.close()
 
     def turn(self) -> None:
         """One turn of the frame loop."""

@@ -1,0 +1,256 @@
+"""What people do to a viewer: files, copies, moves, settings; and what came of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from webviz.commands import (
+    AddDisplay,
+    Command,
+    DuplicateDisplay,
+    Load,
+    MoveDisplay,
+    Open,
+    Save,
+    SetBackground,
+    SetFrameRate,
+    SetProperty,
+)
+from webviz.config import Branch, Unreadable, load
+from webviz.group import Group
+from webviz.state import File, State
+from webviz.status import Level
+from webviz_displays.axes import Axes
+
+
+def do(b: Any, command: Command) -> State:
+    """What the panel shows after a command."""
+    b.viewer.enqueue(command)
+    b.turn()
+    return b.states[-1]
+
+
+def names(state: State) -> list[str]:
+    """The list of displays, indented as in the panel."""
+    return ["  " * row.depth + row.name for row in state.rows]
+
+
+def file_of(b: Any) -> File:
+    b.turn()
+    return b.states[-1].file
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder in which webviz was started."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# Files
+
+
+def test_a_config_is_saved_under_a_name_and_then_again_without(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench(Axes(name="A"))
+    state = do(b, Save("lab.yaml"))
+    assert (state.answer.level, state.answer.text) == (Level.OK, "Saved lab.yaml.")
+    assert state.file.path == str(folder / "lab.yaml")
+    do(b, SetProperty("display1", "length", 2.5))
+    do(b, Save())
+    assert "length: 2.5" in (folder / "lab.yaml").read_text()
+
+
+def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:
+    answer = do(bench(Axes(name="A")), Save()).answer
+    assert answer.level is Level.ERROR
+    assert answer.text == "This config has no file yet: give it a name."
+
+
+def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench(Axes(name="A"))
+    assert not file_of(b).is_changed
+    assert do(b, SetProperty("display1", "length", 2.5)).file.is_changed
+    assert not do(b, SetProperty("display1", "length", 1.0)).file.is_changed
+    assert do(b, SetBackground((1, 2, 3))).file.is_changed
+    assert not do(b, Save("a.yaml")).file.is_changed
+
+
+def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., Any]) -> None:
+    b = bench(Axes(name="A"))
+    do(b, Save("a.yaml"))
+    (folder / "b.yaml").write_text("fixed_frame: odom\ndisplays:\n- {type: Axes, name: B}\n")
+    b.transform("map", "base", 0, static=True)
+    assert b.scene.groups
+    state = do(b, Open("b.yaml"))
+    assert (state.fixed_frame, names(state)) == ("odom", ["B"])
+    assert state.answer.text == "Opened b.yaml."
+    assert state.file == File(str(folder / "b.yaml"), False, str(folder), ("a.yaml", "b.yaml"))
+    assert not any(group.startswith("display1") for group in b.scene.groups)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (None, "Cannot read"),
+        ("a: [", "is not valid YAML"),
+        ("version: 99", "update webviz"),
+        ("fixed_fram: x", "did you mean `fixed_frame`?"),
+    ],
+)
+def test_a_file_that_cannot_be_opened_changes_nothing(
+    folder: Path, bench: Callable[..., Any], text: str | None, sentence: str
+) -> None:
+    b = bench(Axes(name="A"))
+    if text is not None:
+        (folder / "bad.yaml").write_text(text)
+    state = do(b, Open("bad.yaml"))
+    assert state.answer.level is Level.ERROR
+    assert sentence in state.answer.text
+    assert (names(state), state.file.path) == (["A"], "")
+
+
+def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench()
+    state = do(b, Load("displays:\n- {type: Axes, name: Up}\n", "up.yaml"))
+    assert (names(state), state.file.path, state.file.is_changed) == (["Up"], "", True)
+    rviz = "Visualization Manager: {Displays: [{Class: rviz_default_plugins/Axes, Name: R}]}"
+    assert names(do(b, Load(rviz, "x.rviz"))) == ["R"]
+    assert not list(folder.iterdir())
+
+
+def test_a_file_in_a_folder_that_cannot_be_written_is_told(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    answer = do(bench(Axes(name="A")), Save("nowhere/lab.yaml")).answer
+    assert answer.level is Level.ERROR
+    assert "No such file or directory" in answer.text
+
+
+def test_the_config_files_of_the_folder_are_on_offer(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    for name in ("b.rviz", "a.yml", "notes.txt"):
+        (folder / name).write_text("")
+    assert file_of(bench()).others == ("a.yml", "b.rviz")
+
+
+def test_the_last_session_is_kept_in_a_file_of_its_own(
+    tmp_path: Path, bench: Callable[..., Any]
+) -> None:
+    path = tmp_path / "deep" / "last.yaml"
+    b = bench(Axes(name="A"), autosave=path)
+    do(b, SetProperty("display1", "length", 2.5))
+    b.viewer.close()
+    [axes] = load(path).displays
+    assert isinstance(axes, Axes)
+    assert axes.length == 2.5
+
+
+@pytest.mark.skipif(os.geteuid() == 0 and not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_session_that_cannot_be_kept_is_logged(
+    bench: Callable[..., Any], caplog: pytest.LogCaptureFixture
+) -> None:
+    bench(Axes(name="A"), autosave=Path("/dev/null/last.yaml")).viewer.close()
+    assert "The session is not kept" in caplog.text
+
+
+# The list
+
+
+def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Axes(name="A", length=3.0), Axes(name="B"))
+    assert names(do(b, DuplicateDisplay("display1"))) == ["A", "A 2", "B"]
+    state = do(b, DuplicateDisplay("display1"))
+    assert names(state) == ["A", "A 3", "A 2", "B"]
+    copy = state.rows[1].display
+    assert isinstance(copy, Axes)
+    assert copy.length == 3.0
+    do(b, SetProperty("display1", "length", 1.0))
+    assert copy.length == 3.0
+
+
+def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> None:
+    unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
+    group = Branch(Group(name="G"), [Axes(name="A"), Branch(Group(name="H"), [unreadable])])
+    b = bench(group, Axes(name="B"))
+    state = do(b, DuplicateDisplay("display1"))
+    assert names(state) == ["G", "  A", "  H", "    Gone", "G 2", "  A", "  H", "    Gone", "B"]
+
+
+def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Branch(Group(name="G"), [Axes(name="A")]), Axes(name="B"), Axes(name="C"))
+    g, a, first, c = (row.id for row in b.states[-1].rows)
+    assert names(do(b, MoveDisplay(c, before=first))) == ["G", "  A", "C", "B"]
+    assert names(do(b, MoveDisplay(first, g, before=a))) == ["G", "  B", "  A", "C"]
+    assert names(do(b, MoveDisplay(g))) == ["C", "G", "  B", "  A"]
+    assert names(do(b, MoveDisplay(a))) == ["C", "G", "  B", "A"]
+    assert names(do(b, MoveDisplay(a, g))) == ["C", "G", "  B", "  A"]
+
+
+def test_a_group_is_not_moved_into_itself(bench: Callable[..., Any]) -> None:
+    b = bench(Branch(Group(name="G"), [Branch(Group(name="H"), [Axes(name="A")])]))
+    g, h, _ = (row.id for row in b.states[-1].rows)
+    before = names(b.states[-1])
+    for target in (g, h):
+        assert names(do(b, MoveDisplay(g, target))) == before
+    assert names(do(b, MoveDisplay("gone", g))) == before
+
+
+def test_a_display_that_is_moved_into_a_group_that_is_off_is_hidden(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Group(name="Off", enabled=False), Axes(name="A"))
+    b.transform("map", "base", 0, static=True)
+    b.turn()
+    assert list(b.scene.visible())
+    do(b, MoveDisplay("display2", "display1"))
+    assert not list(b.scene.visible())
+
+
+# Settings and answers
+
+
+def test_background_and_frame_rate_are_set(bench: Callable[..., Any]) -> None:
+    b = bench()
+    settings = do(b, SetBackground((1, 2, 3))).settings
+    assert (settings.background, b.scene.background) == ((1, 2, 3), (1, 2, 3))
+    assert do(b, SetFrameRate(10.0)).settings.frame_rate == 10.0
+
+
+@pytest.mark.parametrize(
+    ("command", "sentence"),
+    [
+        (SetFrameRate(0.0), "Not changed: frame_rate: "),
+        (SetProperty("display1", "length", -1.0), "Not changed: length: "),
+        (SetProperty("display1", "lenth", 1.0), "Not changed: Axes has no property 'lenth'."),
+        (AddDisplay("Axis"), "There is no display type `Axis`: did you mean `Axes`?"),
+    ],
+)
+def test_what_is_refused_is_told_and_changes_nothing(
+    bench: Callable[..., Any], command: Command, sentence: str
+) -> None:
+    b = bench(Axes(name="A"))
+    before = b.viewer.config()
+    future = b.viewer.enqueue(command)
+    b.turn()
+    answer = b.states[-1].answer
+    assert answer.level is Level.ERROR
+    assert answer.text.startswith(sentence)
+    assert str(future.exception(timeout=0)) == answer.text
+    assert b.viewer.config().settings == before.settings
+    assert names(b.states[-1]) == ["A"]
