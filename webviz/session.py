@@ -15,6 +15,7 @@ from webviz.commands import (
     AddDisplay,
     Command,
     DuplicateDisplay,
+    Export,
     Load,
     MoveDisplay,
     Open,
@@ -106,6 +107,8 @@ class Session:
                 return self._load(text, name)
             case Save(path):
                 return self._save(path)
+            case Export(deliver, name):
+                deliver(self._text(name))
         return ""
 
     def look(self) -> None:
@@ -177,6 +180,12 @@ class Session:
         self._saved = config_file.document(self.config())
         self._is_changed = False
         return f"Saved {target.name}."
+
+    def _text(self, name: str) -> str:
+        config = self.config()
+        return (
+            rviz.write(config)[0] if config_file.is_rviz(Path(name)) else config_file.dump(config)
+        )
 
     def _show(self, config: Config) -> None:
         self.displays.clear()

@@ -21,6 +21,7 @@ from webviz.commands import (
     InspectTopic,
     InspectTransforms,
     Pause,
+    Refresh,
     ReloadPlugin,
     Reset,
 )
@@ -259,6 +260,8 @@ class Viewer:
                 self._monitor.inspected = topic
             case InspectTransforms(inspect):
                 self._inspects_transforms = inspect
+            case Refresh():
+                pass  # every command is followed by a new state
             case ReloadPlugin(path):
                 plugins.reload(path, self._list.runners())
                 self._list.read_again()

@@ -13,6 +13,7 @@ from webviz.commands import (
     AddDisplay,
     Command,
     DuplicateDisplay,
+    Export,
     Load,
     MoveDisplay,
     Open,
@@ -21,7 +22,7 @@ from webviz.commands import (
     SetFrameRate,
     SetProperty,
 )
-from webviz.config import Branch, Unreadable, load
+from webviz.config import Branch, Unreadable, load, parse
 from webviz.group import Group
 from webviz.state import File, State
 from webviz.status import Level
@@ -163,6 +164,14 @@ def test_a_session_that_cannot_be_kept_is_logged(
 ) -> None:
     bench(Axes(name="A"), autosave=Path("/dev/null/last.yaml")).viewer.close()
     assert "The session is not kept" in caplog.text
+
+
+def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any]) -> None:
+    b, texts = bench(Axes(name="A")), list[str]()
+    do(b, Export(texts.append))
+    do(b, Export(texts.append, "a.rviz"))
+    assert [type(d) for d in parse(texts[0], "a.yaml").displays] == [Axes]
+    assert "Class: rviz_default_plugins/Axes" in texts[1]
 
 
 # The list
