@@ -17,6 +17,17 @@ PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
 
+class StudioScene(Scene):
+    """A scene that is only kept up to date while a picture is wanted."""
+
+    is_watched = True
+    """Whether the page counts as a watcher; without one, viewers draw nothing."""
+
+    def has_watchers(self) -> bool:
+        """Whether anybody looks."""
+        return self.is_watched and super().has_watchers()
+
+
 class Studio:
     """Draws `scene`, which anybody may fill, as a browser shows it to people.
 
@@ -35,7 +46,7 @@ class Studio:
         self.server = open_server(port=0)
         self._page: Page | None = None
         try:
-            self.scene = Scene(self.server)
+            self.scene = StudioScene(self.server)
             self.set_background(background)
             self._page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             self._page.wait_for(self.server.get_clients, "the page is connected")
