@@ -12,7 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 import viser
 
-from webviz.commands import Command, SetProperty
+from webviz.commands import Command, Refresh, SetProperty
 from webviz.display import Color, Display, Input, Prop, Topic, set_property
 from webviz.gui import Panel
 from webviz.scene import open_server
@@ -62,9 +62,13 @@ class Loop:
         self.panel.update(self.state)
 
     def drain(self) -> None:
-        """Collect what was enqueued."""
+        """Collect what was enqueued, and answer what only asks for a new state."""
         while not self._queue.empty():
-            self.commands.append(self._queue.get())
+            command = self._queue.get()
+            if isinstance(command, Refresh):
+                self.panel.update(self.state)
+            else:
+                self.commands.append(command)
 
     def turn(self) -> None:
         """Obey the property changes that are valid, and update the panel."""

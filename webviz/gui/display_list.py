@@ -13,9 +13,14 @@ from webviz.gui.text import MARKS, plain
 from webviz.state import Row
 from webviz.status import Level
 
+GROUP = "Group"
+"""The type of rows that others can be in."""
+
 
 class DisplayList:
     """Rows of a check box and a button that selects the display.
+
+    A click on a group that is selected already folds it, or unfolds it again.
 
     Args:
         gui: viser's GUI.
@@ -36,6 +41,8 @@ class DisplayList:
         self._enqueue = enqueue
         self._select = select
         self._rows: dict[str, _Line] = {}
+        self._folded: set[str] = set()
+        self._selected: str | None = None
         self._ids: tuple[str, ...] = ()
         self._look: list[Look] = []
         self._folder = gui.add_folder("Displays", order=order)
@@ -47,10 +54,18 @@ class DisplayList:
         if (ids := tuple(row.id for row in rows)) != self._ids:
             self._ids = ids
             self._arrange(rows)
+        self._selected = selected
         look = []
+        folded_at: int | None = None  # depth of the folded group that the next rows are in
         for row in rows:
+            line = self._rows[row.id]
+            if folded_at is not None and row.depth > folded_at:
+                line.show(False)
+                continue
+            line.show(True)
+            folded_at = row.depth if row.id in self._folded else None
             level = row.level
-            self._rows[row.id].update(row, level)
+            line.update(row, level, row.id in self._folded)
             bright = _enabled(row) or row.display is None
             look.append(Look(level, bright, row.id == selected, row.depth))
         if look != self._look:
@@ -60,12 +75,18 @@ class DisplayList:
     def _arrange(self, rows: Sequence[Row]) -> None:
         for gone in self._rows.keys() - set(self._ids):
             self._rows.pop(gone).remove()
+            self._folded.discard(gone)
         with self._folder:
             for row in rows:
                 if row.id not in self._rows:
-                    self._rows[row.id] = _Line(self._gui, row, self._enqueue, self._select)
+                    self._rows[row.id] = _Line(self._gui, row, self._enqueue, self._click)
         for index, id_ in enumerate(self._ids):
             self._rows[id_].place(index)
+
+    def _click(self, row: Row) -> None:
+        if row.type == GROUP and row.id == self._selected:
+            self._folded ^= {row.id}
+        self._select(row.id)
 
 
 class _Line:
@@ -76,23 +97,30 @@ class _Line:
         gui: viser.GuiApi,
         row: Row,
         enqueue: Callable[[Command], None],
-        select: Callable[[str], None],
+        click: Callable[[Row], None],
     ) -> None:
         self._box = gui.add_checkbox("", _enabled(row))
         self._control = Control(
             self._box, lambda value: enqueue(SetProperty(row.id, "enabled", value))
         )
         self._button = gui.add_button("")
-        self._button.on_click(lambda _: select(row.id))
-        self._shown: tuple[str, Level, bool] | None = None
+        self._button.on_click(lambda _: click(row))
+        self._shown: tuple[str, Level, bool, bool] | None = None
+        self._visible = True
 
-    def update(self, row: Row, level: Level) -> None:
+    def update(self, row: Row, level: Level, folded: bool) -> None:
         self._control.show(_enabled(row))
-        shown = (row.name, level, row.display is None)
+        shown = (row.name, level, row.display is None, folded)
         if shown != self._shown:
             self._shown = shown
-            self._button.label = f"{MARKS[level]} {plain(row.name)}".strip()
+            fold = ("▸" if folded else "▾") if row.type == GROUP else ""
+            self._button.label = f"{fold} {MARKS[level]} {plain(row.name)}".strip()
             self._box.disabled = row.display is None
+
+    def show(self, visible: bool) -> None:
+        if visible != self._visible:
+            self._visible = visible
+            self._box.visible = self._button.visible = visible
 
     def place(self, index: int) -> None:
         self._box.order = 2.0 * index

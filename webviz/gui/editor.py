@@ -8,12 +8,13 @@ from typing import Any
 
 import viser
 
-from webviz.commands import Command, RemoveDisplay, SetProperty
+from webviz.commands import Command, SetProperty
 from webviz.display import Display, Input
 from webviz.gui.control import Choice, Control
 from webviz.gui.controls import add_control
 from webviz.gui.properties import Property, properties_of
 from webviz.gui.text import StatusLines, plain
+from webviz.gui.toolbar import Actions, Toolbar
 from webviz.state import Row, State
 
 FIXED_FRAME = "<Fixed Frame>"
@@ -29,6 +30,7 @@ class Editor:
         gui: viser's GUI.
         row: the display.
         enqueue: takes commands, from any thread.
+        actions: what can be done with the display as a whole.
         order: place in the panel.
     """
 
@@ -37,6 +39,7 @@ class Editor:
         gui: viser.GuiApi,
         row: Row,
         enqueue: Callable[[Command], None],
+        actions: Actions,
         order: float,
     ) -> None:
         self._gui = gui
@@ -48,13 +51,12 @@ class Editor:
         self._topics = Topics()
         self._folder = gui.add_folder(_title(row), order=order)
         with self._folder:
+            self._toolbar = Toolbar(gui, enqueue, actions)
             self._statuses = StatusLines(gui)
             if row.display is not None:
                 for declared in properties_of(type(row.display)):
                     if declared.path not in IN_THE_LIST:
                         self._add(declared, row.display)
-            remove = gui.add_button("Remove", icon=viser.Icon.TRASH, color="gray")
-            remove.on_click(lambda _: enqueue(RemoveDisplay(row.id)))
 
     def fits(self, row: Row) -> bool:
         """Whether this editor has the controls for that display."""
@@ -63,6 +65,7 @@ class Editor:
     def update(self, row: Row, state: State) -> None:
         """Show the display as it is now."""
         self._folder.label = _title(row)
+        self._toolbar.update()
         self._statuses.show(row.statuses)
         if row.display is None:
             return

@@ -1,4 +1,4 @@
-"""Style sheets that make of viser's widgets a list of displays as RViz has it.
+"""Style sheets that make of viser's widgets a panel as RViz has it.
 
 Each belongs to an HTML element in a folder and is for the widgets that follow it there; a browser
 that does not know `:has` shows them as viser does. They are made of constants and numbers only.
@@ -39,9 +39,28 @@ def list_style(rows: Sequence[Look]) -> str:
     return f'<div class="webviz-list"><style>{"".join(rules)}</style></div>'
 
 
-def row_style() -> str:
-    """A choice and a button beside each other."""
-    return f'<div class="webviz-row"><style>{_ROW}</style></div>'
+def row_style(columns: str, count: int) -> str:
+    """The widgets that follow are beside each other.
+
+    Args:
+        columns: of a CSS grid.
+        count: how many widgets; those after them have the whole width.
+    """
+    cells = f"{_ROW_BOX} > :nth-child(-n+{count + 1})"
+    rules = f"{_ROW_BOX} {{ grid-template-columns: {columns}; }} {cells} {{ grid-column: auto; }}"
+    for rule in _CELLS:
+        rules += rule.replace("CELL", cells)
+    return f'<div class="webviz-row"><style>{_ROW}{rules}</style></div>'
+
+
+def picks_style() -> str:
+    """Check boxes on the left of their labels, with little space between."""
+    return f'<div class="webviz-picks"><style>{_PICKS}</style></div>'
+
+
+def panel_style() -> str:
+    """What holds for the whole panel, on screens that are touched too."""
+    return f"<style>{_PANEL}</style>"
 
 
 _LIST_BOX = ":has(> div > .webviz-list)"
@@ -63,14 +82,42 @@ _LIST = f"""
   display: block; height: auto; text-box: normal; line-height: 1.5;
   overflow: hidden; text-overflow: ellipsis;
 }}
+@media (pointer: coarse) {{
+  {_LIST_BOX} {{ grid-template-columns: 2.6em minmax(0, 1fr); max-height: none; }}
+  {_LIST_BOX} button {{ height: 2.4em !important; }}
+}}
 """
 
 _ROW_BOX = ":has(> div > .webviz-row)"
 _ROW = f"""
-{_ROW_BOX} {{ display: flex; padding-right: 0.6em; }}
+{_ROW_BOX} {{ display: grid; align-items: start; }}
+{_ROW_BOX} > * {{ grid-column: 1 / -1; min-width: 0; }}
 {_ROW_BOX} > :first-child {{ display: none; }}
-{_ROW_BOX} > :nth-child(2) {{ flex: 1; }}
-{_ROW_BOX} > :nth-child(2) > div > :first-child:not(:last-child) {{ display: none; }}
-{_ROW_BOX} > :nth-child(3) {{ margin: 0 !important; }}
-{_ROW_BOX} button {{ height: 1.625rem !important; padding: 0 1em; }}
+"""
+_CELLS = (
+    "CELL { margin: 0 !important; padding: 0 0.25em 0.5em !important; }",
+    "CELL > div > :first-child:not(:last-child) { display: none; }",
+    "CELL button { height: 1.625rem !important; padding: 0 0.4em; font-size: 0.75rem; }",
+    "@media (pointer: coarse) { CELL button { height: 2.2rem !important; } }",
+)
+
+_PICKS_BOX = ":has(> div > .webviz-picks)"
+_PICKS = f"""
+{_PICKS_BOX} {{ max-height: 45vh; overflow-y: auto; padding: 0.6em 0.4em 0.2em; }}
+{_PICKS_BOX} > :first-child {{ display: none; }}
+{_PICKS_BOX} > div {{ padding-bottom: 0.35em; }}
+{_PICKS_BOX} > div > div {{ flex-direction: row-reverse; gap: 0.6em; }}
+{_PICKS_BOX} > div > div > :first-child {{ flex: 1; padding: 0; }}
+{_PICKS_BOX} > div > div > :last-child {{ flex: none !important; }}
+"""
+
+_PANEL = """
+.webviz-block {
+  margin: 0; padding: 0 0.75em 0.75em; font-size: 0.75em; line-height: 1.45;
+  overflow-x: auto; white-space: pre;
+}
+.webviz-table { width: 100%; border-collapse: collapse; font-size: 0.85em; line-height: 1.35; }
+.webviz-table td { padding: 0.15em 0.9em; vertical-align: top; overflow-wrap: anywhere; }
+.webviz-table td:last-child { text-align: right; font-variant-numeric: tabular-nums; }
+.webviz-table small { opacity: 0.65; }
 """

@@ -16,12 +16,14 @@ from webviz.status import Level, Status
 
 MAX_LINE = 300
 MAX_STATUSES = 40
+MAX_LINES = 1000
 
 # Control characters, line ends, marks that reverse what follows, and lone surrogates.
 _UNSENDABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
 
 # RViz's colours for warnings and errors, brightened for a dark background.
 COLORS = {Level.OK: "", Level.WARN: "#e0a030", Level.ERROR: "#ff6b6b"}
+_NOTE = "padding:0 0.75em 0.6em;font-size:0.85em;line-height:1.4;overflow-wrap:anywhere"
 MARKS = {Level.OK: "", Level.WARN: "▲", Level.ERROR: "✖"}
 
 
@@ -34,6 +36,23 @@ def plain(text: str, length: int = MAX_LINE) -> str:
 def escape(text: str) -> str:
     """Text for an HTML element or attribute, shown literally."""
     return html.escape(plain(text), quote=True)
+
+
+def note_html(text: str, is_warning: bool = False) -> str:
+    """A sentence between controls, "" for none."""
+    if not text:
+        return ""
+    color = f"color:{COLORS[Level.WARN]}" if is_warning else "opacity:0.75"
+    return f'<div style="{_NOTE};{color}">{escape(text)}</div>'
+
+
+def block_html(text: str) -> str:
+    """Many lines, shown literally with letters of one width; of very many the first."""
+    lines = text.split("\n")
+    shown = "\n".join(html.escape(plain(line)) for line in lines[:MAX_LINES])
+    if more := len(lines) - MAX_LINES:
+        shown += f"\n… and {more} more lines" if more > 0 else ""
+    return f'<pre class="webviz-block">{shown}</pre>'
 
 
 class StatusLines:
@@ -63,8 +82,7 @@ def statuses_html(statuses: Mapping[str, Status]) -> str:
     rows = [_row(key, status) for key, status in lines]
     if more := len(statuses) - len(lines):
         rows.append(f"<div>… and {more} more</div>")
-    style = "padding:0 0.75em 0.6em;font-size:0.85em;line-height:1.4;overflow-wrap:anywhere"
-    return f'<div class="webviz-statuses" style="{style}">{"".join(rows)}</div>'
+    return f'<div class="webviz-statuses" style="{_NOTE}">{"".join(rows)}</div>'
 
 
 def _row(key: str, status: Status) -> str:

@@ -1,0 +1,45 @@
+"""The file of the viewer: where it is saved, and what opens instead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import viser
+
+from webviz.commands import Command, Save
+from webviz.gui.dialogs import Dialogs
+from webviz.gui.file_dialogs import OpenFile, SaveAs
+from webviz.state import File, State
+
+
+class Files:
+    """What can be done with the file.
+
+    Args:
+        dialogs: opens dialogs.
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(self, dialogs: Dialogs, enqueue: Callable[[Command], None]) -> None:
+        self._dialogs = dialogs
+        self._enqueue = enqueue
+        self._file = File()
+
+    def update(self, state: State) -> None:
+        """Know where the viewer saves."""
+        self._file = state.file
+
+    def save(self, client: viser.ClientHandle | None) -> None:
+        """Save, and ask for a name if there is none."""
+        if self._file.path:
+            self._enqueue(Save())
+        else:
+            self.save_as(client)
+
+    def save_as(self, client: viser.ClientHandle | None) -> None:
+        """Ask for a name, and save."""
+        self._dialogs.open(client, lambda client: SaveAs(client, self._enqueue, self._file))
+
+    def open(self, client: viser.ClientHandle | None) -> None:
+        """Ask for a file, and open it."""
+        self._dialogs.open(client, lambda client: OpenFile(client, self._enqueue, self._file))

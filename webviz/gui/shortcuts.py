@@ -1,0 +1,51 @@
+"""Keys, and commands of the palette that Ctrl+K opens.
+
+RViz's own keys where a browser leaves them to a page. Not those of RViz that open a window, reload
+or close a tab in a browser (Ctrl+N, R, X), nor W, A, S, D, Q, E and arrows, which move the camera.
+viser does not call them while somebody types.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from webviz.commands import Command, Reset
+from webviz.gui.displays_tab import DisplaysTab
+from webviz.gui.files import Files
+from webviz.gui.time_tab import TimeTab
+
+
+def add_shortcuts(
+    gui: viser.GuiApi,
+    enqueue: Callable[[Command], None],
+    displays: DisplaysTab,
+    files: Files,
+    time: TimeTab,
+) -> None:
+    """Register the commands of the panel in every browser.
+
+    Args:
+        gui: viser's GUI.
+        enqueue: takes commands, from any thread.
+        displays, files, time: what they act on.
+    """
+
+    def add(label: str, act: Callable[[Any], None], **options: Any) -> None:
+        command = gui.add_command(label, **options)
+
+        @command.on_trigger
+        def _(event: viser.CommandEvent) -> None:
+            act(event.client)
+
+    ctrl, ctrl_shift = "cmd/ctrl", "cmd/ctrl+shift"
+    add("Save", files.save, hotkey="S", modifier=ctrl, icon=viser.Icon.DEVICE_FLOPPY)
+    add("Save as", files.save_as, hotkey="S", modifier=ctrl_shift)
+    add("Open", files.open, hotkey="O", modifier=ctrl, icon=viser.Icon.FOLDER_OPEN)
+    add("Reset", lambda _: enqueue(Reset()), hotkey="R", icon=viser.Icon.REFRESH)
+    add("Pause or resume", lambda _: time.toggle(), icon=viser.Icon.PLAYER_PAUSE)
+    add("Add displays by topic", displays.add_by_topic, hotkey="insert", icon=viser.Icon.PLUS)
+    add("Duplicate display", lambda _: displays.duplicate(), icon=viser.Icon.COPY)
+    add("Remove display", lambda _: displays.remove(), hotkey="delete", icon=viser.Icon.TRASH)
