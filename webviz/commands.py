@@ -19,13 +19,25 @@ class SetProperty:
     value: Any
 
 
+def nobody(id: str) -> None:
+    """Tell nobody the id of a display that was made."""
+
+
 @dataclass(frozen=True)
 class AddDisplay:
-    """Add a display at the end of the list, or of a group."""
+    """Add a display at the end of the list, or of a group.
+
+    Args:
+        type: name of the display type.
+        values: its properties, as in a config file.
+        group: where to; "" is the list itself.
+        made: called with the id of the new display by the frame loop, so it must not block.
+    """
 
     type: str
     values: dict[str, Any] = field(default_factory=dict)
     group: str = ""
+    made: Callable[[str], None] = nobody
 
 
 @dataclass(frozen=True)
@@ -37,9 +49,15 @@ class RemoveDisplay:
 
 @dataclass(frozen=True)
 class DuplicateDisplay:
-    """Add a copy right behind a display, or a group with all that is in it."""
+    """Add a copy right behind a display, or a group with all that is in it.
+
+    Args:
+        display: what to copy.
+        made: called with the id of the copy by the frame loop, so it must not block.
+    """
 
     display: str
+    made: Callable[[str], None] = nobody
 
 
 @dataclass(frozen=True)

@@ -87,12 +87,13 @@ class Session:
         match command:
             case SetProperty(id, path, value):
                 self.displays.set(id, path, value)
-            case AddDisplay(type, values, group):
-                self.displays.add(_new(type, values), self.displays.group(group))
+            case AddDisplay(type, values, group, made):
+                made(self.displays.add(_new(type, values), self.displays.group(group)).id)
             case RemoveDisplay(id):
                 self.displays.remove(id)
-            case DuplicateDisplay(id):
-                self.displays.duplicate(id)
+            case DuplicateDisplay(id, made):
+                if twin := self.displays.duplicate(id):
+                    made(twin.id)
             case MoveDisplay(id, group, before):
                 self.displays.move(id, group, before)
             case SetFixedFrame(frame):

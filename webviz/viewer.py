@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import logging
 import queue
 import threading
@@ -28,6 +29,7 @@ from webviz.commands import (
 from webviz.config import Config, ConfigError, Settings
 from webviz.display import Color
 from webviz.display_list import DisplayList
+from webviz.errors import Error
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
@@ -52,7 +54,7 @@ AUTOSAVE_S = 2.0
 MAX_COMMANDS = 1000
 
 
-class Refused(Exception):
+class Refused(Error):
     """A command that cannot be done; one sentence says why."""
 
 
@@ -129,7 +131,8 @@ class Viewer:
         """Ask for a change from any thread; it is done on the next turn of the loop.
 
         Returns:
-            What there is to tell of it, once it is done; a `Refused` if it could not be done.
+            What there is to tell of it, once it is done, drawn and shown; a `Refused` if it could
+            not be done.
         """
         answer: Future[str] = Future()
         try:
@@ -168,7 +171,7 @@ class Viewer:
 
     def turn(self) -> None:
         """One turn of the frame loop."""
-        commanded = self._obey()
+        answers = self._obey()
         now_ns, offers = self._source.now_ns(), self._source.offers()
         # While paused, messages wait in the inbox, which is bounded and counts what gives way.
         batches = self._source.inbox.drain() if self._paused_ns is None else {}
@@ -188,10 +191,12 @@ class Viewer:
         if self._scene.has_watchers():
             self._draw(runners, frames)
         self._source.want(self._wanted(offers))
-        if commanded or time.monotonic() >= self._next_panel:
+        if answers or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
-            self._keep_up(commanded)
+            self._keep_up(bool(answers))
             self._show(self.state(frames))
+        for answer in answers:
+            answer()  # now that what was asked for can be seen
 
     def state(self, frames: Frames) -> State:
         """A snapshot for a panel."""
@@ -222,22 +227,22 @@ class Viewer:
 
     # Commands
 
-    def _obey(self) -> bool:
-        obeyed = False
+    def _obey(self) -> list[Callable[[], None]]:
+        """Do what was asked for, and return what tells each of those who asked."""
+        answers: list[Callable[[], None]] = []
         while not self._commands.empty():
             command, answer = self._commands.get_nowait()
-            obeyed = True
             try:
                 text = self._do_or_say_why(command)
             except Refused as error:
                 log.warning("%s", error)
                 self._answer = Answer(self._answer.number + 1, Level.ERROR, str(error))
-                answer.set_exception(error)
+                answers.append(functools.partial(answer.set_exception, error))
             else:
                 if text:
                     self._answer = Answer(self._answer.number + 1, Level.OK, text)
-                answer.set_result(text)
-        return obeyed
+                answers.append(functools.partial(answer.set_result, text))
+        return answers
 
     def _do_or_say_why(self, command: Command) -> str:
         try:
