@@ -1,4 +1,4 @@
-"""The command line: `webviz`, `webviz demo` and `webviz convert`."""
+"""The command line: `webviz`, `webviz demo`, `webviz convert` and `webviz screenshot`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from pathlib import Path
 import msgspec
 
 from webviz import config as config_file
-from webviz import convert, plugins
+from webviz import convert, plugins, screenshot
 from webviz.config import Config, ConfigError
 
 DEMO = Path(__file__).parent / "demo.yaml"
@@ -28,6 +28,7 @@ examples:
   webviz -d lab.yaml -f odom      open a saved config, in another fixed frame
   webviz -d nav2.rviz             open RViz's config
   webviz convert nav2.rviz a.yaml make a config of RViz's, or the other way round
+  webviz screenshot -d lab.yaml --bag run.mcap -o lab.png    a picture without a screen
   webviz --plugin my_display.py   with displays of your own, see the README
   webviz demo                     a simulated robot, nothing else needed
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
@@ -54,6 +55,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if own[:1] == ["convert"]:
             convert.run(own[1:])
             return 0
+        if own[:1] == ["screenshot"]:
+            return screenshot.run(own[1:], ros)
         options = _parser().parse_args(own)
         if options.command == "demo":
             with _simulator(ros):
@@ -141,7 +144,7 @@ def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
             raise UserError(str(error)) from error
         stack.callback(server.stop)
         set_view(server, config.settings.view)
-        source = _ros_source(ros)
+        source = ros_source(ros)
         stack.callback(source.close)
         viewer = Viewer(
             config,
@@ -196,7 +199,12 @@ def _config(options: argparse.Namespace) -> Config:
     return config
 
 
-def _ros_source(ros: Sequence[str]):
+def ros_source(ros: Sequence[str]):
+    """The ROS graph, as the arguments for ROS say.
+
+    Raises:
+        UserError: there is no ROS, or it does not start.
+    """
     try:
         from webviz.ros.node import RosSource
     except ImportError as error:

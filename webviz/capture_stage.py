@@ -1,0 +1,168 @@
+"""A viewer in a studio: brings a config to a moment, and says how well it is shown."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from webviz.config import Branch, Config, Item, Unreadable, nearest
+from webviz.frames import Frames
+from webviz.group import Group
+from webviz.sources import Source
+from webviz.sources.bag import BagSource
+from webviz.state import Row, State
+from webviz.status import Level, Status
+from webviz.studio import Studio
+from webviz.viewer import Viewer
+
+STEP_NS = 100_000_000
+"""Of the time of a bag in one turn of the frame loop."""
+LOOK_S = 0.05
+LOADING = "Loading"
+"""Status of a display that waits for slow work."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How well a config is shown at one moment.
+
+    Args:
+        statuses: of the enabled displays by name, each the worst of its statuses.
+        general: what holds for the viewer as a whole, such as "Fixed Frame".
+        awaited: names of the displays that were to be OK.
+    """
+
+    statuses: Mapping[str, Status]
+    general: Mapping[str, Status]
+    awaited: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        for name in self.awaited:
+            if name not in self.statuses:
+                hint = nearest(name, self.statuses)
+                raise LookupError(f"No enabled display is named {name!r}, {hint}")
+
+    @property
+    def is_ok(self) -> bool:
+        """Whether all that was awaited is there."""
+        return all(self.statuses[name].level is Level.OK for name in self.awaited)
+
+
+class Stage:
+    """One config at work, without a thread of its own.
+
+    Args:
+        config: what to show.
+        source: where messages come from.
+        studio: where to draw.
+    """
+
+    def __init__(self, config: Config, source: Source, studio: Studio) -> None:
+        self._source = source
+        self._studio = studio
+        self._kept = set(_kept(config.displays))
+        self._viewer = Viewer(config, source, studio.scene, clock=self._clock)
+        self._viewer.turn()
+
+    def close(self) -> None:
+        """End slow work, and leave the studio empty."""
+        self._viewer.close()
+        self._studio.clear()
+
+    def play(self, source: BagSource, until_ns: int) -> None:
+        """Let a bag run to a time of recording, drawing nothing on the way."""
+        with self._unwatched():
+            while source.position_ns < until_ns:
+                source.play(min(until_ns, source.position_ns + STEP_NS))
+                self._viewer.turn()
+
+    def wait(self, names: Collection[str], timeout: float) -> Shown:
+        """Draw until nothing is loaded any more and the named displays are OK.
+
+        Args:
+            names: of displays.
+            timeout: seconds; in a bag time stands still, so only what loads is waited for.
+
+        Returns:
+            How far it came.
+
+        Raises:
+            LookupError: no enabled display has such a name; one sentence.
+        """
+        deadline = time.monotonic() + timeout
+        while True:
+            self._source.inbox.arrived.clear()
+            self._viewer.turn()
+            state = self._state()
+            shown = Shown(self._statuses(state), state.statuses, tuple(names))
+            is_loading = any(LOADING in row.statuses for row in state.rows)
+            is_final = shown.is_ok or isinstance(self._source, BagSource)
+            if (is_final and not is_loading) or time.monotonic() > deadline:
+                return shown
+            self._source.inbox.arrived.wait(LOOK_S)
+
+    def names(self) -> list[str]:
+        """Of the displays that are enabled; several of one name are numbered.
+
+        Groups are left out, and what is kept of a .rviz file without a counterpart.
+        """
+        return list(self._statuses(self._state()))
+
+    def _statuses(self, state: State) -> dict[str, Status]:
+        result: dict[str, Status] = {}
+        for row in _enabled(state.rows):
+            if row.display is None and row.name in self._kept:
+                continue
+            name, number = row.name, 2
+            while name in result:
+                name, number = f"{row.name} ({number})", number + 1
+            result[name] = summary(row.statuses)
+        return result
+
+    def _state(self) -> State:
+        viewer = self._viewer
+        frames = Frames(viewer.buffer, viewer.settings.fixed_frame, self._source.now_ns())
+        return viewer.state(frames)
+
+    def _clock(self) -> float:
+        """Seconds for ages and rates: a bag's are the same in every run."""
+        if isinstance(self._source, BagSource):
+            return self._source.position_ns / 1e9
+        return time.monotonic()
+
+    @contextmanager
+    def _unwatched(self) -> Iterator[None]:
+        self._studio.scene.is_watched = False
+        try:
+            yield
+        finally:
+            self._studio.scene.is_watched = True
+
+
+def summary(statuses: Mapping[str, Status]) -> Status:
+    """The worst of some statuses, with what all that are as bad say."""
+    level = max((status.level for status in statuses.values()), default=Level.OK)
+    texts = [status.text for status in statuses.values() if status.level is level]
+    return Status(level, " ".join(texts))
+
+
+def _kept(items: Collection[Item]) -> Iterator[str]:
+    for item in items:
+        if isinstance(item, Branch):
+            yield from _kept(item.displays)
+        elif isinstance(item, Unreadable) and item.is_from_rviz:
+            yield item.name
+
+
+def _enabled(rows: Collection[Row]) -> Iterator[Row]:
+    hidden_below: int | None = None
+    for row in rows:
+        if hidden_below is not None and row.depth > hidden_below:
+            continue
+        hidden_below = None
+        if isinstance(row.display, Group):
+            hidden_below = None if row.display.enabled else row.depth
+        elif row.display is None or row.display.enabled:
+            yield row

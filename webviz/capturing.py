@@ -1,0 +1,322 @@
+"""Pictures of what a config shows, by a headless browser: `webviz.capture`."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from webviz import plugins
+from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.capture_stage import Shown, Stage
+from webviz.capture_times import At, TimeError, position_ns, seconds_from_start
+from webviz.config import Config, ConfigError, load, nearest, parse
+from webviz.plugins import PluginError
+from webviz.scene import CannotListen
+from webviz.sources import Source
+from webviz.sources.bag import BagError, BagSource
+from webviz.sources.bag_extras import Extra
+from webviz.status import Status
+from webviz.studio import Studio
+from webviz.views import View
+
+SIZE = (1280, 720)
+SMALLEST, LARGEST = 16, 8192
+"""Edges of a picture in pixels; more a browser without a GPU cannot draw."""
+TIMEOUT_S = 20.0
+
+
+class CaptureError(Exception):
+    """There is no picture; one sentence that says why, and what to do."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What one view shows at one moment.
+
+    Args:
+        pixels: uint8 (height, width, 3), or (height, width, 4) if the background is transparent,
+            with alpha that is not multiplied into the colours.
+        view: name of the view, "" for the config's own.
+        at_s: seconds from the start of the bag, None for a picture of the ROS graph.
+        shown: how well the displays are shown.
+    """
+
+    pixels: Pixels
+    view: str
+    at_s: float | None
+    shown: Shown
+
+    @property
+    def statuses(self) -> dict[str, Status]:
+        """The worst status of each enabled display, by its name."""
+        return dict(self.shown.statuses)
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """The pictures of one run: of every time each view, in order."""
+
+    pictures: tuple[Picture, ...]
+
+    @property
+    def pixels(self) -> Pixels:
+        """Of the last picture."""
+        return self.pictures[-1].pixels
+
+    @property
+    def statuses(self) -> dict[str, Status]:
+        """The worst status of each enabled display at the end, by its name."""
+        return self.pictures[-1].statuses
+
+    @property
+    def is_ok(self) -> bool:
+        """Whether all displays that were waited for are OK in every picture."""
+        return all(picture.shown.is_ok for picture in self.pictures)
+
+
+@dataclass(frozen=True)
+class Order:
+    """What pictures to make; see `capture`."""
+
+    config: Config
+    source: Source
+    name: str = ""
+    at: Sequence[At] = ("end",)
+    size: tuple[int, int] = SIZE
+    views: Sequence[str | View] = ()
+    transparent: bool = False
+    wait_for: Sequence[str] | None = None
+    timeout: float = TIMEOUT_S
+
+    def positions(self) -> Sequence[int | None]:
+        """When: times of recording, in order; None is now.
+
+        Raises:
+            TimeError: a time is outside of the bag.
+        """
+        if not isinstance(self.source, BagSource):
+            return [None]
+        return sorted({position_ns(at, self.source, self.name) for at in self.at})
+
+    def looks(self) -> list[tuple[str, View]]:
+        """From where: views with their names.
+
+        Raises:
+            CaptureError: the config has no view of a name.
+        """
+        return _looks(self.config, self.views)
+
+
+def capture(
+    config: Config | str | Path,
+    *,
+    bag: str | Path | None = None,
+    at: At | Sequence[At] = "end",
+    size: tuple[int, int] = SIZE,
+    views: Sequence[str | View] = (),
+    transparent: bool = False,
+    wait_for: Sequence[str] | None = None,
+    timeout: float = TIMEOUT_S,
+    fixed_frame: str | None = None,
+    plugin: Sequence[str | Path] = (),
+    extras: Sequence[Extra] = (),
+    ros_args: Sequence[str] = (),
+    studio: Studio | None = None,
+) -> Capture:
+    """Make pictures of what a config shows, of a bag or of the ROS graph.
+
+    A display that is not OK is no error: look at `is_ok` and `statuses`.
+
+    Args:
+        config: a file (YAML, or RViz's if its name ends with .rviz), the text of one in YAML if
+            there is a line break in it, or a config.
+        bag: an mcap file, a db3 file or a rosbag2 folder; None for the live ROS graph.
+        at: times of the bag, each a picture of every view: seconds from its start (above 1e9:
+            since 1970), "start" or "end".
+        size: width and height of the pictures in pixels.
+        views: names of the config's views, or views; none for its current one.
+        transparent: leave the background out.
+        wait_for: names of displays that have to be OK; None for all that are enabled.
+        timeout: seconds to wait for them.
+        fixed_frame: instead of the config's.
+        plugin: Python files with displays.
+        extras: messages that the bag lacks, see `webviz.sources.bag_extras`.
+        ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
+        studio: of a browser that runs already, for many pictures; else one is launched.
+
+    Raises:
+        CaptureError: there is no picture; one sentence.
+    """
+
+    def run() -> Capture:
+        with one_sentence():
+            for path in plugin:
+                plugins.load(Path(path))
+            shown = _read(config)
+            if fixed_frame:
+                set_fixed_frame(shown, fixed_frame)
+            times = at if isinstance(at, Sequence) and not isinstance(at, str) else (at,)
+            with opened(bag, extras, ros_args) as source:
+                order = Order(
+                    shown,
+                    source,
+                    str(bag),
+                    times,
+                    size,
+                    views,
+                    transparent,
+                    wait_for,
+                    timeout,
+                )
+                return Capture(tuple(pictures(order, studio)))
+
+    if studio is None and _is_in_event_loop():
+        # A notebook, say: playwright needs a thread without a loop.
+        with ThreadPoolExecutor(1) as thread:
+            return thread.submit(run).result()
+    return run()
+
+
+def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
+    """The pictures of an order one by one; time goes on from each to the next.
+
+    Args:
+        order: what to make.
+        studio: of a browser that runs already; else one is launched and ends with the iterator.
+    """
+    check_size(order.size)
+    positions, looks = order.positions(), order.looks()
+    with contextlib.ExitStack() as stack:
+        if studio is None:
+            browser = stack.enter_context(launched())
+            studio = Studio(browser, *order.size)
+            stack.callback(studio.close)
+        else:
+            studio.resize(*order.size)
+        stage = Stage(order.config, order.source, studio)
+        stack.callback(stage.close)
+        awaited = stage.names() if order.wait_for is None else order.wait_for
+        if not stage.names():
+            raise CaptureError("The config shows nothing: add a display to it, or enable one.")
+        for position in positions:
+            at_s = None
+            if isinstance(order.source, BagSource) and position is not None:
+                stage.play(order.source, position)
+                at_s = seconds_from_start(position, order.source)
+            shown = stage.wait(awaited, order.timeout)
+            for name, view in looks:
+                studio.look(view)
+                yield Picture(studio.capture(order.transparent), name, at_s, shown)
+
+
+@contextlib.contextmanager
+def opened(
+    bag: str | Path | None, extras: Sequence[Extra] = (), ros_args: Sequence[str] = ()
+) -> Iterator[Source]:
+    """A bag, or the ROS graph.
+
+    Raises:
+        BagError: the bag cannot be read.
+        CaptureError: there is no ROS.
+    """
+    if bag is not None:
+        source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
+    elif extras:
+        raise CaptureError("A map and transforms can be added to a bag only: give a bag.")
+    else:
+        from webviz.cli import UserError, ros_source
+
+        try:
+            source = ros_source(ros_args)
+        except UserError as error:
+            raise CaptureError(str(error)) from error
+    with contextlib.closing(source):
+        yield source
+
+
+@contextlib.contextmanager
+def one_sentence() -> Iterator[None]:
+    """Make one kind of error of all that people can put right."""
+    try:
+        yield
+    except (
+        BagError,
+        BrowserDied,
+        CannotListen,
+        ConfigError,
+        LookupError,
+        NoBrowser,
+        PluginError,
+        TimeError,
+        TimeoutError,
+    ) as error:
+        raise CaptureError(str(error)) from error
+
+
+def set_fixed_frame(config: Config, frame: str) -> None:
+    """Draw in another frame than the config says."""
+    config.settings = msgspec.structs.replace(config.settings, fixed_frame=frame.removeprefix("/"))
+
+
+def check_size(size: tuple[int, int]) -> None:
+    """Refuse what is no size of a picture.
+
+    Raises:
+        CaptureError: one sentence.
+    """
+    if not all(SMALLEST <= edge <= LARGEST for edge in size):
+        raise CaptureError(
+            f"A picture has {SMALLEST} to {LARGEST} pixels a side, not {size[0]} x {size[1]}."
+        )
+
+
+def _read(config: Config | str | Path) -> Config:
+    if isinstance(config, Config):
+        return config
+    if isinstance(config, str) and "\n" in config:
+        return parse(config, "the config")
+    return load(Path(config))
+
+
+def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]]:
+    if not views:
+        return [("", config.settings.view)]
+    named: dict[str, View] = {}
+    looks = []
+    for number, view in enumerate(views):
+        if isinstance(view, str):
+            if view not in named:
+                raise CaptureError(f"The config has no view {view!r}, {nearest(view, named)}")
+            looks.append((view, named[view]))
+        else:
+            looks.append((str(number), view))
+    return looks
+
+
+def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
+    """Topics by the names that displays use; the only ROS arguments a bag has a use for."""
+    result = {}
+    rest = [a for a in ros_args if a not in ("--ros-args", "--", "-r", "--remap")]
+    for argument in rest:
+        theirs, mark, ours = argument.partition(":=")
+        if not mark or not theirs.startswith("/"):
+            raise CaptureError(
+                f"{argument!r} has no meaning for a bag: of ROS arguments it knows "
+                "`-r /topic:=/other` only."
+            )
+        result[theirs] = ours
+    return result
+
+
+def _is_in_event_loop() -> bool:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True

@@ -1,0 +1,178 @@
+"""`webviz screenshot`: pictures of a config by one command, without a screen."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import math
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from webviz import config as config_file
+from webviz import convert, picture_files, plugins
+from webviz.capture_times import At, every
+from webviz.picture_files import OutputError
+from webviz.screenshot_options import parse_arguments
+from webviz.status import Level, Status
+
+if TYPE_CHECKING:
+    from webviz.capturing import Order, Picture
+
+SHEET_SIZE = (480, 270)
+"""Of the pictures of a contact sheet, if nothing else is said."""
+NOT_OK, INTERRUPTED = 3, 130
+
+
+def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
+    """Make pictures and write them.
+
+    Returns:
+        The exit status, as --help tells.
+    """
+    options = parse_arguments(arguments)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _interrupt)
+    # viser takes a while to import; --help comes before.
+    from webviz.capturing import CaptureError, one_sentence
+
+    try:
+        with one_sentence():
+            return _make(options, ros)
+    except (CaptureError, OutputError) as error:
+        print(f"webviz: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("webviz: interrupted.", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
+    from webviz.capturing import SIZE, Order, opened, set_fixed_frame
+    from webviz.sources.bag import BagSource
+    from webviz.sources.bag_extras import map_of_file, static_transform
+
+    output: Path = options.output
+    is_animation = options.is_animation
+    picture_files.check(output, is_animation=is_animation, transparent=options.transparent)
+    for path in options.plugin:
+        plugins.load(path)
+    path = options.display_config
+    config = config_file.standard() if path is None else config_file.load(path)
+    if path is not None:
+        convert.tell(path, config.report)
+    if options.fixed_frame:
+        set_fixed_frame(config, options.fixed_frame)
+    extras = [map_of_file(each) for each in options.map]
+    extras += [static_transform(*each) for each in options.transform]
+    with opened(options.bag, extras, ros) as source:
+        at: Sequence[At] = ("end",)
+        if isinstance(source, BagSource):
+            for remark in source.remarks:
+                print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+            at = _times(options, source)
+        order = Order(
+            config,
+            source,
+            str(options.bag),
+            at,
+            options.size or (SHEET_SIZE if options.contact_sheet else SIZE),
+            options.view,
+            options.transparent,
+            options.wait_for or None,
+            options.timeout,
+        )
+        return _write(options, order)
+
+
+def _times(options: argparse.Namespace, source) -> Sequence[At]:
+    if options.every is None:
+        return options.at or ("end",)
+    times = every(options.first, options.last, options.every, source, str(options.bag))
+    return [*times, *options.at]
+
+
+def _write(options: argparse.Namespace, order: Order) -> int:
+    """Make the pictures of an order; the exit status."""
+    from webviz.capturing import pictures
+
+    path: Path = options.output
+    times, views = len(order.positions()), len(order.looks())
+    report = _Report()
+    if options.is_animation and views > 1:
+        raise OutputError("An animation shows one view: give one --view, or another ending.")
+    with contextlib.closing(pictures(order)) as made:
+        told = report.follow(made)
+        if options.contact_sheet:
+            captioned = [(_caption(picture), _image(picture)) for picture in told]
+            columns = views if min(times, views) > 1 else math.ceil(math.sqrt(len(captioned)))
+            picture_files.save(picture_files.contact_sheet(captioned, columns), path)
+            written = [path]
+        elif options.is_animation:
+            images = (_image(picture) for picture in told)
+            picture_files.save_animation(images, path, options.fps)
+            written = [path]
+        else:
+            written = []
+            for number, picture in enumerate(told):
+                index = number // views if times > 1 else None
+                name = picture_files.numbered(path, picture.view, index, times)
+                picture_files.save(_image(picture), name)
+                written.append(name)
+    width, height = order.size
+    names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
+    print(f"webviz: wrote {names} ({report.count} of {width} x {height}).")
+    return report.tell(options.timeout)
+
+
+class _Report:
+    """What was not OK in which pictures."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._bad: list[Picture] = []
+
+    def follow(self, pictures: Iterator[Picture]) -> Iterator[Picture]:
+        """The pictures, of which the bad ones are noted."""
+        for picture in pictures:
+            self.count += 1
+            if not picture.shown.is_ok:
+                self._bad.append(picture)
+            yield picture
+
+    def tell(self, timeout: float) -> int:
+        """Print the statuses of the first bad picture; the exit status."""
+        if not self._bad:
+            return 0
+        first = self._bad[0]
+        when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
+        more = f", and so in {len(self._bad) - 1} more pictures" if len(self._bad) > 1 else ""
+        print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
+        general = {k: s for k, s in first.shown.general.items() if s.level is not Level.OK}
+        for line in _table(first.statuses | general):
+            print(f"  {line}", file=sys.stderr)
+        return NOT_OK
+
+
+def _table(statuses: dict[str, Status]) -> Iterator[str]:
+    width = max(map(len, statuses))
+    for name, status in statuses.items():
+        text = "" if status.level is Level.OK else status.text
+        yield f"{status.level.name:5}  {name:{width}}  {text}".rstrip()
+
+
+def _caption(picture: Picture) -> str:
+    time = "" if picture.at_s is None else f"{picture.at_s:.2f} s"
+    return "   ".join(filter(None, (picture.view, time)))
+
+
+def _image(picture: Picture):
+    import PIL.Image
+
+    return PIL.Image.fromarray(picture.pixels)
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
