@@ -1,0 +1,241 @@
+"""What the page does for views: a script that every browser runs when it joins.
+
+`window.webvizView.show(view)` places the camera. A view follows its target frame by a pose that is
+put before the camera's own when a frame is drawn, read from the node of that frame at that very
+moment: robot and camera move in the same picture, and whoever turns the camera meanwhile turns it
+relative to the frame. TopDownOrtho is viser's camera far above with a narrow field of view, so that
+all that asks for these two (dragging, sizes of points and labels) stays right, and the projection
+of the picture and of rays is replaced by a parallel one.
+"""
+
+from __future__ import annotations
+
+import json
+
+from webviz.scene.names import ROOT
+from webviz.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
+
+REPORT = "webviz view"
+"""Marks the messages by which a page tells which view it has, and how large."""
+
+_SCRIPT = """
+(function install() {
+  const mutable = window.__viserMutable;
+  const scene = mutable && mutable.scene;
+  const root = scene && scene.__r3f && scene.__r3f.root;
+  const world = root && mutable.nodeRefFromName[ROOT];
+  const controls = world && mutable.cameraControl;
+  if (!controls) return requestAnimationFrame(install);
+  if (window.webvizView) return;
+
+  const camera = mutable.camera;
+  const canvas = mutable.canvas;
+  const SENT_MS = 100;  // after which viser has told where the camera is
+  const ACTION = controls.constructor.ACTION;
+  const vector = (xyz) => camera.position.clone().fromArray(xyz);
+  const matrix = () => camera.matrixWorld.clone().identity();
+  let view = null;
+  let rig = null;
+  let height = canvas.clientHeight;
+
+  const isFlat = () => view !== null && view.type === "TopDownOrtho";
+  const controlled = () => mutable.cameraControl;
+
+  // The world of viser has z up, that of three.js y up.
+  const toThree = () => {
+    world.updateWorldMatrix(true, false);
+    return world.matrixWorld;
+  };
+
+  // Where the target frame is: its position, and its yaw for a view that turns with it.
+  function follow() {
+    const node = view !== null && view.frame && mutable.nodeRefFromName[view.frame];
+    if (!node) return;
+    const up = toThree();
+    const m = up.clone().invert().multiply(node.matrixWorld).elements;
+    const yaw = view.turns ? Math.atan2(m[1], m[0]) : 0;
+    rig = matrix().makeRotationZ(yaw).setPosition(m[12], m[13], m[14]);
+    rig.premultiply(up).multiply(up.clone().invert());
+  }
+
+  // A parallel projection as large as the camera's own is where it looks at.
+  function flatten(camera) {
+    const distance = controlled().distance;
+    const top = distance * Math.tan((camera.fov * Math.PI) / 360);
+    const right = top * camera.aspect;
+    camera.projectionMatrix.makeOrthographic(
+      -right, right, top, -top, distance / 100, distance * 2,
+      camera.coordinateSystem, camera.reversedDepth,
+    );
+    camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+  }
+
+  function adopt(camera) {
+    if (camera.webviz) return;
+    camera.webviz = true;
+    const project = camera.updateProjectionMatrix;
+    camera.updateProjectionMatrix = function () {
+      project.call(this);
+      if (isFlat()) flatten(this);
+    };
+  }
+
+  const Raycaster = root.getState().raycaster.constructor;
+  const fromCamera = Raycaster.prototype.setFromCamera;
+  Raycaster.prototype.setFromCamera = function (point, camera) {
+    fromCamera.call(this, point, camera);
+    if (!isFlat() || !camera.webviz) return;
+    const near = camera.reversedDepth ? 1 : -1;
+    this.ray.origin.set(point.x, point.y, near).unproject(camera);
+    this.ray.direction.set(0, 0, -1).transformDirection(camera.matrixWorld);
+  };
+
+  // What viser keeps before the camera, and what it shows where the camera turns about.
+  function dress(camera) {
+    for (const child of scene.children) {
+      if (child.material && child.material === mutable.backgroundMaterial) {
+        const depth = isFlat() ? controlled().distance : 1;
+        const tall = 2 * depth * Math.tan((camera.fov * Math.PI) / 360);
+        const scale = matrix().makeScale(tall * camera.aspect, tall, 1).setPosition(0, 0, -depth);
+        child.matrixWorld.multiplyMatrices(camera.matrixWorld, scale);
+      }
+    }
+  }
+
+  const before = scene.onBeforeRender;
+  scene.onBeforeRender = function (gl, scene, camera, target) {
+    before.call(this, gl, scene, camera, target);
+    adopt(camera);
+    if (isFlat()) flatten(camera);
+    follow();
+    if (rig !== null) {
+      camera.matrixWorld.premultiply(rig);
+      camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
+    }
+    if (isFlat() || rig !== null) dress(camera);
+    settle();
+  };
+
+  // XYOrbit looks at a point that is higher the farther away the camera is.
+  function settle() {
+    if (view === null || (view.type !== "XYOrbit" && view.type !== "ThirdPersonFollower")) return;
+    const controls = controlled();
+    const target = controls.getTarget(vector([0, 0, 0]));
+    const wanted = RAISED * controls.distance;
+    if (Math.abs(target.y - wanted) < 1e-9 * (1 + wanted)) return;
+    controls.moveTo(target.x, wanted, target.z, false);
+  }
+
+  // The mouse, as in RViz: left turns, middle or left with shift moves, right and wheel zoom.
+  function arm(event) {
+    const controls = controlled();
+    const buttons = controls.mouseButtons;
+    buttons.left = event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
+    buttons.middle = ACTION.TRUCK;
+    const isFPS = view !== null && view.type === "FPS";
+    buttons.right = isFPS ? ACTION.NONE : ACTION.DOLLY;
+    buttons.wheel = isFPS ? ACTION.NONE : ACTION.DOLLY;
+    // RViz turns an FPS view by 5 mrad/px and moves it by 1 cm/px.
+    const tall = canvas.clientHeight;
+    const speed = isFPS ? (0.005 * tall) / (2 * Math.PI) : 1;
+    controls.azimuthRotateSpeed = controls.polarRotateSpeed = speed;
+    controls.truckSpeed = isFPS ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
+  }
+
+  function walk(meters) {
+    controlled().dollyInFixed(meters, false);
+  }
+
+  window.addEventListener("pointerdown", arm, true);
+  canvas.parentElement.addEventListener("wheel", (event) => {
+    if (view !== null && view.type === "FPS") walk(-event.deltaY * 0.01);
+  }, { passive: true });
+  canvas.parentElement.addEventListener("pointermove", (event) => {
+    if (view !== null && view.type === "FPS" && event.buttons === 2) walk(-event.movementY * 0.1);
+  });
+
+  function report() {
+    mutable.sendMessage({
+      type: "LocalStorageGetItemResponseMessage",
+      request_uuid: REPORT,
+      value: JSON.stringify({
+        number: view.number, type: view.type, target_frame: view.target_frame,
+        width: canvas.clientWidth, height: canvas.clientHeight,
+      }),
+      error: null,
+    });
+  }
+
+  new ResizeObserver(() => {
+    const tall = canvas.clientHeight;
+    if (view === null || tall === 0 || tall === height) return;
+    if (isFlat()) controlled().dollyTo((controlled().distance * tall) / height, false);
+    height = tall;
+    report();
+  }).observe(canvas);
+
+  function show(wanted) {
+    if (view === null || view.frame !== wanted.frame) rig = null;
+    view = wanted;
+    height = canvas.clientHeight;
+    const controls = controlled();
+    const up = toThree();
+    const target = vector(view.look_at);
+    const offset = vector(view.position).sub(target);
+    const fov = isFlat() ? FLAT_FIELD_OF_VIEW : FIELD_OF_VIEW;
+    if (isFlat()) offset.setLength(height / view.scale / 2 / Math.tan(fov / 2));
+    const position = target.clone().add(offset).applyMatrix4(up);
+    target.applyMatrix4(up);
+    controls.minDistance = view.type === "FPS" ? EYE : 0.01;
+    controls.maxDistance = Infinity;
+    mutable.configuredMaxOrbitDistance = 1e7;
+    controls.minPolarAngle = 0;
+    controls.maxPolarAngle = Math.PI;
+    controls.verticalDragToForward = view.type === "XYOrbit" || view.type === "ThirdPersonFollower";
+    camera.fov = (fov * 180) / Math.PI;
+    adopt(camera);
+    controls.setLookAt(...position.toArray(), ...target.toArray(), false);
+    controls.update(0);
+    if (isFlat()) controls.minPolarAngle = controls.maxPolarAngle = controls.polarAngle;
+    camera.updateProjectionMatrix();
+    arm({ shiftKey: false });
+    mutable.sendCamera();
+    mutable.requestRender();
+    setTimeout(report, SENT_MS);
+  }
+
+  window.webvizView = {
+    show,
+    report,
+    join: (start) => (view === null ? show(start) : report()),
+  };
+})();
+"""
+
+_CONSTANTS = {
+    "ROOT": ROOT,
+    "REPORT": REPORT,
+    "RAISED": RAISED,
+    "EYE": EYE,
+    "FIELD_OF_VIEW": FIELD_OF_VIEW,
+    "FLAT_FIELD_OF_VIEW": FLAT_FIELD_OF_VIEW,
+}
+VIEW_SCRIPT = f"""(function () {{
+{"".join(f"const {name} = {json.dumps(value)};" for name, value in _CONSTANTS.items())}
+{_SCRIPT}
+}})();"""
+
+
+def call(method: str, argument: str = "") -> str:
+    """A script that calls a method of `window.webvizView` once the page has it.
+
+    Args:
+        method: its name.
+        argument: JavaScript, such as JSON.
+    """
+    return f"""
+(function call() {{
+  if (!window.webvizView) return requestAnimationFrame(call);
+  window.webvizView.{method}({argument});
+}})();
+"""

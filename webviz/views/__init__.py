@@ -1,0 +1,39 @@
+"""How a camera looks at the scene: RViz's views, and what they show."""
+
+from webviz.views.mimic import Rig, focus, mimic, rig_of
+from webviz.views.placement import FIELD_OF_VIEW, Camera, camera_of, view_of
+from webviz.views.types import (
+    FIXED_FRAME,
+    FPS,
+    VIEW_TYPES,
+    AnyView,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+    XYOrbit,
+    type_of,
+    with_type,
+)
+
+__all__ = [
+    "FIELD_OF_VIEW",
+    "FIXED_FRAME",
+    "FPS",
+    "VIEW_TYPES",
+    "AnyView",
+    "Camera",
+    "Orbit",
+    "Rig",
+    "ThirdPersonFollower",
+    "TopDownOrtho",
+    "View",
+    "XYOrbit",
+    "camera_of",
+    "focus",
+    "mimic",
+    "rig_of",
+    "type_of",
+    "view_of",
+    "with_type",
+]

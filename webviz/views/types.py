@@ -1,0 +1,86 @@
+"""Views: how a camera looks at the scene, as RViz has them. Lengths in metres, angles in radians.
+
+A view is given in the coordinates of its target frame: at the frame's origin, with the axes of the
+fixed frame, or turned with the frame's yaw for a ThirdPersonFollower.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+import msgspec
+
+FIXED_FRAME = "<Fixed Frame>"
+"""Target frame of a view that follows nothing."""
+
+Length = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+Angle = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
+Pitch = Annotated[float, msgspec.Meta(ge=-1.5698, le=1.5698)]
+Point = tuple[Length, Length, Length]
+
+
+class _View(
+    msgspec.Struct,
+    frozen=True,
+    kw_only=True,
+    forbid_unknown_fields=True,
+    omit_defaults=True,
+    tag_field="type",
+):
+    target_frame: str = FIXED_FRAME
+
+
+class _AroundAPoint(_View, frozen=True, kw_only=True):
+    distance: Annotated[float, msgspec.Meta(gt=0, le=1e6)] = 10.0
+    yaw: Angle = 0.785398
+    pitch: Pitch = 0.785398
+    focal_point: Point = (0.0, 0.0, 0.0)
+
+
+class Orbit(_AroundAPoint, frozen=True, kw_only=True, tag="Orbit"):
+    """Looks at a focal point from a distance, in the direction of yaw and pitch."""
+
+
+class XYOrbit(_AroundAPoint, frozen=True, kw_only=True, tag="XYOrbit"):
+    """Orbit whose focal point stays on the ground, and somewhat below the middle of the picture."""
+
+
+class ThirdPersonFollower(_AroundAPoint, frozen=True, kw_only=True, tag="ThirdPersonFollower"):
+    """XYOrbit that also turns with the yaw of its target frame."""
+
+
+class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
+    """Looks around from a position; a positive pitch looks down."""
+
+    yaw: Angle = 0.0
+    pitch: Pitch = 0.0
+    position: Point = (5.0, 5.0, 10.0)
+
+
+class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
+    """Looks straight down without perspective; `x`, `y` is in the middle, `scale` in px/m."""
+
+    scale: Annotated[float, msgspec.Meta(ge=1e-5, le=1e6)] = 10.0
+    angle: Angle = 0.0
+    x: Length = 0.0
+    y: Length = 0.0
+
+
+AnyView = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho
+View = Orbit
+
+VIEW_TYPES: dict[str, type[AnyView]] = {
+    cls.__name__: cls for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, TopDownOrtho)
+}
+"""By the name that RViz and config files give them."""
+
+
+def with_type(values: Any) -> Any:
+    """The values of a view as a config file has them, where Orbit need not be named."""
+    return {"type": "Orbit", **values} if isinstance(values, Mapping) else values
+
+
+def type_of(view: AnyView) -> str:
+    """The name of the type of a view."""
+    return type(view).__name__
