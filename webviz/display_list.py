@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from webviz import config as config_file
-from webviz.config import Branch, Item, Unreadable
+from webviz.config import Branch, Item, Place, Unreadable
 from webviz.display import Display, make, set_property, to_values
 from webviz.group import Group
 from webviz.pipeline import Runner, Services
@@ -109,10 +109,10 @@ class DisplayList:
             runner.close()
         self._entries = []
 
-    def duplicate(self, id: str) -> None:
-        """Add a copy right behind a display, or a group with all that is in it."""
+    def duplicate(self, id: str) -> Entry | None:
+        """Add a copy right behind a display, or a group with all that is in it, and return it."""
         if not (original := self.find(id)):
-            return
+            return None
         copied = _copy(self._item(original))
         names = {entry.name for entry in self._entries}
         if not isinstance(copied, Unreadable):
@@ -121,6 +121,7 @@ class DisplayList:
         twin = self.add(copied, original.parent)
         siblings = [entry for entry in self._entries if entry.parent is original.parent]
         self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
+        return twin
 
     def move(self, id: str, group: str = "", before: str = "") -> None:
         """Put a display, or a group with all that is in it, elsewhere.
@@ -182,7 +183,7 @@ class DisplayList:
         """Show the entries that can be read now, since a plug-in has their type or property."""
         for index, entry in enumerate(self._entries):
             if isinstance(entry.content, Unreadable):
-                item = config_file.read_display(entry.content.values, f"displays[{index}]")
+                item = config_file.read_display(entry.content.values, Place(("displays", index)))
                 if isinstance(item, Unreadable):
                     entry.content = item
                 elif not isinstance(item, Branch):

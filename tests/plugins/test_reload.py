@@ -225,7 +225,7 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
     plugin.load()
     text = "displays: [{type: Polygon, width: 7.0}, {type: Nowhere}]"
     b = bench(*parse(text, "x.yaml").displays)
-    assert "unknown key `width`" in b.statuses()["Config"][1]
+    assert "displays[0].width: unknown key" in b.statuses()["Config"][1]
     plugin.edit((COLOR, WIDTH + COLOR), ("self.color)", "self.color, self.width)"))
     shown(b, plugin)
     publish(b)

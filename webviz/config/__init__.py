@@ -1,7 +1,9 @@
 """The saved state of a viewer as YAML: fixed frame, background, view, and the list of displays."""
 
-from webviz.config.errors import ConfigError, describe, nearest
-from webviz.config.files import is_rviz, read_text, write_text
+from webviz.config.atomic import write_text
+from webviz.config.errors import ConfigError, nearest
+from webviz.config.explain import describe, explain
+from webviz.config.files import is_rviz, read_text
 from webviz.config.model import (
     STANDARD,
     VERSION,
@@ -12,7 +14,8 @@ from webviz.config.model import (
     Unreadable,
     standard,
 )
-from webviz.config.reading import MAX_VALUES, load, parse, read_display
+from webviz.config.reading import load, parse, read_display
+from webviz.config.source import MAX_VALUES, Place, Source
 from webviz.config.writing import document, dump, save
 
 __all__ = [
@@ -23,11 +26,14 @@ __all__ = [
     "Config",
     "ConfigError",
     "Item",
+    "Place",
     "Settings",
+    "Source",
     "Unreadable",
     "describe",
     "document",
     "dump",
+    "explain",
     "is_rviz",
     "load",
     "nearest",

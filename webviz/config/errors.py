@@ -5,22 +5,12 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-import msgspec
-
 MAX_HINTS = 40
 """Valid words that an error lists; a tree of transforms may have a thousand frames."""
 
 
 class ConfigError(Exception):
     """A file cannot be used; one sentence that names the file and the place in it."""
-
-
-def describe(error: msgspec.ValidationError) -> str:
-    """A validation error with its place first: ``displays[2].size: expected `float` > 0.0``."""
-    text, _, path = str(error).partition(" - at `")
-    place = path.removesuffix("`").lstrip("$").lstrip(".")
-    text = text[:1].lower() + text[1:]
-    return f"{place}: {text}" if place else text
 
 
 def nearest(word: str, valid: Iterable[str]) -> str:

@@ -12,7 +12,8 @@ from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 from ruamel.yaml.representer import SafeRepresenter
 
-from webviz.config.files import is_rviz, write_text
+from webviz.config.atomic import write_text
+from webviz.config.files import is_rviz
 from webviz.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
 from webviz.display import to_values
 from webviz.registry import type_name

@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 
-from webviz.config import Branch, Item, Unreadable, read_display
+from webviz.config import Branch, Item, Place, Unreadable, read_display
 from webviz.display import Display, make, to_values
 from webviz.group import Group
 from webviz.registry import display_types, type_name
@@ -57,7 +57,7 @@ def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
     if found is None:
         report.note(name or "?", cls or "a display without class", NO_DISPLAY)
         report.count("properties", 0, len(_effective(tree)))
-        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, name or "?")
+        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Place((name or "?",)))
     display = _read(found, tree, name, report)
     if found.rviz != cls:
         report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
@@ -141,7 +141,7 @@ def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | No
             if isinstance(item.values, Mapping) and "rviz" in item.values:
                 written.append(item.values["rviz"])
             else:
-                report.note(item.name, "this entry", f"it is left out: {item.reason}")
+                report.note(item.name, "this entry", f"it is left out: {item.reason.removesuffix('.')}")
         elif isinstance(item, Branch):
             tree = _write(item.group, kept)
             written.append(tree | {"Displays": write_items(item.displays, report, kept)})

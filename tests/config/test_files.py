@@ -1,0 +1,212 @@
+"""Config files on the disk: what was saved is never lost."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from webviz.config import Config, ConfigError, load, parse, save, write_text
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "lab.yaml"
+
+
+def test_a_config_comes_back_from_its_file_exactly(path: Path) -> None:
+    save(parse("fixed_frame: odom\ndisplays: [{type: LaserScan, size: 0.05}]", "x"), path)
+    first = path.read_text()
+    assert first == ("version: 1\nfixed_frame: odom\ndisplays:\n- {type: LaserScan, size: 0.05}\n")
+    save(load(path), path)
+    assert path.read_text() == first
+
+
+def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"Cannot read .*none\.yaml: No such file"):
+        load(tmp_path / "none.yaml")
+    with pytest.raises(ConfigError, match=r"Cannot read .*: Is a directory"):
+        load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("data", "sentence"),
+    [
+        (b"\x89PNG\r\n\x1a\n\x00\xff", "is not UTF-8 text: no config file."),
+        ("version: 1".encode("utf-16"), "is not UTF-8 text: it is UTF-16, save it as UTF-8."),
+        (b"version: 1\x00", "is not valid YAML"),
+        (b"# " * (9 << 20), "is larger than 16 MB and no config file."),
+    ],
+)
+def test_bytes_that_are_no_config_are_an_error(path: Path, data: bytes, sentence: str) -> None:
+    path.write_bytes(data)
+    with pytest.raises(ConfigError) as caught:
+        load(path)
+    assert sentence in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_without_end_is_refused() -> None:
+    with pytest.raises(ConfigError, match="larger than 16 MB"):
+        load(Path("/dev/zero"))
+
+
+def test_the_version_before_is_kept(path: Path) -> None:
+    backup = path.with_name("lab.yaml.bak")
+    write_text("one", path)
+    assert not backup.exists()
+    write_text("two", path)
+    assert (path.read_text(), backup.read_text()) == ("two", "one")
+    write_text("three", path)
+    assert (path.read_text(), backup.read_text()) == ("three", "two")
+    # Saving what is there already does not make both the same.
+    write_text("three", path)
+    assert (path.read_text(), backup.read_text()) == ("three", "two")
+    assert sorted(each.name for each in path.parent.iterdir()) == ["lab.yaml", "lab.yaml.bak"]
+
+
+def test_mode_and_links_stay(path: Path, tmp_path: Path) -> None:
+    (tmp_path / "store").mkdir()
+    real = tmp_path / "store" / "lab-2.yaml"
+    real.write_text("one")
+    real.chmod(0o640)
+    path.symlink_to(Path("store") / "lab-2.yaml")
+    write_text("two", path)
+    assert path.is_symlink()
+    assert real.read_text() == "two"
+    assert stat.S_IMODE(real.stat().st_mode) == 0o640
+    assert (tmp_path / "store" / "lab-2.yaml.bak").read_text() == "one"
+
+
+def test_a_new_file_can_be_read_by_whom_the_umask_says(path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        write_text("one", path)
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_a_link_that_leads_nowhere_makes_the_file(path: Path, tmp_path: Path) -> None:
+    path.symlink_to(tmp_path / "new.yaml")
+    write_text("one", path)
+    assert (tmp_path / "new.yaml").read_text() == "one"
+
+
+def test_a_failed_save_leaves_the_old_file(path: Path, tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"Cannot write .*; save it under another name"):
+        save(Config(), tmp_path / "no such folder" / "x.yaml")
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(ConfigError, match="Is a directory"):
+        save(Config(), tmp_path / "folder")
+    write_text("one", path)
+    (tmp_path / "lab.yaml.bak").mkdir()
+    with pytest.raises(ConfigError, match=r"lab\.yaml\.bak cannot be replaced"):
+        write_text("two", path)
+    assert path.read_text() == "one"
+    names = ["folder", "lab.yaml", "lab.yaml.bak"]
+    assert sorted(each.name for each in tmp_path.iterdir()) == names
+
+
+def test_what_a_crash_left_half_done_does_no_harm(path: Path) -> None:
+    write_text("one", path)
+    os.link(path, path.with_name("lab.yaml.bak"))  # it had the backup's name, and then no power
+    write_text("two", path)
+    assert (path.read_text(), path.with_name("lab.yaml.bak").read_text()) == ("two", "one")
+    assert len(list(path.parent.iterdir())) == 2
+
+
+def test_a_full_disk_is_told() -> None:
+    with pytest.raises(ConfigError, match="Cannot write /dev/full: No space left on device"):
+        write_text("one", Path("/dev/full"))
+
+
+def test_a_disk_that_fills_up_keeps_the_old_file(path: Path) -> None:
+    """The limit of a file's size stands for a full disk: writing fails halfway."""
+    write_text("one\n", path)
+    code = (
+        "import resource, signal, sys\n"
+        "from pathlib import Path\n"
+        "from webviz.config import ConfigError, write_text\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))\n"
+        "try:\n"
+        "    write_text('x' * 10000, Path(sys.argv[1]))\n"
+        "except ConfigError as error:\n"
+        "    print(error)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(path)], capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout == f"Cannot write {path}: File too large; save it under another name.\n"
+    assert path.read_text() == "one\n"
+    assert list(path.parent.iterdir()) == [path]
+
+
+@contextlib.contextmanager
+def without_roots_rights() -> Iterator[None]:
+    """As nobody, where the tests run as root: root may write everywhere."""
+    if os.geteuid() != 0:
+        yield
+        return
+    os.seteuid(65534)
+    try:
+        yield
+    finally:
+        os.seteuid(0)
+
+
+def test_a_folder_that_cannot_be_written_is_told() -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "lab.yaml").write_text("one")
+        (folder / "lab.yaml").chmod(0o666)
+        folder.chmod(0o555)
+        with without_roots_rights(), pytest.raises(ConfigError, match="Permission denied"):
+            write_text("two", folder / "lab.yaml")
+        assert (folder / "lab.yaml").read_text() == "one"
+        folder.chmod(0o777)
+        (folder / "lab.yaml").chmod(0o444)
+        with without_roots_rights(), pytest.raises(ConfigError, match="it is write-protected"):
+            write_text("two", folder / "lab.yaml")
+        assert (folder / "lab.yaml").read_text() == "one"
+        folder.chmod(0o700)
+
+
+def test_two_who_save_at_once_both_leave_a_whole_file(path: Path) -> None:
+    code = (
+        "import sys\n"
+        "from pathlib import Path\n"
+        "from webviz.config import write_text\n"
+        "for i in range(40):\n"
+        "    write_text(sys.argv[2] * 5000 + str(i), Path(sys.argv[1]))\n"
+    )
+    writers = [subprocess.Popen([sys.executable, "-c", code, str(path), who]) for who in "ab"]
+    assert [writer.wait(timeout=120) for writer in writers] == [0, 0]
+    last, before = path.read_text(), path.with_name("lab.yaml.bak").read_text()
+    for text in (last, before):
+        assert text[:5000] in ("a" * 5000, "b" * 5000)
+    assert last.endswith("39")
+    assert last != before
+    assert len(list(path.parent.iterdir())) == 2
+
+
+def test_a_folder_that_somebody_blocks_is_told(path: Path) -> None:
+    write_text("one", path)
+    descriptor = os.open(path.parent, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        with pytest.raises(ConfigError, match="somebody else is saving in this folder, try again"):
+            write_text("two", path)
+    finally:
+        os.close(descriptor)
+    assert path.read_text() == "one"
+    assert list(path.parent.iterdir()) == [path]
