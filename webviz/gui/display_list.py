@@ -8,13 +8,11 @@ import viser
 
 from webviz.commands import Command, SetProperty
 from webviz.gui.control import Control
+from webviz.gui.moves import GROUP
 from webviz.gui.style import Look, list_style
 from webviz.gui.text import MARKS, plain
 from webviz.state import Row
 from webviz.status import Level
-
-GROUP = "Group"
-"""The type of rows that others can be in."""
 
 
 class DisplayList:
@@ -27,7 +25,6 @@ class DisplayList:
         enqueue: takes commands, from any thread.
         select: called with the id of a display when somebody clicks on its name, in a thread of
             viser's.
-        order: place in the panel.
     """
 
     def __init__(
@@ -35,7 +32,6 @@ class DisplayList:
         gui: viser.GuiApi,
         enqueue: Callable[[Command], None],
         select: Callable[[str], None],
-        order: float,
     ) -> None:
         self._gui = gui
         self._enqueue = enqueue
@@ -45,7 +41,7 @@ class DisplayList:
         self._selected: str | None = None
         self._ids: tuple[str, ...] = ()
         self._look: list[Look] = []
-        self._folder = gui.add_folder("Displays", order=order)
+        self._folder = gui.add_folder("Displays")
         with self._folder:
             self._style = gui.add_html("", order=-1)
 
@@ -59,13 +55,14 @@ class DisplayList:
         folded_at: int | None = None  # depth of the folded group that the next rows are in
         for row in rows:
             line = self._rows[row.id]
-            if folded_at is not None and row.depth > folded_at:
-                line.show(False)
+            is_hidden = folded_at is not None and row.depth > folded_at
+            line.show(not is_hidden)
+            if is_hidden:
                 continue
-            line.show(True)
-            folded_at = row.depth if row.id in self._folded else None
+            is_folded = row.id in self._folded
+            folded_at = row.depth if is_folded else None
             level = row.level
-            line.update(row, level, row.id in self._folded)
+            line.update(row, level, is_folded)
             bright = _enabled(row) or row.display is None
             look.append(Look(level, bright, row.id == selected, row.depth))
         if look != self._look:

@@ -14,7 +14,7 @@ from webviz.gui.editor import Editor
 from webviz.gui.files import Files
 from webviz.gui.global_options import GlobalOptions
 from webviz.gui.selection import Selection
-from webviz.gui.style import row_style
+from webviz.gui.style import WHOLE, row_style
 from webviz.registry import display_types
 from webviz.state import State
 
@@ -44,10 +44,13 @@ class DisplaysTab:
         self._editor: Editor | None = None
         self._box = gui.add_folder(None)
         with self._box:
+            file_row, others, add_row = (6, 6, 6, 6), (WHOLE, WHOLE), (12, 5, 7)
+            gui.add_html(row_style("displays", (*file_row, *others, *add_row)))
             self._add_file_row(files)
-            self._options = GlobalOptions(gui, enqueue, order=1)
-            self._list = DisplayList(gui, enqueue, self._choose, order=2)
-            self._add_row_of_types()
+            self._options = GlobalOptions(gui, enqueue)
+            self._list = DisplayList(gui, enqueue, self._choose)
+            self._type = gui.add_dropdown("", tuple(display_types()) or ("",))
+            self._add_buttons()
 
     def update(self, state: State) -> None:
         """Show the viewer as it is."""
@@ -77,25 +80,19 @@ class DisplaysTab:
 
     def _add_file_row(self, files: Files) -> None:
         gui = self._gui
-        with gui.add_folder("File", order=0):
-            gui.add_html(row_style("repeat(4, minmax(0, 1fr))", 4))
-            save = gui.add_button("Save", color="gray", hint="Ctrl+S")
-            save_as = gui.add_button("Save as", color="gray", hint="Ctrl+Shift+S; or download")
-            open_ = gui.add_button("Open", color="gray", hint="Ctrl+O; or upload")
-            reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
+        save = gui.add_button("Save", color="gray", hint="Ctrl+S")
+        save_as = gui.add_button("Save as", color="gray", hint="Or download: Ctrl+Shift+S")
+        open_ = gui.add_button("Open", color="gray", hint="Or upload: Ctrl+O")
+        reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
         save.on_click(lambda event: files.save(event.client))
         save_as.on_click(lambda event: files.save_as(event.client))
         open_.on_click(lambda event: files.open(event.client))
         reset.on_click(lambda _: self._enqueue(Reset()))
 
-    def _add_row_of_types(self) -> None:
+    def _add_buttons(self) -> None:
         gui = self._gui
-        types = tuple(display_types())
-        with gui.add_folder("Add", order=3, visible=bool(types)):
-            gui.add_html(row_style("minmax(0, 1fr) auto auto", 3))
-            self._type = gui.add_dropdown("", types or ("",))
-            add = gui.add_button("Add", color="gray")
-            by_topic = gui.add_button("By topic", color="gray", hint="Choose from live topics.")
+        add = gui.add_button("Add", color="gray", hint="Add a display of this type.")
+        by_topic = gui.add_button("By topic", color="gray", hint="Add displays for live topics.")
         add.on_click(lambda _: self._add())
         by_topic.on_click(lambda event: self.add_by_topic(event.client))
 
@@ -120,5 +117,5 @@ class DisplaysTab:
             self._editor.remove()
             self._editor = None
         if (row := self.selection.row) is not None:
-            self._editor = Editor(self._gui, row, self._enqueue, self, order=4)
+            self._editor = Editor(self._gui, row, self._enqueue, self)
             self._editor.update(row, state)

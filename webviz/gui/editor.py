@@ -31,7 +31,6 @@ class Editor:
         row: the display.
         enqueue: takes commands, from any thread.
         actions: what can be done with the display as a whole.
-        order: place in the panel.
     """
 
     def __init__(
@@ -40,7 +39,6 @@ class Editor:
         row: Row,
         enqueue: Callable[[Command], None],
         actions: Actions,
-        order: float,
     ) -> None:
         self._gui = gui
         self._enqueue = enqueue
@@ -49,7 +47,7 @@ class Editor:
         self._controls: list[tuple[Property, Control]] = []
         self._folders: list[tuple[Property, viser.GuiFolderHandle]] = []
         self._topics = Topics()
-        self._folder = gui.add_folder(_title(row), order=order)
+        self._folder = gui.add_folder(_title(row))
         with self._folder:
             self._toolbar = Toolbar(gui, enqueue, actions)
             self._statuses = StatusLines(gui)

@@ -101,10 +101,7 @@ class OpenFile(Dialog):
         gui = self.gui
         with self.modal:
             self._warning = gui.add_html("", visible=False)
-            gui.add_html(note_html(f"From {file.folder} of the machine that runs webviz:"))
-            self._choice = gui.add_dropdown("File", (NOTHING,))
-            self._button = gui.add_button("Open", icon=viser.Icon.FOLDER_OPEN)
-            self._button.on_click(lambda _: self._open())
+            # First, since the first control gets the focus, at which a choice would unfold.
             upload = gui.add_upload_button(
                 "Upload from this computer",
                 icon=viser.Icon.UPLOAD,
@@ -112,6 +109,10 @@ class OpenFile(Dialog):
                 mime_type=",".join(SUFFIXES),
             )
             upload.on_upload(self._upload)
+            gui.add_html(note_html(f"Or from {file.folder} of the machine that runs webviz:"))
+            self._choice = gui.add_dropdown("File", (NOTHING,))
+            self._button = gui.add_button("Open", icon=viser.Icon.FOLDER_OPEN)
+            self._button.on_click(lambda _: self._open())
             gui.add_button("Cancel", color="gray").on_click(lambda _: self.finish())
 
     def update(self, state: State) -> None:

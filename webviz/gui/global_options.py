@@ -21,11 +21,10 @@ class GlobalOptions:
     Args:
         gui: viser's GUI; the widgets go into the tab that is open.
         enqueue: takes commands, from any thread.
-        order: place in the panel.
     """
 
-    def __init__(self, gui: viser.GuiApi, enqueue: Callable[[Command], None], order: float) -> None:
-        with gui.add_folder("Global Options", order=order):
+    def __init__(self, gui: viser.GuiApi, enqueue: Callable[[Command], None]) -> None:
+        with gui.add_folder("Global Options"):
             self._fixed_frame = Choice(
                 gui,
                 "Fixed Frame",

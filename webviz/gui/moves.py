@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from webviz.commands import MoveDisplay
 
+GROUP = "Group"
 
-@dataclass(frozen=True)
-class Place:
+
+class Place(NamedTuple):
     """One line of the list.
 
     Args:
         id: of the display.
         depth: in how many groups it is.
-        is_group: whether it can hold displays.
+        type: name of the display type; `GROUP` can hold displays.
     """
 
     id: str
     depth: int
-    is_group: bool
+    type: str
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ def moves_of(id: str, places: Iterable[Place]) -> Moves:
     around = siblings[parent]
     index = next(i for i, place in enumerate(around) if place.id == id)
     above, below = around[:index], around[index + 1 :]
-    group = next((place.id for place in (*reversed(above), *below) if place.is_group), "")
+    group = next((place.id for place in (*reversed(above), *below) if place.type == GROUP), "")
     return Moves(
         up=MoveDisplay(id, parent, above[-1].id) if above else None,
         down=MoveDisplay(id, parent, _second(below)) if below else None,

@@ -33,7 +33,7 @@ class Selection:
 
     def follow(self, rows: Sequence[Row]) -> None:
         """Keep a display selected as the list changes."""
-        places = tuple(Place(row.id, row.depth, row.type == "Group") for row in rows)
+        places = tuple([Place(row.id, row.depth, row.type) for row in rows])
         if places != self._places:
             self._reselect(places)
         if places != self._places or self._moved != self.id:

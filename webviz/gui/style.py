@@ -12,6 +12,9 @@ from typing import NamedTuple
 from webviz.gui.text import COLORS
 from webviz.status import Level
 
+WHOLE = 24
+"""The columns of a line in a grid of rows."""
+
 
 class Look(NamedTuple):
     """How one row of the list of displays looks."""
@@ -39,18 +42,28 @@ def list_style(rows: Sequence[Look]) -> str:
     return f'<div class="webviz-list"><style>{"".join(rules)}</style></div>'
 
 
-def row_style(columns: str, count: int) -> str:
-    """The widgets that follow are beside each other.
+def row_style(name: str, spans: Sequence[int]) -> str:
+    """The widgets that follow are beside each other, without labels.
 
     Args:
-        columns: of a CSS grid.
-        count: how many widgets; those after them have the whole width.
+        name: of this style, in class names; every container with rows has its own.
+        spans: how many of 24 columns each widget has, `WHOLE` for a line of its own as it is; so
+            have those that come later.
     """
-    cells = f"{_ROW_BOX} > :nth-child(-n+{count + 1})"
-    rules = f"{_ROW_BOX} {{ grid-template-columns: {columns}; }} {cells} {{ grid-column: auto; }}"
-    for rule in _CELLS:
-        rules += rule.replace("CELL", cells)
-    return f'<div class="webviz-row"><style>{_ROW}{rules}</style></div>'
+    box = f":has(> div > .webviz-row-{name})"
+    rules = [_ROW.replace("BOX", box)]
+    column = 0
+    for index, span in enumerate(spans):
+        if span != WHOLE:
+            cell = f"{box} > :nth-child({index + 2})"
+            left, right = column == 0, column + span == WHOLE
+            rules.append(_CELL.replace("CELL", cell))
+            rules.append(
+                f"{cell} {{ grid-column: span {span}; "
+                f"margin: 0 {0.4 * right}em 0 {0.4 * left}em !important; }}"
+            )
+        column = (column + span) % WHOLE
+    return f'<div class="webviz-row-{name}"><style>{"".join(rules)}</style></div>'
 
 
 def picks_style() -> str:
@@ -60,7 +73,7 @@ def picks_style() -> str:
 
 def panel_style() -> str:
     """What holds for the whole panel, on screens that are touched too."""
-    return f"<style>{_PANEL}</style>"
+    return f'<div class="webviz-panel"><style>{_PANEL}</style></div>'
 
 
 _LIST_BOX = ":has(> div > .webviz-list)"
@@ -88,18 +101,17 @@ _LIST = f"""
 }}
 """
 
-_ROW_BOX = ":has(> div > .webviz-row)"
-_ROW = f"""
-{_ROW_BOX} {{ display: grid; align-items: start; }}
-{_ROW_BOX} > * {{ grid-column: 1 / -1; min-width: 0; }}
-{_ROW_BOX} > :first-child {{ display: none; }}
+_ROW = """
+BOX { display: grid; grid-template-columns: repeat(24, minmax(0, 1fr)); align-items: start; }
+BOX > * { grid-column: 1 / -1; min-width: 0; }
+BOX > :first-child { display: none; }
 """
-_CELLS = (
-    "CELL { margin: 0 !important; padding: 0 0.25em 0.5em !important; }",
-    "CELL > div > :first-child:not(:last-child) { display: none; }",
-    "CELL button { height: 1.625rem !important; padding: 0 0.4em; font-size: 0.75rem; }",
-    "@media (pointer: coarse) { CELL button { height: 2.2rem !important; } }",
-)
+_CELL = """
+CELL { padding: 0 0.25em 0.5em !important; }
+CELL > div > :first-child:not(:last-child) { display: none; }
+CELL button { height: 1.625rem !important; padding: 0 0.2em; font-size: 0.75rem; }
+@media (pointer: coarse) { CELL button { height: 2.2rem !important; } }
+"""
 
 _PICKS_BOX = ":has(> div > .webviz-picks)"
 _PICKS = f"""
@@ -108,7 +120,8 @@ _PICKS = f"""
 {_PICKS_BOX} > div {{ padding-bottom: 0.35em; }}
 {_PICKS_BOX} > div > div {{ flex-direction: row-reverse; gap: 0.6em; }}
 {_PICKS_BOX} > div > div > :first-child {{ flex: 1; padding: 0; }}
-{_PICKS_BOX} > div > div > :last-child {{ flex: none !important; }}
+{_PICKS_BOX} p, {_PICKS_BOX} label {{ color: inherit !important; letter-spacing: 0; }}
+{_PICKS_BOX} > div > div > :last-child {{ display: flex; flex: none !important; }}
 """
 
 _PANEL = """
@@ -118,6 +131,15 @@ _PANEL = """
 }
 .webviz-table { width: 100%; border-collapse: collapse; font-size: 0.85em; line-height: 1.35; }
 .webviz-table td { padding: 0.15em 0.9em; vertical-align: top; overflow-wrap: anywhere; }
-.webviz-table td:last-child { text-align: right; font-variant-numeric: tabular-nums; }
+.webviz-table td:last-child {
+  text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap;
+}
 .webviz-table small { opacity: 0.65; }
+@media (max-width: 36em) {
+  [style*="width: 20em"]:has(.webviz-panel) { width: 100vw !important; }
+}
+@media (pointer: coarse) {
+  input.mantine-Input-input { height: 2.2rem !important; min-height: 2.2rem !important; }
+  .mantine-Checkbox-root { --checkbox-size: 1.4rem !important; }
+}
 """

@@ -26,11 +26,10 @@ class TimeTab:
         self._is_paused = False
         self._next = 0.0
         self._enqueue = enqueue
+        gui.add_html(row_style("time", (12, 12)))
+        self._pause = gui.add_button("Pause", color="gray", hint="Let the picture stand still.")
+        reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
         self._table = gui.add_html("")
-        with gui.add_folder("Clock"):
-            gui.add_html(row_style("1fr 1fr", 2))
-            self._pause = gui.add_button("Pause", color="gray")
-            reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
         self._pause.on_click(lambda _: self.toggle())
         reset.on_click(lambda _: enqueue(Reset()))
 

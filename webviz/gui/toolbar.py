@@ -41,7 +41,7 @@ class Toolbar:
     ) -> None:
         self._actions = actions
         self._enqueue = enqueue
-        gui.add_html(row_style("auto auto repeat(4, minmax(0, 1fr))", 6))
+        gui.add_html(row_style("toolbar", (5, 5, 3, 4, 3, 4)))
         duplicate = gui.add_button("Duplicate", color="gray", hint="Add a copy behind it.")
         remove = gui.add_button("Remove", color="gray", hint="Remove it: Delete")
         self._up = gui.add_button("Up", color="gray", hint="Move it up in the list.")
