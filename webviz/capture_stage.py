@@ -7,6 +7,8 @@ from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+import msgspec
+
 from webviz.config import Branch, Config, Item, Unreadable, nearest
 from webviz.frames import Frames
 from webviz.group import Group
@@ -16,6 +18,7 @@ from webviz.state import Row, State
 from webviz.status import Level, Status
 from webviz.studio import Studio
 from webviz.viewer import Viewer
+from webviz.views import FIXED_FRAME, FPS, AnyView, TopDownOrtho
 
 STEP_NS = 100_000_000
 """Of the time of a bag in one turn of the frame loop."""
@@ -110,6 +113,24 @@ class Stage:
         """
         return list(self._statuses(self._state()))
 
+    def focused(self, view: AnyView, frame: str) -> AnyView:
+        """A view that looks at a frame, where that is now, from the same side and distance.
+
+        Raises:
+            LookupError: the frame is not known, or the view looks at no point; one sentence.
+        """
+        frames = self._frames()
+        pose = frames.latest(frame.removeprefix("/"))
+        if pose is None:
+            raise LookupError(frames.why_not(frame.removeprefix("/")))
+        if isinstance(view, FPS):
+            raise LookupError("A view of type FPS looks at no point: focus another view.")
+        x, y, _ = pose.position
+        place = (
+            {"x": x, "y": y} if isinstance(view, TopDownOrtho) else {"focal_point": pose.position}
+        )
+        return msgspec.structs.replace(view, target_frame=FIXED_FRAME, **place)
+
     def _statuses(self, state: State) -> dict[str, Status]:
         result: dict[str, Status] = {}
         for row in _enabled(state.rows):
@@ -122,9 +143,11 @@ class Stage:
         return result
 
     def _state(self) -> State:
+        return self._viewer.state(self._frames())
+
+    def _frames(self) -> Frames:
         viewer = self._viewer
-        frames = Frames(viewer.buffer, viewer.settings.fixed_frame, self._source.now_ns())
-        return viewer.state(frames)
+        return Frames(viewer.buffer, viewer.settings.fixed_frame, self._source.now_ns())
 
     def _clock(self) -> float:
         """Seconds for ages and rates: a bag's are the same in every run."""

@@ -16,6 +16,7 @@ from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
 from webviz.capture_stage import Shown, Stage
 from webviz.capture_times import At, TimeError, position_ns, seconds_from_start
 from webviz.config import Config, ConfigError, load, nearest, parse
+from webviz.errors import Error
 from webviz.plugins import PluginError
 from webviz.scene import CannotListen
 from webviz.sources import Source
@@ -23,7 +24,7 @@ from webviz.sources.bag import BagError, BagSource
 from webviz.sources.bag_extras import Extra
 from webviz.status import Status
 from webviz.studio import Studio
-from webviz.views import View
+from webviz.views import AnyView
 
 SIZE = (1280, 720)
 SMALLEST, LARGEST = 16, 8192
@@ -89,10 +90,11 @@ class Order:
     name: str = ""
     at: Sequence[At] = ("end",)
     size: tuple[int, int] = SIZE
-    views: Sequence[str | View] = ()
+    views: Sequence[str | AnyView] = ()
     transparent: bool = False
     wait_for: Sequence[str] | None = None
     timeout: float = TIMEOUT_S
+    focus: str = ""
 
     def positions(self) -> Sequence[int | None]:
         """When: times of recording, in order; None is now.
@@ -104,7 +106,7 @@ class Order:
             return [None]
         return sorted({position_ns(at, self.source, self.name) for at in self.at})
 
-    def looks(self) -> list[tuple[str, View]]:
+    def looks(self) -> list[tuple[str, AnyView]]:
         """From where: views with their names.
 
         Raises:
@@ -119,10 +121,11 @@ def capture(
     bag: str | Path | None = None,
     at: At | Sequence[At] = "end",
     size: tuple[int, int] = SIZE,
-    views: Sequence[str | View] = (),
+    views: Sequence[str | AnyView] = (),
     transparent: bool = False,
     wait_for: Sequence[str] | None = None,
     timeout: float = TIMEOUT_S,
+    focus: str = "",
     fixed_frame: str | None = None,
     plugin: Sequence[str | Path] = (),
     extras: Sequence[Extra] = (),
@@ -144,6 +147,7 @@ def capture(
         transparent: leave the background out.
         wait_for: names of displays that have to be OK; None for all that are enabled.
         timeout: seconds to wait for them.
+        focus: frame to look at, instead of the focal points of the views.
         fixed_frame: instead of the config's.
         plugin: Python files with displays.
         extras: messages that the bag lacks, see `webviz.sources.bag_extras`.
@@ -173,6 +177,7 @@ def capture(
                     transparent,
                     wait_for,
                     timeout,
+                    focus,
                 )
                 return Capture(tuple(pictures(order, studio)))
 
@@ -211,7 +216,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
                 at_s = seconds_from_start(position, order.source)
             shown = stage.wait(awaited, order.timeout)
             for name, view in looks:
-                studio.look(view)
+                studio.look(stage.focused(view, order.focus) if order.focus else view)
                 yield Picture(studio.capture(order.transparent), name, at_s, shown)
 
 
@@ -230,11 +235,11 @@ def opened(
     elif extras:
         raise CaptureError("A map and transforms can be added to a bag only: give a bag.")
     else:
-        from webviz.cli import UserError, ros_source
+        from webviz.app import ros_source
 
         try:
             source = ros_source(ros_args)
-        except UserError as error:
+        except Error as error:
             raise CaptureError(str(error)) from error
     with contextlib.closing(source):
         yield source
@@ -284,10 +289,10 @@ def _read(config: Config | str | Path) -> Config:
     return load(Path(config))
 
 
-def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]]:
+def _looks(config: Config, views: Sequence[str | AnyView]) -> list[tuple[str, AnyView]]:
     if not views:
         return [("", config.settings.view)]
-    named: dict[str, View] = {}
+    named: dict[str, AnyView] = {}
     looks = []
     for number, view in enumerate(views):
         if isinstance(view, str):

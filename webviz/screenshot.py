@@ -83,6 +83,7 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
             options.transparent,
             options.wait_for or None,
             options.timeout,
+            options.focus,
         )
         return _write(options, order)
 
@@ -150,7 +151,12 @@ class _Report:
         when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
         more = f", and so in {len(self._bad) - 1} more pictures" if len(self._bad) > 1 else ""
         print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
-        general = {k: s for k, s in first.shown.general.items() if s.level is not Level.OK}
+        # What was not imported was told when the config was read.
+        general = {
+            key: status
+            for key, status in first.shown.general.items()
+            if status.level is not Level.OK and key != "Import"
+        }
         for line in _table(first.statuses | general):
             print(f"  {line}", file=sys.stderr)
         return NOT_OK

@@ -89,6 +89,12 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME",
         help="saved view of the config (repeatable; default: its current view)",
     )
+    add(
+        "--focus",
+        default="",
+        metavar="FRAME",
+        help="look at this frame, wherever it is, from the side and distance of the view",
+    )
     add("--transparent", action="store_true", help="leave the background out")
     add("--contact-sheet", action="store_true", help="all pictures in one, with captions")
     add(

@@ -58,7 +58,7 @@ def map_of_file(path: Path) -> Extra:
 
 
 def static_transform(
-    parent: str, child: str, x: float, y: float, z: float = 0.0, yaw: float = 0.0
+    parent: str, child: str, x: float, y: float, yaw: float = 0.0, z: float = 0.0
 ) -> Extra:
     """A static transform from a frame to its child, in metres and radians.
 
