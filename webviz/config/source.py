@@ -111,25 +111,28 @@ class Place:
     Args:
         path: of the value, from the top of the source.
         source: the file; without one the path is all that is told.
-        head: goes before the path.
     """
 
     path: Path = ()
     source: Source | None = None
-    head: str = ""
 
     def at(self, *path: str | int) -> Place:
         """A place within this one."""
-        return Place((*self.path, *path), self.source, self.head)
+        return Place((*self.path, *path), self.source)
 
-    def says(self, clause: str) -> str:
-        """A sentence on the value, with its place first."""
-        words = self.head
+    def words(self) -> str:
+        """The path: `displays[2].size`."""
+        words = ""
         for step in self.path:
             if isinstance(step, str) and step.replace("_", "a").isalnum():
                 words += f".{step}" if words else step
             else:
                 words += f"[{json.dumps(step, ensure_ascii=False)}]"
+        return words
+
+    def says(self, clause: str) -> str:
+        """A sentence on the value, with its place first."""
+        words = self.words()
         parts = [words, clause] if words else [clause]
         if self.source:
             parts.insert(0, f"{self.source.where}:{self.source.line(self.path)}")
