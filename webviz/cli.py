@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import functools
 import importlib.metadata
 import importlib.util
 import logging
@@ -15,11 +16,12 @@ import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import msgspec
-
 from webviz import config as config_file
 from webviz import convert, plugins, screenshot
+from webviz.app import NO_ROS, Viewer
 from webviz.config import Config, ConfigError
+from webviz.errors import Error
+from webviz.overrides import override
 
 DEMO = Path(__file__).parent / "demo.yaml"
 EPILOG = """\
@@ -33,14 +35,6 @@ examples:
   webviz demo                     a simulated robot, nothing else needed
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
 """
-NO_ROS = (
-    "webviz needs rclpy of ROS 2 Jazzy, which this Python ({version}) does not have: run "
-    "`source /opt/ros/jazzy/setup.bash` if ROS is installed, or `pip install 'webviz[ros]'`."
-)
-
-
-class UserError(Exception):
-    """Something the user can put right; one sentence."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -63,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _serve(options, ros)
         else:
             _serve(options, ros)
-    except (UserError, ConfigError, plugins.PluginError) as error:
+    except (Error, ConfigError, plugins.PluginError) as error:
         print(f"webviz: {error}", file=sys.stderr)
         return 1
     return 0
@@ -102,6 +96,13 @@ def _parser() -> argparse.ArgumentParser:
         help="Python file with displays, loaded again whenever it is saved (repeatable)",
     )
     add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
+    add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="PATH=VALUE",
+        help="another value than the config's, such as displays.Scan.size=0.1 (repeatable)",
+    )
     add("--port", type=int, default=8080, help="port of the page (default: 8080; 0: any free one)")
     add(
         "--host",
@@ -128,51 +129,31 @@ def _parser() -> argparse.ArgumentParser:
 
 def _serve(options: argparse.Namespace, ros: Sequence[str]) -> None:
     """Show the page until Ctrl-C or SIGTERM."""
-    watcher = plugins.Watcher(options.plugin)
-    for path in options.plugin:
-        plugins.load(path)
-    config = _config(options)
-    with contextlib.ExitStack() as stack:
-        # viser takes a while to import; --help and errors in the config come before.
-        from webviz.gui import Panel
-        from webviz.scene import CannotListen, Scene, open_server, set_view
-        from webviz.viewer import Viewer
-
-        try:
-            server = open_server(options.host, options.port, options.allow_host)
-        except CannotListen as error:
-            raise UserError(str(error)) from error
-        stack.callback(server.stop)
-        set_view(server, config.settings.view)
-        source = ros_source(ros)
-        stack.callback(source.close)
-        viewer = Viewer(
-            config,
-            source,
-            Scene(server),
-            lambda state: panel.update(state),
-            path=options.display_config,
-            autosave=_last_session() if options.autosave else None,
-        )
-        panel = Panel(server, viewer.enqueue)
+    with Viewer(
+        options.display_config,
+        read=functools.partial(_config, options),
+        host=options.host,
+        port=options.port,
+        allow_hosts=options.allow_host,
+        fixed_frame=options.fixed_frame or "",
+        ros_args=ros,
+        plugins=options.plugin,
+        autosave=_last_session() if options.autosave else None,
+    ) as viewer:
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: viewer.stop())
-        watcher.start(viewer.enqueue)
-        stack.callback(watcher.stop)
-        _announce(options, server.get_port())
-        viewer.run()
-        print("\nwebviz: stopped.")
+        _announce(options, viewer)
+        viewer.wait()
+    print("\nwebviz: stopped.")
 
 
-def _announce(options: argparse.Namespace, port: int) -> None:
-    local = options.host in ("127.0.0.1", "localhost", "::1")
-    host = options.host if options.host not in ("0.0.0.0", "::") else "127.0.0.1"
-    print(f"webviz: open http://{f'[{host}]' if ':' in host else host}:{port} (Ctrl-C ends it)")
-    if not local:
+def _announce(options: argparse.Namespace, viewer: Viewer) -> None:
+    print(f"webviz: open {viewer.url} (Ctrl-C ends it)")
+    if options.host not in ("127.0.0.1", "localhost", "::1"):
         names = ", ".join(options.allow_host) or "the address given with --host only"
         print(
-            f"webviz: whoever reaches {options.host}:{port} can watch and change this viewer; "
-            f"browsers must address it as: {names}."
+            f"webviz: whoever reaches {options.host}:{viewer.port} can watch and change this "
+            f"viewer; browsers must address it as: {names}."
         )
     sys.stdout.flush()
 
@@ -183,8 +164,8 @@ def _last_session() -> Path:
     return Path(home) / "webviz" / "last.yaml"
 
 
-def _config(options: argparse.Namespace) -> Config:
-    path = options.display_config
+def _config(options: argparse.Namespace, path: Path | None) -> Config:
+    """What to begin with; `path` is what somebody asked for."""
     if path is None and options.autosave and _last_session().exists():
         path = _last_session()
     if path is None and options.command == "demo":
@@ -192,28 +173,7 @@ def _config(options: argparse.Namespace) -> Config:
     config = config_file.standard() if path is None else config_file.load(path)
     if path is not None:
         convert.tell(path, config.report)
-    if options.fixed_frame:
-        config.settings = msgspec.structs.replace(
-            config.settings, fixed_frame=options.fixed_frame.removeprefix("/")
-        )
-    return config
-
-
-def ros_source(ros: Sequence[str]):
-    """The ROS graph, as the arguments for ROS say.
-
-    Raises:
-        UserError: there is no ROS, or it does not start.
-    """
-    try:
-        from webviz.ros.node import RosSource
-    except ImportError as error:
-        raise UserError(NO_ROS.format(version=sys.version.split()[0])) from error
-    try:
-        return RosSource(ros)
-    except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
-        reason = " ".join(str(error).split()).partition(", at /")[0]
-        raise UserError(f"ROS did not start: {reason}.") from error
+    return override(config, options.set)
 
 
 @contextlib.contextmanager
@@ -235,7 +195,7 @@ def _simulator(ros: Sequence[str]) -> Iterator[None]:
         yield
         status = simulator.poll()
         if status:
-            raise UserError(f"the simulator ended by itself with status {status}.")
+            raise Error(f"the simulator ended by itself with status {status}.")
     finally:
         ended = True
         simulator.terminate()
@@ -248,4 +208,4 @@ def _simulator(ros: Sequence[str]) -> Iterator[None]:
 
 def _ros_is_there() -> None:
     if importlib.util.find_spec("rclpy") is None:
-        raise UserError(NO_ROS.format(version=sys.version.split()[0]))
+        raise Error(NO_ROS.format(version=sys.version.split()[0]))

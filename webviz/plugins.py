@@ -20,6 +20,7 @@ import msgspec
 from webviz import registry
 from webviz.commands import Command, ReloadPlugin
 from webviz.display import Display, inputs_of, make, set_property, to_values
+from webviz.errors import Error
 from webviz.status import Level, Status
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ STATUS = "Plugin"
 """Key of the status that tells of a reload."""
 
 
-class PluginError(Exception):
+class PluginError(Error):
     """A file cannot be used as a plug-in; one sentence that names the file and the place in it."""
 
 

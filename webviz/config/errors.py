@@ -5,11 +5,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from webviz.errors import Error
+
 MAX_HINTS = 40
 """Valid words that an error lists; a tree of transforms may have a thousand frames."""
 
 
-class ConfigError(Exception):
+class ConfigError(Error):
     """A file cannot be used; one sentence that names the file and the place in it."""
 
 
