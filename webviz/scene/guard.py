@@ -19,14 +19,18 @@ import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 from websockets.typing import Data
 
+from webviz.scene import uploads
+
 # A full-screen capture comes back as one message; everything else is small.
 MAX_MESSAGE_BYTES = 32 * 2**20
 
 # What viser's page sends of its own accord or in answer to us. Not here: ShareUrlRequest, which
-# opens a public tunnel, and uploads, of which webviz has none.
+# opens a public tunnel.
 ALLOWED_MESSAGES = frozenset(
     {
         "CommandTriggerMessage",
+        uploads.PART,
+        uploads.START,
         "GetRenderResponseMessage",
         "GuiButtonHoldMessage",
         "GuiFormDirtyMessage",
@@ -43,6 +47,9 @@ ALLOWED_MESSAGES = frozenset(
     }
 )
 
+# Of these the content is checked as well.
+CHECKED_MESSAGES = frozenset({"GuiUpdateMessage", uploads.START})
+
 Accepts = Callable[[dict[str, Any]], bool]
 
 
@@ -56,14 +63,18 @@ def guarded_serve(
         listener: the bound socket to serve instead of the host and port that viser asks for, so
             that viser neither moves to another port nor obeys its environment variable.
         hosts: names under which the server may be addressed.
-        accepts: whether a decoded message of an allowed type may pass.
+        accepts: whether a decoded message that sets a value or announces a file may pass.
     """
 
     class Connection(websocket.ServerConnection):
+        def __init__(self, *arguments: Any, **options: Any) -> None:
+            super().__init__(*arguments, **options)
+            self._uploads = uploads.Uploads()
+
         async def recv(self, decode: bool | None = None) -> Any:
             while True:
                 data = await super().recv(decode)
-                if _may_pass(data, accepts):
+                if _may_pass(data, accepts, self._uploads):
                     return data
 
     def guarded(handler: Any, host: str, port: int, **options: Any) -> Any:
@@ -139,7 +150,7 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _may_pass(data: Data, accepts: Accepts) -> bool:
+def _may_pass(data: Data, accepts: Accepts, sent: uploads.Uploads) -> bool:
     if not isinstance(data, bytes):
         return False
     try:
@@ -149,4 +160,6 @@ def _may_pass(data: Data, accepts: Accepts) -> bool:
     kind = message.get("type") if isinstance(message, dict) else None
     if not isinstance(kind, str) or kind not in ALLOWED_MESSAGES:
         return False
-    return kind != "GuiUpdateMessage" or accepts(message)
+    if kind in CHECKED_MESSAGES and not accepts(message):
+        return False
+    return kind not in (uploads.START, uploads.PART) or sent.accepts(message)

@@ -1,4 +1,4 @@
-"""Which values a browser may give to an input widget."""
+"""Which values and files a browser may give to an input widget."""
 
 from __future__ import annotations
 
@@ -8,12 +8,22 @@ from typing import Any
 import viser
 
 from webviz.scene.adapter import gui_input, gui_props, gui_value
+from webviz.scene.uploads import START
 
 MAX_TEXT = 100_000
 
 
 def accepts_update(server: viser.ViserServer, message: dict[str, Any]) -> bool:
-    """Whether a GuiUpdateMessage sets only a widget's value, to one that the widget offers."""
+    """Whether a browser may do this to a widget.
+
+    A GuiUpdateMessage may set only the value, to one that the widget offers; a file may be
+    announced only for a button that takes files.
+    """
+    if message.get("type") == START:
+        uuid = message.get("source_component_uuid")
+        handle = gui_input(server, uuid) if isinstance(uuid, str) else None
+        is_button = isinstance(handle, viser.GuiUploadButtonHandle)
+        return is_button and not gui_props(handle).disabled
     updates = message.get("updates")
     uuid = message.get("uuid")
     if not isinstance(updates, dict) or set(updates) != {"value"} or not isinstance(uuid, str):
