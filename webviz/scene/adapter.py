@@ -12,15 +12,18 @@ import contextlib
 import threading
 import time
 import uuid
-from collections.abc import AsyncGenerator, Sequence
+from collections.abc import AsyncGenerator, Callable, Sequence
 from typing import Any
 
+import numpy as np
 import viser
+from numpy.typing import NDArray
 from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
 from webviz.scene.late import Late
+from webviz.scene.outbox import Outbox
 
 # Removal messages that may wait in the buffer before browsers that do not read are let go.
 MAX_TOMBSTONES = 10_000
@@ -41,6 +44,7 @@ class Adapter:
         self._queue = self._socket.queue_message
         self._acknowledged: dict[str, set[int]] = {}
         self._answered = threading.Condition()
+        self._listeners: dict[str, Callable[[int, str], None]] = {}
         self._removed = 0
         self.late = Late()
         """What is slow to make, and sent when it is made."""
@@ -87,6 +91,23 @@ class Adapter:
         """
         message = wire.RunJavascriptMessage(source=source)
         (self._socket if client is None else client._websock_connection).queue_message(message)
+
+    def on_told(self, subject: str, listener: Callable[[int, str], None]) -> None:
+        """Calls `listener` with the client id and the text of what a page tells on a subject.
+
+        A page tells by a `LocalStorageGetItemResponseMessage` that has the subject as its
+        `request_uuid`; nobody vouches for the text. The listener runs on viser's event loop.
+        """
+        self._listeners[subject] = listener
+
+    def camera(self, client: viser.ClientHandle) -> tuple[NDArray[np.float64], ...]:
+        """Where a browser's camera is and where it looks at, of one and the same moment.
+
+        Returns:
+            Two float64 (3,), in metres, in the coordinates of the scene.
+        """
+        state = client.camera._state
+        return state.position, state.look_at
 
     @property
     def watchers(self) -> int:
@@ -147,6 +168,8 @@ class Adapter:
             if message.request_uuid in self._acknowledged:
                 self._acknowledged[message.request_uuid].add(client_id)
                 self._answered.notify_all()
+        if message.request_uuid in self._listeners and message.value is not None:
+            self._listeners[message.request_uuid](client_id, message.value)
 
     def _prune(self) -> None:
         """Drops removal messages, and browsers that stopped reading (on the event loop).
@@ -190,8 +213,8 @@ def replay_live_messages_only(buffer: AsyncMessageBuffer) -> None:
 
     viser's own loop walks every message number from 0 on its event loop (170 ms per million
     messages, for everybody). This one walks the messages that still exist, for a browser that
-    joins and for one that was stalled. It also sends a tick in one piece, which viser cuts after
-    128 messages.
+    joins and for one that was stalled. It also sends the small messages of a tick in one piece,
+    which viser cuts after 128 messages, and large ones after them (see `Outbox`).
     """
 
     def window_loop(
@@ -208,32 +231,33 @@ async def _windows(
     backlog_last_id: int,
     backlog_done_message: Message | None,
 ) -> AsyncGenerator[Sequence[Message], None]:
-    cursor = -1
+    outbox = Outbox()
     end_of_backlog = backlog_done_message
     flushed = asyncio.ensure_future(buffer.flush_event.wait())
-    buffer.generator_cursors[client_id] = cursor
+    buffer.generator_cursors[client_id] = outbox.cursor
     try:
         while not buffer.done:
             window: list[Message] = []
             with buffer.buffer_lock:
-                if buffer.atomic_counter == 0:
-                    newest = (
-                        buffer.message_counter - 1 if end_of_backlog is None else backlog_last_id
-                    )
-                    limit = None if end_of_backlog is None else buffer.max_window_size
-                    window, cursor = _messages_after(buffer, cursor, newest, limit)
-                    if end_of_backlog is not None and cursor >= backlog_last_id:
+                live = buffer.message_from_id
+                if buffer.atomic_counter == 0 and end_of_backlog is not None:
+                    window = outbox.small(live, backlog_last_id, buffer.max_window_size)
+                    if outbox.cursor >= backlog_last_id:
                         window.append(end_of_backlog)
                         end_of_backlog = None
+                elif buffer.atomic_counter == 0:
+                    window = outbox.small(live, buffer.message_counter - 1, None)
+                    window += outbox.large(live)
             # viser's garbage collector may forget what every browser's cursor has passed.
-            buffer.generator_cursors[client_id] = cursor
+            buffer.generator_cursors[client_id] = outbox.cursor
             window = [m for m in window if m.excluded_self_client != client_id]
             if window:
                 yield window
             else:
                 await buffer.message_event.wait()
                 buffer.message_event.clear()
-            if not window or cursor == buffer.message_counter - 1:
+            is_done = outbox.cursor == buffer.message_counter - 1 and not outbox.is_waiting()
+            if not window or is_done:
                 done, _ = await asyncio.wait([flushed], timeout=buffer.window_duration_sec)
                 if done and not buffer.done:
                     buffer.flush_event.clear()
@@ -243,18 +267,3 @@ async def _windows(
         flushed.cancel()
         with contextlib.suppress(asyncio.CancelledError):
             await flushed
-
-
-def _messages_after(
-    buffer: AsyncMessageBuffer, cursor: int, newest: int, limit: int | None
-) -> tuple[list[Message], int]:
-    """The messages numbered above `cursor` up to `newest`, at most `limit`, and the new cursor."""
-    live = buffer.message_from_id
-    if newest - cursor > len(live):
-        numbers = [n for n in live if cursor < n <= newest]  # a dict in order of numbers
-    else:
-        numbers = [n for n in range(cursor + 1, newest + 1) if n in live]
-    if limit is not None and len(numbers) > limit:
-        numbers = numbers[:limit]
-        newest = numbers[-1]
-    return [live[n] for n in numbers], max(cursor, newest)

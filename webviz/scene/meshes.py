@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import struct
+from typing import Any
 
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.nodes import Glb, Mesh
-from webviz.scene.adapter import Adapter
 from webviz.scene.drawn import Props, SingleNode, finite_rows
 
 
@@ -41,26 +41,20 @@ class MeshDrawn(SingleNode[Mesh]):
         )
 
 
-class GlbDrawn:
-    """A glTF model. A new model replaces the node; browsers show nothing while they parse it."""
+class GlbDrawn(SingleNode[Glb]):
+    """A glTF model. Browsers show nothing while they parse a new one."""
 
-    def __init__(self, link: Adapter, name: str) -> None:
-        self._link = link
-        self._name = name
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a model of nothing."""
+        return scene.add_glb(name, _NOTHING, cast_shadow=False, receive_shadow=False)
 
-    def draw(self, node: Glb) -> None:
-        """Sends the model.
+    def props(self, node: Glb) -> tuple[Props, ...]:
+        """The model.
 
         Raises:
             ValueError: `node.data` is no binary glTF 2.0.
         """
-        self._handle = self._link.server.scene.add_glb(
-            self._name, matte(node.data), cast_shadow=False, receive_shadow=False
-        )
-
-    def remove(self) -> None:
-        """Takes the model off the scene."""
-        self._handle.remove()
+        return ({"glb_data": matte(node.data)},)
 
 
 def matte(glb: bytes) -> bytes:
@@ -84,8 +78,15 @@ def matte(glb: bytes) -> bytes:
     materials.append({})
     for material in materials:
         material.setdefault("pbrMetallicRoughness", {})["metallicFactor"] = 0.0
+    return _glb(content, glb[end:])
+
+
+def _glb(content: dict[str, Any], rest: bytes = b"") -> bytes:
+    """A binary glTF 2.0 of its JSON and the chunks after that."""
     text = json.dumps(content).encode()
     text += b" " * (-len(text) % 4)
-    length = 20 + len(text) + len(glb) - end
-    header = struct.pack("<4sIII4s", b"glTF", 2, length, len(text), b"JSON")
-    return header + text + glb[end:]
+    length = 20 + len(text) + len(rest)
+    return struct.pack("<4sIII4s", b"glTF", 2, length, len(text), b"JSON") + text + rest
+
+
+_NOTHING = _glb({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]})

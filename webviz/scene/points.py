@@ -2,17 +2,51 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.nodes import Points
+from webviz.scene.adapter import Adapter
 from webviz.scene.drawn import Props, SingleNode, rgb_array
 
 # Beyond every camera's far plane.
 _OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
 
 
-class PointsDrawn(SingleNode[Points]):
+PART = 1 << 15
+"""Points of one viser node. Half a megabyte with their colours: on a poor network other messages go
+in between."""
+
+
+class PointsDrawn:
+    """Points as viser's point clouds, a large one in parts.
+
+    The first part is the parent of the others. Parts that are no longer needed stay, empty.
+    """
+
+    def __init__(self, link: Adapter, name: str) -> None:
+        self._link = link
+        self._name = name
+        self._parts = [_Part(link, name)]
+
+    def draw(self, node: Points) -> None:
+        """Sends the parts that changed."""
+        while len(self._parts) * PART < len(node.xyz):
+            self._parts.append(_Part(self._link, f"{self._name}/%part {len(self._parts)}"))
+        for index, part in enumerate(self._parts):
+            rows = slice(index * PART, (index + 1) * PART)
+            colors = node.colors if isinstance(node.colors, tuple) else node.colors[rows]
+            part.draw(replace(node, xyz=node.xyz[rows], colors=colors))
+
+    def remove(self) -> None:
+        """Takes the points off the scene."""
+        self._link.count_removals(len(self._parts) - 1)
+        self._parts[0].remove()
+
+
+class _Part(SingleNode[Points]):
     """Points as viser's point cloud, flat and float32: exact colours, exact to 1e-7."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:

@@ -24,6 +24,12 @@ from webviz.views import View
 BACKGROUND: Rgb = (48, 48, 48)
 """RViz's default."""
 
+SEND_BUFFER_BYTES = 1 << 19
+"""Of a connection, sent and not yet acknowledged: 5 MB/s at a round trip of 100 ms."""
+
+UNSENT_BYTES = 1 << 16
+"""Of a connection, ready to be sent."""
+
 _opening = threading.Lock()
 
 
@@ -88,7 +94,7 @@ def _listen(host: str, port: int) -> socket.socket:
         family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
-        return socket.create_server(address[:2], family=family)
+        listener = socket.create_server(address[:2], family=family)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             raise PortInUse(
@@ -97,6 +103,15 @@ def _listen(host: str, port: int) -> socket.socket:
             ) from None
         reason = error.strerror or str(error)
         raise CannotListen(f"Cannot listen on port {port} of {host}: {reason}.") from None
+    _let_newest_win(listener)
+    return listener
+
+
+def _let_newest_win(listener: socket.socket) -> None:
+    """Leaves little in the kernel's buffers, where the newest cannot overtake (for connections)."""
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    if hasattr(socket, "TCP_NOTSENT_LOWAT"):
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
 
 
 def _prepare(server: viser.ViserServer) -> None:

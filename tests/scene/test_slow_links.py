@@ -1,0 +1,135 @@
+"""A browser on a poor network: small things first, the newest of large ones, nothing piles up."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from viser import _messages as wire
+
+from webviz.nodes import Points, Pose
+from webviz.scene import Scene
+from webviz.scene.outbox import WINDOW_BYTES, Outbox, bulk
+from webviz.scene.points import PART
+from webviz.scene.server import SEND_BUFFER_BYTES, UNSENT_BYTES
+
+
+class Queue:
+    """The messages there are, as viser's buffer holds them."""
+
+    def __init__(self) -> None:
+        self.live: dict[int, Any] = {}
+        self.outbox = Outbox()
+        self._count = 0
+
+    def push(self, message: Any) -> None:
+        key = message.redundancy_key()
+        self.live = {n: m for n, m in self.live.items() if m.redundancy_key() != key}
+        self.live[self._count] = message
+        self._count += 1
+
+    def cloud(self, name: str, count: int = WINDOW_BYTES // 4) -> None:
+        self.push(wire.SceneNodeUpdateMessage(name, {"points": np.zeros(count, np.float32)}))
+
+    def window(self) -> list[str]:
+        """Names of the nodes in the next frame, the type of what has none."""
+        messages = self.outbox.small(self.live, self._count - 1, None)
+        messages += self.outbox.large(self.live)
+        return [getattr(message, "name", type(message).__name__) for message in messages]
+
+
+def test_what_is_small_goes_before_what_is_large_and_was_queued_before() -> None:
+    queue = Queue()
+    for name in ("/a", "/b", "/c"):
+        queue.cloud(name)
+    queue.push(wire.SetPositionMessage("/robot", (1.0, 0.0, 0.0)))
+    assert queue.window() == ["/robot", "/a"]
+    queue.push(wire.SetPositionMessage("/robot", (2.0, 0.0, 0.0)))
+    assert queue.window() == ["/robot", "/b"]
+
+
+def test_large_messages_share_a_frame_while_there_is_room() -> None:
+    queue = Queue()
+    for index in range(20):
+        queue.cloud(f"/{index}", WINDOW_BYTES // 4 // 8)
+    assert [len(queue.window()) for _ in range(4)] == [8, 8, 4, 0]
+
+
+def test_large_messages_take_turns_however_fast_newer_ones_come() -> None:
+    queue = Queue()
+    seen = []
+    for _ in range(9):
+        for name in ("/a", "/b", "/c"):
+            queue.cloud(name)
+        seen += queue.window()
+    assert seen == ["/a", "/b", "/c"] * 3
+
+
+def test_what_was_removed_or_replaced_is_not_sent() -> None:
+    queue = Queue()
+    for name in ("/a", "/b"):
+        queue.cloud(name)
+    assert queue.window() == ["/a"]
+    queue.live.clear()
+    assert queue.window() == []
+    assert not queue.outbox.is_waiting()
+
+
+def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
+    queue = Queue()
+    for name in ("/a", "/b"):
+        queue.cloud(name)
+    queue.push(wire.LocalStorageGetItemRequestMessage("webviz", "1"))
+    sent = [queue.window()]
+    queue.cloud("/a")
+    sent += [queue.window(), queue.window(), queue.window()]
+    assert sent == [["/a"], ["/b", "LocalStorageGetItemRequestMessage"], ["/a"], []]
+
+
+def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
+    scene: Scene,
+) -> None:
+    for count in (3, 2 * PART + 1, 5, PART + 5):
+        xyz = np.arange(3 * count, dtype=np.float32).reshape(-1, 3)
+        colors = np.zeros((count, 3), np.uint8)
+        scene.upsert("lidar", "it", Points(xyz, colors, 0.1))
+        scene.flush()
+        clouds = [
+            message
+            for message in scene.link._buffer.message_from_id.values()
+            if isinstance(message, wire.SceneNodeUpdateMessage) and "points" in message.updates
+        ]
+        clouds.sort(key=lambda message: message.name)
+        assert (np.concatenate([cloud.updates["points"] for cloud in clouds]) == xyz).all()
+        assert sum(len(np.atleast_2d(cloud.updates["colors"])) for cloud in clouds) >= count
+        assert max(map(bulk, clouds)) <= WINDOW_BYTES
+        assert len(clouds) <= 3
+
+
+def test_a_stalled_browser_gets_the_newest_change_of_the_panel_before_the_cloud(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    peer = call()
+    peer.replay()
+    colors = np.zeros((40 * PART, 3), np.uint8)
+    for index in range(3):
+        scene.upsert("lidar", "it", Points(np.full((40 * PART, 3), index, np.float32), colors, 0.1))
+        scene.set_pose("robot", Pose((float(index), 0.0, 0.0)))
+        scene.flush()
+    seen: list[dict[str, Any]] = []
+    while [2.0, 0.0, 0.0] not in [m.get("position") for m in seen]:
+        seen += peer.receive()
+    assert sum("points" in m.get("updates", {}) for m in seen) < 40
+
+
+def test_a_connection_holds_little_that_nothing_can_overtake(
+    scene: Scene, call: Callable[..., Any]
+) -> None:
+    call().replay()
+    (connection,) = scene.link._socket._live_connections.values()
+    sock = connection.transport.get_extra_info("socket")
+    # Linux counts its own bookkeeping, for which it doubles what it was asked for.
+    assert sock.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) <= 2 * SEND_BUFFER_BYTES
+    assert sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT) == UNSENT_BYTES
