@@ -156,10 +156,11 @@ def _obstacle(connection: Connection) -> str:
         return f"its messages are encoded as {encoding}, not as CDR"
     if type_exists(connection.msgtype):
         return ""
-    if connection.msgdef.format is not MessageDefinitionFormat.MSG:
+    definition = connection.msgdef
+    if definition.format is not MessageDefinitionFormat.MSG or not definition.data.strip():
         return f"{connection.msgtype} is unknown, and the bag has no .msg definition of it"
     try:
-        register(connection.msgtype, connection.msgdef.data)
+        register(connection.msgtype, definition.data)
     except MessageError as error:
         return str(error).rstrip(".")
     return ""

@@ -1,0 +1,52 @@
+"""A bag as the frame loop meets it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+import pytest
+
+from webviz.display import Topic
+from webviz.messages import decode
+from webviz.sources import Subscription
+from webviz.sources.bag import BagSource
+
+STRING = "std_msgs/msg/String"
+
+
+class Player:
+    """Plays a bag, and notes what arrives."""
+
+    def __init__(self, source: BagSource) -> None:
+        self.source = source
+
+    def want(self, *topics: str, type_name: str = STRING, asked: int = 0) -> None:
+        self.source.want(
+            {name: Subscription(type_name, Topic(name), asked=asked) for name in topics}
+        )
+
+    def play(self, to_s: float) -> None:
+        """Play to so many seconds from the start."""
+        until_ns = self.source.start_ns + round(to_s * 1e9)
+        while self.source.position_ns < until_ns:
+            self.source.play(until_ns)
+
+    def heard(self, topic: str = "/words", type_name: str = STRING) -> Sequence[str]:
+        """The strings that arrived since the last call."""
+        arrived = self.source.inbox.drain().get(topic, ())
+        return [decode(type_name, raw.cdr).data for raw in arrived]
+
+
+@pytest.fixture
+def opened() -> Iterator[Callable[..., Player]]:
+    """Open a bag; it is closed at the end."""
+    sources: list[BagSource] = []
+
+    def opened(path: Path, *args: object, **options: object) -> Player:
+        sources.append(BagSource(path, *args, **options))  # pyright: ignore[reportArgumentType]
+        return Player(sources[-1])
+
+    yield opened
+    for source in sources:
+        source.close()

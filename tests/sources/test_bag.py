@@ -1,0 +1,199 @@
+"""What a bag delivers, and when."""
+
+from __future__ import annotations
+
+import pytest
+from bags import START_NS, TF, Bag, files, ns, stamped, strings
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
+
+from webviz.messages import decode
+from webviz.sources.bag import MOST
+
+KINDS = [
+    (StoragePlugin.SQLITE3, CompressionMode.NONE),
+    (StoragePlugin.SQLITE3, CompressionMode.FILE),
+    (StoragePlugin.SQLITE3, CompressionMode.MESSAGE),
+    (StoragePlugin.MCAP, CompressionMode.NONE),
+    (StoragePlugin.MCAP, CompressionMode.FILE),
+    (StoragePlugin.MCAP, CompressionMode.MESSAGE),
+    (StoragePlugin.MCAP, CompressionMode.STORAGE),
+]
+
+
+@pytest.mark.parametrize(("storage", "compression"), KINDS, ids=lambda kind: kind.name.lower())
+def test_what_was_recorded_arrives_up_to_the_time_played(tmp_path, opened, storage, compression):
+    bag = opened(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
+    bag.want("/words")
+    assert bag.heard() == []
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+    assert bag.source.now_ns() == START_NS + ns(1)
+    bag.play(4)
+    assert bag.heard() == ["2.5", "4"]
+    assert (bag.source.start_ns, bag.source.end_ns) == (START_NS, START_NS + ns(4))
+
+
+@pytest.mark.parametrize(
+    ("storage", "ending"), [(StoragePlugin.MCAP, ".mcap"), (StoragePlugin.SQLITE3, ".db3")]
+)
+def test_a_file_of_a_bag_is_a_bag(tmp_path, opened, storage, ending):
+    (file,) = files(strings(0, 1).write(tmp_path / "bag", storage), ending)
+    bag = opened(file)
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
+def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):
+    bag = opened(strings(0, 1.25).write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.play(1.25)
+    assert [raw.received_ns - START_NS for raw in bag.source.inbox.drain()["/words"]] == [
+        0,
+        ns(1.25),
+    ]
+
+
+def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
+    seconds = [0.001 * i for i in range(3 * MOST)]
+    bag = opened(strings(*seconds).write(tmp_path / "bag"))
+    bag.want("/words")
+    source, heard = bag.source, []
+    while source.position_ns < source.end_ns:
+        source.play(source.end_ns)
+        heard.append(bag.heard())
+    assert max(map(len, heard)) <= MOST
+    assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
+
+
+def test_a_topic_that_is_wanted_late_begins_where_the_bag_is(tmp_path, opened):
+    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+    bag.play(1)
+    bag.want("/words")
+    bag.play(2)
+    assert bag.heard() == ["2"]
+
+
+def test_another_topic_that_is_wanted_meanwhile_loses_nothing_of_the_first(tmp_path, opened):
+    recorded = strings(0, 1, 2, 3)
+    recorded.add("/more", "std_msgs/msg/String")
+    recorded.put(2, "/more", {"data": "more"})
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.play(1)
+    bag.want("/words", "/more")
+    bag.play(3)
+    arrived = bag.source.inbox.drain()
+    assert [len(arrived["/words"]), len(arrived["/more"])] == [4, 1]
+
+
+def test_a_topic_that_is_no_longer_wanted_is_silent(tmp_path, opened):
+    bag = opened(strings(0, 1).write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.want()
+    bag.play(1)
+    assert bag.heard() == []
+
+
+def test_what_was_latched_is_repeated_for_who_comes_late(tmp_path, opened):
+    bag = opened(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
+    bag.play(5)
+    bag.want("/words")
+    assert bag.heard() == ["1", "2"]
+    bag.want("/words", asked=1)
+    assert bag.heard() == ["1", "2"]
+    bag.play(9)
+    assert bag.heard() == ["9"]
+
+
+def test_all_static_transforms_are_repeated_for_nobody_knows_who_published_them(tmp_path, opened):
+    recorded = Bag()
+    for at_s, child in enumerate(("a", "b", "c")):
+        recorded.transform(at_s, "map", child, static=True)
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.play(2)
+    bag.want("/tf_static", type_name=TF)
+    arrived = bag.source.inbox.drain()["/tf_static"]
+    children = [decode(TF, raw.cdr).transforms[0].child for raw in arrived]
+    assert children == ["a", "b", "c"]
+
+
+def test_topics_are_offered_as_they_were_published(tmp_path, opened):
+    recorded = strings(0, best_effort=True)
+    recorded.add("/map_name", "std_msgs/msg/String", latched=True)
+    recorded.put(0, "/map_name", {"data": "lab"})
+    bag = opened(recorded.write(tmp_path / "run"))
+    (words,) = bag.source.offers()["/words"].publishers
+    (name,) = bag.source.offers()["/map_name"].publishers
+    assert (words.node, words.type) == ("the bag run", "std_msgs/msg/String")
+    assert (words.reliability, words.durability) == ("best_effort", "volatile")
+    assert (name.reliability, name.durability) == ("reliable", "transient_local")
+    assert bag.source.offers()["/words"].requested is None
+    bag.want("/words")
+    assert bag.source.offers()["/words"].requested == ("best_effort", "volatile")
+
+
+def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
+    text = "string data\nint32 number\n"
+    recorded = strings(0)
+    recorded.add("/own", "learnt_msgs/msg/Own", definition=text)
+    cdr = b"\x00\x01\x00\x00" + b"\x03\x00\x00\x00hi\x00\x00" + b"\x07\x00\x00\x00"
+    recorded.put(0, "/own", cdr)
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.want("/own", type_name="learnt_msgs/msg/Own")
+    bag.play(1)
+    (raw,) = bag.source.inbox.drain()["/own"]
+    message = decode("learnt_msgs/msg/Own", raw.cdr)
+    assert (message.data, message.number) == ("hi", 7)
+    assert bag.source.remarks == []
+
+
+@pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
+def test_a_type_without_a_definition_is_skipped_and_listed(tmp_path, opened, text):
+    recorded = strings(0, 1)
+    recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
+    recorded.put(0, "/odd", b"\x00\x01\x00\x00")
+    bag = opened(recorded.write(tmp_path / "bag"))
+    (remark,) = bag.source.remarks
+    assert remark.startswith("/odd is skipped: ")
+    assert "odd_msgs/msg/Odd" in remark
+    assert bag.source.offers()["/odd"].problem
+    bag.want("/words", "/odd")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
+def test_a_recorded_clock_is_the_time(tmp_path, opened):
+    recorded = strings(0, 1, 2, 3)
+    recorded.add("/clock", "rosgraph_msgs/msg/Clock")
+    for at_s in (0.5, 1.5, 2.5):
+        recorded.put(at_s, "/clock", {"clock": {"sec": 10 + round(at_s)}})
+    bag = opened(recorded.write(tmp_path / "bag"))
+    assert bag.source.now_ns() == ns(10)
+    bag.want("/words")
+    bag.play(2)
+    assert bag.source.now_ns() == ns(12)
+    received = [raw.received_ns for raw in bag.source.inbox.drain()["/words"]]
+    assert received == [ns(10), ns(10), ns(12)]
+
+
+def test_transforms_in_the_time_of_a_simulator_set_the_time(tmp_path, opened):
+    recorded = Bag()
+    recorded.add("/tf", TF)
+    for at_s in (1, 2):
+        recorded.put(at_s, "/tf", {"transforms": [stamped("map", "base", ns(100 + at_s))]})
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.play(0.5)
+    assert bag.source.now_ns() == ns(101.5)
+    (remark,) = bag.source.remarks
+    assert "The transforms begin at 101.0 s" in remark
+
+
+def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
+    bag = opened(strings(0).write(tmp_path / "bag"), remappings={"/scan": "/front/scan"})
+    names = ("scan", "/scan", "odom", "~/path")
+    resolved = [bag.source.resolve(name) for name in names]
+    assert resolved == ["/front/scan", "/front/scan", "/odom", "/webviz/path"]
+    for wrong in ("/a b", "", "/1st", "/a//b", "/a/"):
+        with pytest.raises(ValueError, match="is no topic name"):
+            bag.source.resolve(wrong)

@@ -1,0 +1,134 @@
+"""Bags written by an independent library."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ros_messages import SECOND, serialized
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+from webviz.messages import definition, type_exists, type_hash
+
+TF = "tf2_msgs/msg/TFMessage"
+START_NS = 1_700_000_000 * SECOND
+"""When every bag of a test begins."""
+
+
+@dataclass
+class Topic:
+    """How a topic of a bag was published."""
+
+    type: str
+    latched: bool = False
+    best_effort: bool = False
+    depth: int = 1
+    definition: str = ""
+    """.msg text of a type that nobody else knows."""
+
+
+@dataclass
+class Bag:
+    """What is to be recorded: (seconds from the start, topic, values or bytes)."""
+
+    topics: dict[str, Topic] = field(default_factory=dict)
+    messages: list[tuple[float, str, Mapping[str, Any] | bytes]] = field(default_factory=list)
+
+    def add(self, topic: str, type_name: str, **how: Any) -> None:
+        self.topics[topic] = Topic(type_name, **how)
+
+    def put(self, at_s: float, topic: str, values: Mapping[str, Any] | bytes) -> None:
+        self.messages.append((at_s, topic, values))
+
+    def transform(
+        self, at_s: float, parent: str, child: str, x: float = 0.0, *, static: bool = False
+    ) -> None:
+        """Publish a transform along x, stamped with the time of recording."""
+        topic = "/tf_static" if static else "/tf"
+        self.topics.setdefault(topic, Topic(TF, latched=static))
+        self.put(at_s, topic, {"transforms": [stamped(parent, child, START_NS + ns(at_s), x)]})
+
+    def write(
+        self,
+        path: Path,
+        storage: StoragePlugin = StoragePlugin.MCAP,
+        compression: CompressionMode = CompressionMode.NONE,
+    ) -> Path:
+        """Write a rosbag2 folder."""
+        writer = Writer(path, version=9, storage_plugin=storage)
+        if compression is not CompressionMode.NONE:
+            writer.set_compression(compression, CompressionFormat.ZSTD)
+        with writer:
+            connections = {
+                name: writer.add_connection(
+                    name,
+                    topic.type,
+                    offered_qos_profiles=[_qos(topic)],
+                    **_definition(topic),
+                )
+                for name, topic in self.topics.items()
+            }
+            for at_s, name, values in sorted(self.messages, key=lambda message: message[0]):
+                is_raw = isinstance(values, bytes)
+                cdr = values if is_raw else serialized(self.topics[name].type, values)
+                writer.write(connections[name], START_NS + ns(at_s), cdr)
+        return path
+
+
+def ns(seconds: float) -> int:
+    return round(seconds * SECOND)
+
+
+def stamped(parent: str, child: str, stamp_ns: int, x: float = 0.0) -> Mapping[str, Any]:
+    """A geometry_msgs/TransformStamped."""
+    sec, nanosec = divmod(stamp_ns, SECOND)
+    return {
+        "header": {"frame_id": parent, "stamp": {"sec": sec, "nanosec": nanosec}},
+        "child_frame_id": child,
+        "transform": {"translation": {"x": x}, "rotation": {"w": 1.0}},
+    }
+
+
+def strings(*seconds: float, topic: str = "/words", **how: Any) -> Bag:
+    """A bag of strings that say when they were recorded."""
+    bag = Bag()
+    bag.add(topic, "std_msgs/msg/String", **how)
+    for at_s in seconds:
+        bag.put(at_s, topic, {"data": f"{at_s:g}"})
+    return bag
+
+
+def files(folder: Path, ending: str) -> Iterable[Path]:
+    """The recorded files of a folder."""
+    return sorted(folder.glob(f"*{ending}"))
+
+
+def _definition(topic: Topic) -> Mapping[str, Any]:
+    if topic.definition or not type_exists(topic.type):
+        return {"msgdef": topic.definition, "rihs01": f"RIHS01_{'0' * 64}"}
+    return {"msgdef": definition(topic.type), "rihs01": type_hash(topic.type)}
+
+
+def _qos(topic: Topic) -> Qos:
+    forever = QosTime(2147483647, 4294967295)
+    return Qos(
+        QosHistory.KEEP_LAST,
+        topic.depth,
+        QosReliability.BEST_EFFORT if topic.best_effort else QosReliability.RELIABLE,
+        QosDurability.TRANSIENT_LOCAL if topic.latched else QosDurability.VOLATILE,
+        forever,
+        forever,
+        QosLiveliness.AUTOMATIC,
+        forever,
+        False,
+    )
