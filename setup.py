@@ -8,6 +8,7 @@ setup(
             "webviz = webviz.cli:main",
             "webviz-sim = webviz_sim.node:main",
         ],
+        "pytest11": ["webviz = webviz.pytest_plugin"],
         "webviz.displays": [
             "Axes = webviz_displays.axes:Axes",
             "Group = webviz.group:Group",

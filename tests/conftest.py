@@ -6,19 +6,15 @@ from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
-from page import launched
 
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addoption(
-        "--update-pictures",
-        action="store_true",
-        help="make the reference pictures of tests/pictures anew; look at each before committing",
-    )
+from webviz.browser import NoBrowser, launched
 
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[playwright.Browser]:
-    """One headless Chromium for all tests."""
-    with launched() as browser:
-        yield browser
+    """One headless Chromium for all tests of pages."""
+    try:
+        with launched() as browser:
+            yield browser
+    except NoBrowser as error:
+        pytest.fail(str(error), pytrace=False)

@@ -9,8 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recording import RecordingScene
-from ros_messages import SECOND, header, serialized
 
 from webviz import Display, Frames, Pose, Status
 from webviz.display import inputs
@@ -18,6 +16,9 @@ from webviz.nodes import Node
 from webviz.pipeline.background import Workers
 from webviz.pipeline.runner import Runner, Services
 from webviz.sources import Offer, Publisher, Raw
+from webviz.testing.messages import header, serialized
+from webviz.testing.recording import RecordingScene
+from webviz.testing.source import SECOND
 from webviz.transforms import TransformBuffer
 from webviz_displays.geometry import transformed
 

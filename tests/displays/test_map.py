@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from ros_messages import header
 
 from webviz import Image, Topic
+from webviz.testing.messages import header
 from webviz_displays.map import Map
 from webviz_displays.palettes import colorize, lookup_table
 from webviz_displays.tiles import TILE

@@ -10,9 +10,9 @@ import pytest
 from clouds import CLOUD, CODES, FLOAT32, XYZ, cloud, xyz_cloud
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from ros_messages import serialized
 
 from webviz import messages
+from webviz.testing.messages import serialized
 from webviz_displays.cloud import Cloud, CloudError, drawable
 from webviz_displays.cloud_colors import packed_colors
 

@@ -10,8 +10,9 @@ from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
-from page import Page
 from program import Program
+
+from webviz.browser import Page
 
 
 @pytest.fixture(scope="module")

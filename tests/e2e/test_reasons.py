@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator
 
 import playwright.sync_api as playwright
 import pytest
-from page import Page
 from program import Program
+
+from webviz.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from page import Page
 from program import Program
+
+from webviz.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

@@ -88,8 +88,9 @@ class Loop:
 class Tab:
     """One browser tab that shows the panel and whose edits count."""
 
-    def __init__(self, page: playwright.Page, server: viser.ViserServer) -> None:
+    def __init__(self, page: playwright.Page, server: viser.ViserServer, loop: Loop) -> None:
         self.page = page
+        self._loop = loop
         self.errors: list[str] = []
         self.frames_received = 0
         page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -118,6 +119,35 @@ class Tab:
     def names(self) -> list[str]:
         """The texts in the list of displays."""
         return self.page.locator(":has(> div > .webviz-list) button").all_inner_texts()
+
+    def click(self, name: str) -> None:
+        """Click on a button of the panel, and let the loop do what it was asked."""
+        self.page.get_by_role("button", name=name, exact=True).click()
+        self.page.wait_for_timeout(100)
+        self._loop.drain()
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab of the panel."""
+        self.page.get_by_text(name, exact=True).first.click()
+
+    def dialog_button(self, name: str) -> playwright.Locator:
+        """A button of the dialog that is open."""
+        return self.page.get_by_role("dialog").get_by_role("button", name=name, exact=True)
+
+    def dialog_labels(self) -> list[str]:
+        """The labels of check boxes in the dialog that is open."""
+        self._loop.drain()
+        return self.page.locator(":has(> div > .webviz-picks) label").all_inner_texts()
+
+    def check(self, label: str) -> None:
+        """Check a box by its label."""
+        self.page.get_by_label(label, exact=True).check()
+        self.page.wait_for_timeout(100)
+
+    def uncheck(self, label: str) -> None:
+        """Clear a box by its label."""
+        self.page.get_by_label(label, exact=True).uncheck()
+        self.page.wait_for_timeout(100)
 
     def text(self) -> str:
         """All that can be read on the page."""
@@ -152,13 +182,15 @@ def loop(server: viser.ViserServer) -> Loop:
 
 
 @pytest.fixture
-def open_tab(browser: playwright.Browser, server: viser.ViserServer) -> Iterator[Callable[[], Tab]]:
+def open_tab(
+    browser: playwright.Browser, server: viser.ViserServer, loop: Loop
+) -> Iterator[Callable[[], Tab]]:
     """Opens tabs, each in a browser session of its own; in the end none has seen an error."""
     tabs: list[Tab] = []
 
     def open_tab() -> Tab:
         context = browser.new_context(viewport={"width": 700, "height": 900})
-        tabs.append(Tab(context.new_page(), server))
+        tabs.append(Tab(context.new_page(), server, loop))
         return tabs[-1]
 
     yield open_tab
@@ -169,7 +201,7 @@ def open_tab(browser: playwright.Browser, server: viser.ViserServer) -> Iterator
 
 
 @pytest.fixture
-def tab(loop: Loop, open_tab: Callable[[], Tab]) -> Tab:
+def tab(open_tab: Callable[[], Tab]) -> Tab:
     return open_tab()
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from pictures import Stage, turned
-
+from webviz.testing import Stage, turned
 from webviz.views import View
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
@@ -13,37 +12,39 @@ from webviz_displays.grid import Grid
 Stages = Callable[..., Stage]
 
 
-def test_a_grid_has_cells_lines_and_a_plane(stage: Stages) -> None:
-    seen = stage(Grid(), view=View(distance=17.0, yaw=-1.2, pitch=0.6))
-    seen.check("grid/default")
+def test_a_grid_has_cells_lines_and_a_plane(webviz_stage: Stages) -> None:
+    seen = webviz_stage(Grid(), view=View(distance=17.0, yaw=-1.2, pitch=0.6))
+    seen.check_picture("grid/default")
     seen.set("line_style", "Billboards")
     seen.set("line_width", 0.15)
     seen.set("color", (90, 160, 255))
     seen.set("alpha", 1.0)
-    seen.check("grid/billboards")
+    seen.check_picture("grid/billboards")
     seen.set("plane_cell_count", 3)
     seen.set("cell_size", 2.0)
     seen.set("plane", "XZ")
-    seen.check("grid/plane_xz")
+    seen.check_picture("grid/plane_xz")
     seen.set("line_style", "Lines")
     seen.set("normal_cell_count", 2)
     seen.set("offset", (0.0, 0.0, 2.0))
-    seen.check("grid/normal_cells")
+    seen.check_picture("grid/normal_cells")
 
 
-def test_a_grid_lies_in_its_reference_frame(stage: Stages) -> None:
-    seen = stage(Grid(plane_cell_count=4), Axes(), view=View(distance=9.0, yaw=-1.2, pitch=0.6))
+def test_a_grid_lies_in_its_reference_frame(webviz_stage: Stages) -> None:
+    seen = webviz_stage(
+        Grid(plane_cell_count=4), Axes(), view=View(distance=9.0, yaw=-1.2, pitch=0.6)
+    )
     seen.transform("map", "ramp", (1.5, 0.0, 0.5), turned(pitch=-0.4, yaw=0.6))
     seen.set("reference_frame", "ramp")
-    seen.check("grid/reference_frame")
+    seen.check_picture("grid/reference_frame")
 
 
-def test_axes_have_a_length_a_radius_and_a_frame(stage: Stages) -> None:
+def test_axes_have_a_length_a_radius_and_a_frame(webviz_stage: Stages) -> None:
     view = View(distance=6.0, yaw=0.9, pitch=0.5)
-    seen = stage(Axes(), Grid(), view=view)
-    seen.check("axes/default")
-    seen = stage(Axes(length=2.0, radius=0.03), Grid(), view=view)
-    seen.check("axes/length_and_radius")
+    seen = webviz_stage(Axes(), Grid(), view=view)
+    seen.check_picture("axes/default")
+    seen = webviz_stage(Axes(length=2.0, radius=0.03), Grid(), view=view)
+    seen.check_picture("axes/length_and_radius")
     seen.transform("map", "camera", (0.0, 0.0, 1.0), turned(roll=-1.5708, yaw=-1.0))
     seen.set("reference_frame", "camera")
-    seen.check("axes/reference_frame")
+    seen.check_picture("axes/reference_frame")

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import building
 import numpy as np
-from pictures import Stage, turned
 from scipy.ndimage import distance_transform_edt
 
+from webviz.testing import Stage, turned
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.map import Map
@@ -30,30 +30,30 @@ def costs() -> np.ndarray:
     return inflated.astype(np.int8)
 
 
-def test_a_map_has_schemes_alpha_and_updates(stage: Stages) -> None:
-    seen = stage(Map(), Grid(), view=VIEW)
+def test_a_map_has_schemes_alpha_and_updates(webviz_stage: Stages) -> None:
+    seen = webviz_stage(Map(), Grid(), view=VIEW)
     seen.transform("map", "elsewhere")
     seen.publish("/map", GRID, building.grid(), frame="map")
     seen.turn()
-    seen.check("map/default")
+    seen.check_picture("map/default")
     seen.set("alpha", 1.0)
-    seen.check("map/alpha_1")
+    seen.check_picture("map/alpha_1")
     seen.set("color_scheme", "raw")
-    seen.check("map/raw")
+    seen.check_picture("map/raw")
     seen.set("color_scheme", "costmap")
     seen.set("binary_representation", True)
-    seen.check("map/costmap_binary")
+    seen.check_picture("map/costmap_binary")
     seen.set("binary_representation", False)
     seen.set("color_scheme", "map")
     cells = np.tile(np.arange(-1, 101, 3, dtype=np.int8), (40, 1))
     update = {"x": 90, "y": 70, "width": cells.shape[1], "height": 40, "data": cells.ravel()}
     seen.publish("/map_updates", "map_msgs/msg/OccupancyGridUpdate", update, frame="map")
     seen.turn()
-    seen.check("map/update_of_40_rows")
+    seen.check_picture("map/update_of_40_rows")
 
 
-def test_cells_are_sharp_and_the_origin_may_be_turned(stage: Stages) -> None:
-    seen = stage(
+def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_stage: Stages) -> None:
+    seen = webviz_stage(
         Map(alpha=1.0),
         Grid(),
         view=View(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
@@ -64,22 +64,23 @@ def test_cells_are_sharp_and_the_origin_may_be_turned(stage: Stages) -> None:
     data = [0, 100, 50, -1, 10, 25, 75, 99] * 3 + [100, 0, 0, 0, 0, 0, 0, 100] * 3
     seen.publish("/map", GRID, {"info": info, "data": data}, frame="room")
     seen.turn()
-    seen.check("map/turned_origin_in_a_turned_frame")
+    seen.check_picture("map/turned_origin_in_a_turned_frame")
 
 
-def test_maps_stack_by_their_place_in_the_list(stage: Stages) -> None:
+def test_maps_stack_by_their_place_in_the_list(webviz_stage: Stages) -> None:
     costmap = Map(name="Costmap", color_scheme="costmap", alpha=0.6)
     costmap.topic = type(costmap.topic)("/costmap")
-    seen = stage(Map(alpha=1.0), costmap, view=VIEW)
+    seen = webviz_stage(Map(alpha=1.0), costmap, view=VIEW)
     seen.transform("map", "elsewhere")
     seen.publish("/map", GRID, building.grid(), frame="map")
     half = costs()
     half[:, 124:] = 0  # free cells of a costmap are transparent
     seen.publish("/costmap", GRID, building.grid(half), frame="map")
     seen.turn()
-    seen.check("map/costmap_over_map")
-    seen.set("alpha", 1.0, display=2)
-    seen.set("draw_behind", True, display=2)
-    seen.check("map/costmap_behind_map")
+    seen.check_picture("map/costmap_over_map")
+    seen.set("alpha", 1.0, display="Costmap")
+    seen.set("draw_behind", True, display="Costmap")
+    # Behind what is opaque there is nothing to see of it.
+    seen.check_picture("map/costmap_behind_map", each_display=False)
     seen.set("alpha", 0.4)
-    seen.check("map/costmap_behind_map_of_alpha_0.4")
+    seen.check_picture("map/costmap_behind_map_of_alpha_0.4")

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from pictures import Stage, turned
 
+from webviz.testing import Stage, turned
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.odometry import Odometry
@@ -41,49 +41,49 @@ def drive(seen: Stage, variances: tuple[float, ...], steps: int = 9) -> None:
     seen.turn()
 
 
-def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(stage: Stages) -> None:
+def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_stage: Stages) -> None:
     view = View(distance=5.5, yaw=-0.3, pitch=0.8, focal_point=(0.4, 0.0, 0.0))
-    seen = stage(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
+    seen = webviz_stage(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.0,) * 6)
-    seen.check("odometry/without_covariance")
+    seen.check_picture("odometry/without_covariance")
     seen.set("shape.shaft_length", 0.5)
     seen.set("shape.shaft_radius", 0.03)
     seen.set("shape.head_length", 0.2)
     seen.set("shape.head_radius", 0.08)
     seen.set("shape.color", (80, 200, 255))
-    seen.check("odometry/smaller_arrows")
+    seen.check_picture("odometry/smaller_arrows")
     seen.set("shape.alpha", 0.4)
     seen.set("keep", 4)
-    seen.check("odometry/keep_4_faded_by_alpha")
+    seen.check_picture("odometry/keep_4_faded_by_alpha")
     seen.set("shape.axes_length", 0.5)
     seen.set("shape.axes_radius", 0.04)
     seen.set("shape.value", "Axes")
-    seen.check("odometry/axes")
+    seen.check_picture("odometry/axes")
 
 
-def test_covariances_in_the_plane_are_ellipses_and_wedges(stage: Stages) -> None:
+def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_stage: Stages) -> None:
     view = View(distance=5.5, yaw=-0.3, pitch=0.9, focal_point=(0.4, 0.0, 0.0))
-    seen = stage(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
+    seen = webviz_stage(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.03, 0.12, 0.0, 0.0, 0.0, 0.06), steps=5)
-    seen.check("odometry/default")
+    seen.check_picture("odometry/default")
     seen.set("covariance.orientation.value", False)
     seen.set("covariance.position.scale", 2.0)
     seen.set("covariance.position.color", (80, 255, 120))
     seen.set("covariance.position.alpha", 0.6)
-    seen.check("odometry/position_covariance_of_2_sigma")
+    seen.check_picture("odometry/position_covariance_of_2_sigma")
     seen.set("covariance.position.value", False)
     seen.set("covariance.orientation.value", True)
     seen.set("covariance.orientation.offset", 0.5)
     seen.set("covariance.orientation.color", (120, 200, 255))
-    seen.check("odometry/orientation_covariance_at_0.5_m")
+    seen.check_picture("odometry/orientation_covariance_at_0.5_m")
 
 
-def test_covariances_in_space_are_ellipsoids_and_discs(stage: Stages) -> None:
+def test_covariances_in_space_are_ellipsoids_and_discs(webviz_stage: Stages) -> None:
     view = View(distance=5.0, yaw=-0.6, pitch=0.6, focal_point=(0.5, 1.2, 0.3))
-    seen = stage(Odometry(shape=ARROW, keep=1), Grid(plane_cell_count=6), view=view)
+    seen = webviz_stage(Odometry(shape=ARROW, keep=1), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.05, 0.2, 0.1, 0.1, 0.05, 0.2), steps=6)
-    seen.check("odometry/default_in_space")
+    seen.check_picture("odometry/default_in_space")
     seen.set("covariance.orientation.color_style", "RGB")
     seen.set("covariance.orientation.alpha", 1.0)
     seen.set("covariance.orientation.frame", "Fixed")
-    seen.check("odometry/color_style_rgb_in_the_fixed_frame")
+    seen.check_picture("odometry/color_style_rgb_in_the_fixed_frame")

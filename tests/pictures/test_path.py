@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import building
 import numpy as np
-from pictures import Stage
 
+from webviz.testing import Stage
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.path import Path
@@ -26,33 +26,33 @@ def send(seen: Stage, height: float) -> None:
     seen.turn()
 
 
-def test_a_path_has_a_line_and_poses(stage: Stages) -> None:
-    seen = stage(Path(), Grid(plane_cell_count=6), view=VIEW)
+def test_a_path_has_a_line_and_poses(webviz_stage: Stages) -> None:
+    seen = webviz_stage(Path(), Grid(plane_cell_count=6), view=VIEW)
     send(seen, 1.0)
-    seen.check("path/default")
+    seen.check_picture("path/default")
     seen.set("line_style", "Billboards")
     seen.set("line_width", 0.12)
     seen.set("color", (255, 160, 0))
-    seen.check("path/billboards")
+    seen.check_picture("path/billboards")
     seen.set("alpha", 0.4)
     seen.set("length", 0.4)
     seen.set("pose_style", "Axes")
-    seen.check("path/axes_on_a_faded_line")
+    seen.check_picture("path/axes_on_a_faded_line")
     seen.set("pose_style", "Arrows")
     seen.set("line_style", "Lines")
-    seen.check("path/arrows")
+    seen.check_picture("path/arrows")
     seen.set("alpha", 1.0)
     seen.set("shaft_diameter", 0.05)
     seen.set("head_diameter", 0.15)
     seen.set("pose_color", (80, 220, 255))
     seen.set("offset", (0.0, 0.0, 1.0))
-    seen.check("path/thinner_arrows_offset_1_m_up")
+    seen.check_picture("path/thinner_arrows_offset_1_m_up")
 
 
-def test_the_newest_paths_stay(stage: Stages) -> None:
-    seen = stage(Path(buffer_length=3), Grid(plane_cell_count=6), view=VIEW)
+def test_the_newest_paths_stay(webviz_stage: Stages) -> None:
+    seen = webviz_stage(Path(buffer_length=3), Grid(plane_cell_count=6), view=VIEW)
     for height in (2.0, 1.4, 0.8, 0.2):
         send(seen, height)
-    seen.check("path/buffer_length_3")
+    seen.check_picture("path/buffer_length_3")
     seen.set("buffer_length", 1)
-    seen.check("path/buffer_length_1")
+    seen.check_picture("path/buffer_length_1")

@@ -9,10 +9,12 @@ from pathlib import Path
 import building
 import numpy as np
 import pytest
-from pictures import REFERENCES, TOLERANCE, Stage, Studio, load, share_of_difference, turned
 from robots import DEMO, place_links
 
 from webviz import Display
+from webviz.browser import Pixels
+from webviz.testing import TOLERANCE, Stage, share_of_difference, turned
+from webviz.testing.comparing import load
 from webviz.views import View
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
@@ -24,6 +26,7 @@ from webviz_displays.robot_model import RobotModel
 from webviz_displays.tf import TF
 from webviz_sim.pose import Pose
 
+REFERENCES = Path(__file__).parent
 FOLDERS = sorted(path for path in REFERENCES.iterdir() if path.is_dir())
 EVERYTHING: tuple[type[Display], ...] = (
     Grid,
@@ -42,9 +45,13 @@ def stems(folder: Path) -> list[str]:
     return [str(path.relative_to(REFERENCES).with_suffix("")) for path in found]
 
 
+def picture(name: str) -> Pixels:
+    return load(REFERENCES / f"{name}.png")
+
+
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_no_picture_is_taken_for_another_one(folder: Path) -> None:
-    pictures = {name: load(name) for name in stems(folder)}
+    pictures = {name: picture(name) for name in stems(folder)}
     assert pictures
     for (one, a), (other, b) in itertools.combinations(pictures.items(), 2):
         assert share_of_difference(a, b) > TOLERANCE, f"{one} and {other} look alike"
@@ -58,7 +65,7 @@ def test_pictures_are_small(folder: Path) -> None:
 
 def test_a_shade_does_not_count_but_a_shift_does() -> None:
     for name in ("laser_scan/default", "robot_model/default"):
-        pixels = load(name)
+        pixels = picture(name)
         brighter = np.minimum(pixels, 245) + np.uint8(10)
         assert share_of_difference(pixels, brighter) <= TOLERANCE
         assert share_of_difference(pixels, np.roll(pixels, 2, axis=1)) > TOLERANCE
@@ -81,32 +88,9 @@ def everything(seen: Stage) -> None:
 
 
 def test_without_any_one_of_its_displays_a_scene_has_another_picture(
-    stage: Callable[..., Stage], studio: Studio
+    webviz_stage: Callable[..., Stage],
 ) -> None:
     view = View(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
-    seen = stage(*(cls() for cls in EVERYTHING), view=view)
+    seen = webviz_stage(*(cls() for cls in EVERYTHING), view=view)
     everything(seen)
-    seen.check("all_displays/together")
-    if studio.update:
-        return
-    whole = load("all_displays/together")
-    for number, cls in enumerate(EVERYTHING, 1):
-        seen.set("enabled", False, display=number)
-        seen.still(0.2)
-        assert seen.difference(whole, seconds=0.0)[0] > TOLERANCE, f"{cls.__name__} is not missed"
-        seen.set("enabled", True, display=number)
-        assert seen.difference(whole)[0] <= TOLERANCE, f"{cls.__name__} does not come back"
-
-
-def test_a_wrong_picture_fails_and_says_where_to_look(
-    stage: Callable[..., Stage], studio: Studio
-) -> None:
-    if studio.update:
-        pytest.skip("nothing is compared while pictures are made")
-    seen = stage(Grid(), view=View(distance=17.0, yaw=-1.2, pitch=0.6))
-    seen.check("grid/default")
-    seen.set("cell_size", 0.9)
-    seen.patience = 0.0
-    with pytest.raises(AssertionError, match=r"tests/output/grid/default\.difference\.png"):
-        seen.check("grid/default")
-    assert (REFERENCES.parent / "output/grid/default.png").exists()
+    seen.check_picture("all_displays/together", each_display=True)

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from pictures import Stage
 
+from webviz.testing import Stage
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.point_cloud2 import PointCloud2
@@ -41,25 +41,25 @@ def cloud() -> dict[str, Any]:
     }
 
 
-def test_points_have_colours_styles_and_fewer_of_them(stage: Stages) -> None:
+def test_points_have_colours_styles_and_fewer_of_them(webviz_stage: Stages) -> None:
     view = View(distance=8.0, yaw=-1.2, pitch=0.7)
-    seen = stage(PointCloud2(size=0.12), Grid(plane_cell_count=8), view=view)
+    seen = webviz_stage(PointCloud2(size=0.12), Grid(plane_cell_count=8), view=view)
     seen.transform("map", "camera")
     seen.publish("/points", "sensor_msgs/msg/PointCloud2", cloud(), frame="camera")
     seen.turn()
-    seen.check("point_cloud2/default")
+    seen.check_picture("point_cloud2/default")
     seen.set("color_transformer", "Intensity")
-    seen.check("point_cloud2/intensity")
+    seen.check_picture("point_cloud2/intensity")
     seen.set("color_transformer", "AxisColor")
-    seen.check("point_cloud2/axis_z")
+    seen.check_picture("point_cloud2/axis_z")
     seen.set("voxel_size", 0.6)
     seen.set("style", "Spheres")
     seen.set("size", 0.2)
-    seen.check("point_cloud2/spheres_one_per_voxel_of_0.6_m")
+    seen.check_picture("point_cloud2/spheres_one_per_voxel_of_0.6_m")
     seen.set("voxel_size", 0.0)
     seen.set("max_points", 50)
     seen.set("style", "Boxes")
     seen.set("color_transformer", "FlatColor")
     seen.set("color", (80, 200, 255))
     seen.set("alpha", 0.5)
-    seen.check("point_cloud2/50_transparent_boxes")
+    seen.check_picture("point_cloud2/50_transparent_boxes")

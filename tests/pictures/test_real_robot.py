@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import PIL.Image
 import pytest
-from pictures import Stage
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
+from webviz import Level
+from webviz.testing import Stage
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
@@ -52,7 +53,7 @@ def cells() -> np.ndarray:
     return read.astype(np.int8)
 
 
-def test_the_scan_lies_on_the_walls_of_the_map(stage: Callable[..., Stage]) -> None:
+def test_the_scan_lies_on_the_walls_of_the_map(webviz_stage: Callable[..., Stage]) -> None:
     grid = cells()
     height, width = grid.shape
     x, y = ORIGIN
@@ -60,7 +61,7 @@ def test_the_scan_lies_on_the_walls_of_the_map(stage: Callable[..., Stage]) -> N
     info = {"resolution": RESOLUTION, "width": width, "height": height, "origin": origin}
     odometry = Odometry(keep=1, covariance=Covariance(value=False))
     view = View(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
-    seen = stage(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
+    seen = webviz_stage(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
     seen.transform("map", "odom", *ODOM)
     map_ = {"info": info, "data": grid.ravel()}
     seen.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")
@@ -71,5 +72,5 @@ def test_the_scan_lies_on_the_walls_of_the_map(stage: Callable[..., Stage]) -> N
         seen.turn()
         if topic == "/scan" and next(scans) == SCANS:
             break
-    seen.check("real_robot/scan_on_walls")
-    assert seen.statuses(2)["Points"][0] == "OK"
+    seen.check_picture("real_robot/scan_on_walls")
+    assert seen.statuses("LaserScan")["Points"].level is Level.OK

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
-from pictures import REFERENCES, Stage
 from robots import DEMO, place_links, robots_folder
 
+from webviz import Level
+from webviz.testing import Stage
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.robot_model import RobotModel
@@ -37,60 +39,60 @@ ROBOTS: dict[str, tuple[str, View]] = {
 }
 
 
-def test_the_demo_robot_shows_what_is_chosen_of_it(stage: Stages) -> None:
+def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_stage: Stages) -> None:
     view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     seen.turn()
-    seen.check("robot_model/default")
+    seen.check_picture("robot_model/default")
     seen.set("alpha", 0.4)
-    seen.check("robot_model/alpha_0.4")
+    seen.check_picture("robot_model/alpha_0.4")
     seen.set("collision_enabled", True)
     seen.set("visual_enabled", False)
-    seen.check("robot_model/collision_shapes_of_alpha_0.4")
+    seen.check_picture("robot_model/collision_shapes_of_alpha_0.4")
     seen.set("mass_properties.mass", True)
     seen.set("collision_enabled", False)
     seen.set("alpha", 1.0)
-    seen.check("robot_model/masses")
+    seen.check_picture("robot_model/masses")
     seen.set("mass_properties.mass", False)
     seen.set("mass_properties.inertia", True)
-    seen.check("robot_model/inertias")
+    seen.check_picture("robot_model/inertias")
     seen.set("mass_properties.inertia", False)
     seen.set("visual_enabled", True)
     seen.set("links", {"base_link": LinkSettings(alpha=0.2, show_axes=True)})
-    seen.check("robot_model/one_link_of_alpha_0.2_with_axes")
+    seen.check_picture("robot_model/one_link_of_alpha_0.2_with_axes")
     seen.set("all_links_enabled", False)
     seen.set("links", {"wheel_left_link": LinkSettings(), "base_scan": LinkSettings()})
-    seen.check("robot_model/two_links_only")
+    seen.check_picture("robot_model/two_links_only")
 
 
-def test_links_without_a_transform_are_grey_where_they_were(stage: Stages) -> None:
+def test_links_without_a_transform_are_grey_where_they_were(webviz_stage: Stages) -> None:
     view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
     seen.settle()
     # The wheel's publisher now hangs it below a frame that nobody connects.
     seen.transform("axle", "wheel_left_link", stamp_ns=seen.source.now)
     seen.turn()
-    seen.check("robot_model/a_lost_wheel_is_grey")
-    level, text = seen.statuses()["Links"]
-    assert level == "ERROR"
-    assert "wheel_left_link" in text
+    seen.check_picture("robot_model/a_lost_wheel_is_grey")
+    links = seen.statuses()["Links"]
+    assert links.level is Level.ERROR
+    assert "wheel_left_link" in links.text
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_real_robots_are_whole_and_coloured(stage: Stages, name: str) -> None:
+def test_real_robots_are_whole_and_coloured(webviz_stage: Stages, name: str) -> None:
     file, view = ROBOTS[name]
     path = robots_folder() / file
     robot = RobotModel(description_source="File", description_file=str(path))
-    seen = stage(robot, view=view)
+    seen = webviz_stage(robot, view=view)
     place_links(seen, path)
-    seen.check(f"robot_model/robots/{name}")
-    assert seen.statuses()["URDF"][0] == "OK"
+    seen.check_picture(f"robot_model/robots/{name}")
+    assert seen.statuses()["URDF"].level is Level.OK
 
 
 def test_every_robot_has_a_picture_and_the_other_way_round() -> None:
-    shown = {path.stem for path in (REFERENCES / "robot_model/robots").iterdir()}
+    shown = {path.stem for path in (Path(__file__).parent / "robot_model/robots").iterdir()}
     assert shown == ROBOTS.keys()

@@ -6,10 +6,11 @@ import math
 from collections.abc import Callable
 
 import building
-from pictures import Stage, turned
 from robots import DEMO, place_links
-from ros_messages import SECOND
 
+from webviz import Level, Status
+from webviz.testing import Stage, turned
+from webviz.testing.source import SECOND
 from webviz.views import View
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -57,35 +58,36 @@ def look_around(seen: Stage) -> None:
     seen.turn()
 
 
-def test_a_robot_misplaced_by_a_static_transform(stage: Stages) -> None:
-    seen = stage(*displays(), view=VIEW)
+def test_a_robot_misplaced_by_a_static_transform(webviz_stage: Stages) -> None:
+    seen = webviz_stage(*displays(), view=VIEW)
     robot(seen, odom=Pose(START.y, START.x))  # x and y are exchanged
-    seen.check("stories/misplaced")
-    assert seen.statuses(4)["odom"] == (
-        "OK",
+    seen.check_picture("stories/misplaced")
+    assert seen.statuses("TF")["odom"] == Status(
+        Level.OK,
         "In 'map' (static): position (0.000, -2.000, 0.000) m, "
         "roll, pitch and yaw (0.0, 0.0, 0.0) degrees.",
     )
     seen.transform("map", "odom", (START.x, START.y, 0.0))
     look_around(seen)
-    seen.check("stories/in_place")
-    assert "position (-2.000, 0.000, 0.000) m" in seen.statuses(4)["odom"][1]
+    seen.check_picture("stories/in_place")
+    assert "position (-2.000, 0.000, 0.000) m" in seen.statuses("TF")["odom"].text
 
 
-def test_a_laser_turned_on_the_robot(stage: Stages) -> None:
-    seen = stage(*displays(), view=VIEW)
+def test_a_laser_turned_on_the_robot(webviz_stage: Stages) -> None:
+    seen = webviz_stage(*displays(), view=VIEW)
     robot(seen, laser_yaw=math.radians(15))
-    seen.check("stories/turned_laser")
-    text = seen.statuses(4)["base_scan"][1]
+    seen.check_picture("stories/turned_laser")
+    text = seen.statuses("TF")["base_scan"].text
     assert text.startswith("In 'base_link' (static)")
     assert "yaw (0.0, 0.0, 15.0) degrees" in text
-    assert seen.statuses(3)["Transform"] == ("OK", "Transform OK")  # none is missing: one is wrong
+    # None is missing: one is wrong.
+    assert seen.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 
 
-def test_a_path_that_leads_through_an_obstacle(stage: Stages) -> None:
+def test_a_path_that_leads_through_an_obstacle(webviz_stage: Stages) -> None:
     map_, model, scan, _ = displays()
     path = Path(line_style="Billboards", line_width=0.06)
-    seen = stage(map_, model, scan, path, view=VIEW)
+    seen = webviz_stage(map_, model, scan, path, view=VIEW)
     goal = Pose(4.5, 0.0)
     plan = Planner(building.WORLD).plan(START, goal)
     robot(seen)
@@ -99,11 +101,11 @@ def test_a_path_that_leads_through_an_obstacle(stage: Stages) -> None:
     measured = building.scan(START, world)
     seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
     seen.turn()
-    seen.check("stories/through_an_obstacle")
-    assert "the newest 8.0 s ago" in seen.statuses(4)["Topic"][1]  # the plan
-    assert "the newest 0.0 s ago" in seen.statuses(3)["Topic"][1]  # the scan
+    seen.check_picture("stories/through_an_obstacle")
+    assert "the newest 8.0 s ago" in seen.statuses("Path")["Topic"].text  # the plan
+    assert "the newest 0.0 s ago" in seen.statuses("LaserScan")["Topic"].text  # the scan
 
     around = Planner(world).plan(START, goal)
     seen.publish("/path", "nav_msgs/msg/Path", building.path(around), frame="map")
     seen.turn()
-    seen.check("stories/around_the_obstacle")
+    seen.check_picture("stories/around_the_obstacle")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from pictures import Stage, turned
-from ros_messages import SECOND
-
+from webviz import Level
+from webviz.testing import Stage, turned
+from webviz.testing.source import SECOND
 from webviz.views import View
 from webviz_displays.grid import Grid
 from webviz_displays.tf import TF
@@ -23,34 +23,34 @@ def frames(seen: Stage, stamp_ns: int) -> None:
     seen.turn()
 
 
-def test_frames_have_axes_arrows_and_names(stage: Stages) -> None:
+def test_frames_have_axes_arrows_and_names(webviz_stage: Stages) -> None:
     view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = stage(TF(), Grid(plane_cell_count=4), view=view)
+    seen = webviz_stage(TF(), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
-    seen.check("tf/default")
+    seen.check_picture("tf/default")
     seen.set("show_names", True)
-    seen.check("tf/names")
+    seen.check_picture("tf/names")
     seen.set("show_axes", False)
     seen.set("marker_scale", 1.5)
     seen.set("show_arrows", False)
     seen.set("show_axes", True)
-    seen.check("tf/marker_scale_without_arrows")
+    seen.check_picture("tf/marker_scale_without_arrows")
     seen.set("filter_blacklist", "ma[ps]")
-    seen.check("tf/filter_blacklist")
+    seen.check_picture("tf/filter_blacklist")
     seen.set("filter_blacklist", "")
     seen.set("show_axes", False)
     seen.set("show_arrows", True)
-    seen.check("tf/arrows_and_names")
+    seen.check_picture("tf/arrows_and_names")
 
 
-def test_frames_that_are_not_updated_turn_grey_and_disappear(stage: Stages) -> None:
+def test_frames_that_are_not_updated_turn_grey_and_disappear(webviz_stage: Stages) -> None:
     view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = stage(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
+    seen = webviz_stage(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
     seen.source.now += 10 * SECOND
-    seen.check("tf/old_frames_are_grey")
+    seen.check_picture("tf/old_frames_are_grey")
     seen.source.now += 6 * SECOND
-    seen.check("tf/older_frames_are_gone")
-    level, text = seen.statuses()["Frames"]
-    assert level == "WARN"
-    assert "3 not updated for more than 15 s" in text
+    seen.check_picture("tf/older_frames_are_gone")
+    frames_status = seen.statuses()["Frames"]
+    assert frames_status.level is Level.WARN
+    assert "3 not updated for more than 15 s" in frames_status.text

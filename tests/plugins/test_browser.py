@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page import Page
 from program import Program
+
+from webviz.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 from bench import HandFedSource
-from recording import RecordingScene
 from rviz_trees import lost, texts
 
 from webviz import cli
 from webviz import config as config_file
 from webviz.state import State
+from webviz.testing.recording import RecordingScene
 from webviz.viewer import Viewer
 
 SMALL = """\

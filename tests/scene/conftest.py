@@ -12,8 +12,8 @@ import pytest
 import viser
 import websockets.sync.client
 import zstandard
-from page import Page
 
+from webviz.browser import Page
 from webviz.scene import Scene, open_server
 
 Point = tuple[float, float, float]

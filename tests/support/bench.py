@@ -4,54 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
-from recording import RecordingScene
-from ros_messages import SECOND, header, serialized
-
-from webviz.config import Config, Settings
-from webviz.display import Display
-from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
+from webviz.config import Config, Item, Settings
 from webviz.state import State
+from webviz.testing.messages import header, serialized
+from webviz.testing.recording import RecordingScene
+from webviz.testing.source import HandFedSource
 from webviz.viewer import Viewer
-
-
-@dataclass
-class HandFedSource:
-    """A source whose messages, publishers and time a test sets."""
-
-    inbox: Inbox = field(default_factory=Inbox)
-    wanted: Mapping[str, Subscription] = field(default_factory=dict)
-    known: dict[str, Offer] = field(default_factory=dict)
-    now: int = 100 * SECOND
-
-    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
-        for topic in self.wanted.keys() - subscriptions.keys():
-            self.inbox.close(topic)
-        for topic in subscriptions.keys() - self.wanted.keys():
-            self.inbox.open(topic, 1000)
-        self.wanted = dict(subscriptions)
-
-    def offers(self) -> Mapping[str, Offer]:
-        return self.known
-
-    def now_ns(self) -> int:
-        return self.now
-
-    def resolve(self, topic: str) -> str:
-        if " " in topic:
-            raise ValueError(f"{topic!r} is no topic name: it has a space")
-        return f"/{topic.removeprefix('/')}"
-
-    def close(self) -> None:
-        pass
 
 
 class Bench:
     """A viewer on a hand-fed source and a recording scene."""
 
-    def __init__(self, *displays: Display, fixed_frame: str = "map", strict: bool = True) -> None:
+    def __init__(
+        self,
+        *displays: Item,
+        fixed_frame: str = "map",
+        strict: bool = True,
+        autosave: Path | None = None,
+    ) -> None:
         self.source = HandFedSource()
         self.scene = RecordingScene()
         self.states: list[State] = []
@@ -62,18 +35,14 @@ class Bench:
             self.source,
             self.scene,
             self.states.append,
+            autosave=autosave,
             strict=strict,
             clock=lambda: self.clock,
         )
         self.turn()
 
     def publish(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
-        cdr = serialized(type_name, values)
-        if topic not in self.source.known:
-            publisher = Publisher("/test", type_name, "reliable", "volatile")
-            policies = ("reliable", "volatile")
-            self.source.known[topic] = Offer((publisher,), policies)
-        self.source.inbox.put(topic, Raw(cdr, self.source.now))
+        self.source.put(topic, type_name, serialized(type_name, values))
 
     def transform(
         self, parent: str, child: str, stamp_ns: int, x: float = 0.0, *, static: bool = False
@@ -108,10 +77,10 @@ def benches() -> Iterator[Callable[..., Bench]]:
     """Makes benches, and ends them all."""
     made: list[Bench] = []
 
-    def make(*displays: Display, **options: Any) -> Bench:
+    def make(*displays: Item, **options: Any) -> Bench:
         made.append(Bench(*displays, **options))
         return made[-1]
 
     yield make
     for each in made:
-        each.viewer._workers.close()
+        each.viewer.close()

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import PIL.Image
-from page import Page, launched
-from pictures import REFERENCES, store
 from program import Program
 
-PATH = REFERENCES / "demo.png"
+from webviz.browser import Page, launched
+from webviz.testing.comparing import store
+
+PATH = Path(__file__).parents[1] / "pictures/demo.png"
 WIDTH, HEIGHT = 1280, 800
 SECONDS = 25.0
 """After these the robot is in the middle of the building, with its trail behind it."""
@@ -39,7 +40,7 @@ def main() -> int:
             page.close()
         finally:
             program.end()
-    store(np.asarray(picture.convert("RGB")), PATH)
+    store(np.asarray(picture.convert("RGB")), PATH, few_colors=True)
     return 0
 
 

@@ -13,9 +13,10 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from ros_messages import SECOND, header, serialized
 
 from webviz.ros.types import message_class
+from webviz.testing.messages import header, serialized
+from webviz.testing.source import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
 SCAN = "sensor_msgs/msg/LaserScan"

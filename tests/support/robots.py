@@ -6,9 +6,9 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
-from pictures import Stage
 
 import webviz_urdf
+from webviz.testing import Shown
 from webviz_urdf import load_file
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo/robot.urdf"
@@ -22,7 +22,7 @@ def robots_folder() -> Path:
     return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))
 
 
-def place_links(seen: Stage, file: Path, below: str = "map") -> None:
+def place_links(seen: Shown, file: Path, below: str = "map") -> None:
     """Transforms of a robot with all joints at zero, its root on the origin of a frame."""
     for link, pose in load_file(file).fk().items():
         w, x, y, z = pose.wxyz

@@ -66,6 +66,10 @@ class Tasks:
         """Whether work is done that was asked for in vain before."""
         return any(self._futures[key].done() for key in self._unanswered)
 
+    def is_busy(self) -> bool:
+        """Whether a result that was asked for has not been drawn yet."""
+        return bool(self._unanswered)
+
     def forget_unasked(self) -> None:
         """Drop what was not asked for since the last call."""
         for key in self._futures.keys() - self._asked:

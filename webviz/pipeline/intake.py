@@ -56,6 +56,12 @@ class Intake:
         self._placed_at = 0.0
         self._waiting_since: float | None = None
         self._asked = next(_ASKED)
+        self._newest = self._newest_placed = -1
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the newest message waits for its transform."""
+        return len(self._filter) > 0 and self._newest > self._newest_placed
 
     def subscription(self) -> Subscription:
         """What to ask the source for."""
@@ -96,11 +102,13 @@ class Intake:
             if not waits:
                 arrivals.append(arrival)
                 continue
+            self._newest = arrival.number
             self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns)
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:
             self._placed_at, self._waiting_since = clock, None
+            self._newest_placed = placed[-1].number
         elif self._waiting_since is None and self._filter.is_stuck:
             self._waiting_since = clock
         return arrivals

@@ -77,6 +77,10 @@ class Painter:
                 self._drawing.remove(scope)
         self.is_stale = True
 
+    def is_busy(self) -> bool:
+        """Whether slow work is still to be drawn."""
+        return self._tasks.is_busy()
+
     def followed(self) -> set[str]:
         """The frames whose poses `draw` will ask for."""
         return self._drawing.followed()

@@ -169,6 +169,14 @@ class Runner:
         self._history.trim(self._keep(), frames.now_ns)
         self._painter.draw(self.display, self._guard, self._history, frames)
 
+    def is_waiting(self) -> bool:
+        """Whether the newest message of an input waits for its transform."""
+        return self.display.enabled and any(i.is_waiting for i in self._heard().values())
+
+    def is_busy(self) -> bool:
+        """Whether slow work of the display is still to be drawn."""
+        return self.display.enabled and self._painter.is_busy()
+
     def followed(self) -> set[str]:
         """The frames whose poses `draw` will ask for."""
         return self._painter.followed() if self.display.enabled else set()
