@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from webviz import config as config_file
-from webviz import convert, plugins, screenshot
+from webviz import convert, plugins, schema, screenshot
 from webviz.app import NO_ROS, Viewer
 from webviz.config import Config, ConfigError
 from webviz.errors import Error
@@ -48,6 +48,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if own[:1] == ["convert"]:
             convert.run(own[1:])
+            return 0
+        if own[:1] == ["schema"]:
+            schema.run(own[1:])
             return 0
         if own[:1] == ["screenshot"]:
             return screenshot.run(own[1:], ros)

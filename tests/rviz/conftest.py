@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-
-FOLDER = Path(__file__).parents[3] / "shared" / "data" / "rviz"
-FILES = sorted(FOLDER.glob("*.rviz"))
+from rviz_files import FILES, FOLDER
 
 
 @pytest.fixture(params=FILES or [None], ids=lambda path: path.stem if path else "none")

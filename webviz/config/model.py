@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import msgspec
 
-from webviz.display import Color, Display, make
+from webviz.display import Color, Display, Prop, make
 from webviz.group import Group
 from webviz.registry import display_types
 from webviz.views import View
@@ -21,13 +21,17 @@ STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
     """What a config file says besides its displays."""
 
-    version: int = VERSION
-    fixed_frame: str = "map"
-    background: Color = (48, 48, 48)
-    frame_rate: Annotated[float, msgspec.Meta(ge=1, le=240)] = 60.0
+    version: Annotated[int, Prop(help="Of the form of the file.")] = VERSION
+    fixed_frame: Annotated[str, Prop(help="The frame that everything is drawn in.")] = "map"
+    background: Annotated[Color, Prop(help="Colour behind the scene.")] = (48, 48, 48)
+    frame_rate: Annotated[
+        float, Prop(ge=1, le=240, unit="Hz", help="How often the scene may change.")
+    ] = 60.0
     view: View = View()
-    rviz: dict[str, Any] = {}  # msgspec copies it
-    """What a .rviz file says that has no counterpart here; kept for writing it again."""
+    rviz: Annotated[
+        dict[str, Any], Prop(help="What a .rviz file says that has no counterpart here.")
+    ] = {}  # msgspec copies it
+    """Kept for writing it again."""
 
 
 @dataclass

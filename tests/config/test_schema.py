@@ -1,0 +1,154 @@
+"""The JSON Schema that is shipped says the same of config files as webviz itself."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from jsonschema import Draft7Validator
+from ruamel.yaml import YAML
+from rviz_files import FILES
+
+from webviz import cli, registry, rviz
+from webviz.config import Config, ConfigError, Unreadable, dump, parse, standard
+from webviz.config.schema import schema
+from webviz.display import make
+from webviz.registry import display_types
+from webviz.schema import COMMAND, SHIPPED, text
+
+INSTALLED = display_types()
+CHECK = Draft7Validator(schema(INSTALLED))
+DEMO = Path(cli.__file__).parent / "demo.yaml"
+
+
+def faults(written: str) -> list[str]:
+    """What the schema has against the text of a config."""
+    values = json.loads(json.dumps(YAML(typ="safe", pure=True).load(io.StringIO(written))))
+    return [f"{error.json_path}: {error.message}" for error in CHECK.iter_errors(values)]
+
+
+def accepts(written: str) -> bool:
+    """Whether webviz has nothing against the text of a config."""
+    try:
+        items = parse(written, "x.yaml").displays
+    except ConfigError:
+        return False
+    return not any(isinstance(item, Unreadable) for item in items)
+
+
+def test_the_shipped_schema_is_that_of_the_declarations() -> None:
+    assert SHIPPED.read_text(encoding="utf-8") == text(INSTALLED), f"run {COMMAND}"
+
+
+def test_it_is_a_schema() -> None:
+    Draft7Validator.check_schema(schema(INSTALLED))
+
+
+def test_the_configs_that_come_with_webviz_are_valid() -> None:
+    assert faults(dump(standard())) == []
+    assert faults(DEMO.read_text()) == []
+    assert faults("version: 1\ndisplays:\n") == []
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_what_was_saved_of_a_real_rviz_file_is_valid(path: Path) -> None:
+    assert faults(dump(rviz.read(path.read_text(), path.name)[0])) == []
+
+
+@pytest.mark.parametrize("name", INSTALLED)
+def test_every_display_is_valid_with_its_defaults_written_out(name: str) -> None:
+    display = make(INSTALLED[name], {})
+    values = {"type": name, **msgspec.to_builtins(display)}
+    assert faults(json.dumps({"displays": [values]})) == []
+    assert faults(dump(Config(displays=[display]))) == []
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "{type: LaserScan, topic: /scan}",
+        "{type: LaserScan, topic: {name: /scan, depth: 3}}",
+        "{type: LaserScan, size: 1}",
+        "{type: LaserScan, style: Boxes, color: [1, 2, 3]}",
+        "{type: Group, displays: [{type: Grid}, {type: Group, displays: }]}",
+        "{type: TF, frames: {a b: true}}",
+        "{type: RobotModel, links: {base: {alpha: 0.5}}}",
+    ],
+)
+def test_what_webviz_accepts_is_valid(entry: str) -> None:
+    written = f"displays: [{entry}]"
+    assert accepts(written)
+    assert faults(written) == []
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "colour: red",
+        "version: 2",
+        "frame_rate: 0",
+        "background: [0, 0]",
+        "background: [0, 0, 256]",
+        "view: {distance: 0}",
+        "displays: 5",
+        "displays: [Grid]",
+        "displays: [{size: 1}]",
+        "displays: [{type: LaserScan, sise: 1}]",
+        "displays: [{type: LaserScan, size: 0}]",
+        "displays: [{type: LaserScan, size: small}]",
+        "displays: [{type: LaserScan, alpha: 1.5}]",
+        "displays: [{type: LaserScan, style: Sqares}]",
+        "displays: [{type: LaserScan, topic: {depth: -1}}]",
+        "displays: [{type: LaserScan, topic: {dept: 1}}]",
+        "displays: [{type: LaserScan, enabled: 1}]",
+        "displays: [{type: Grid, plane_cell_count: 2.5}]",
+        "displays: [{type: Group, colour: 1}]",
+        "displays: [{type: RobotModel, links: {base: {alpha: 2}}}]",
+    ],
+)
+def test_what_webviz_refuses_is_not_valid(written: str) -> None:
+    assert not accepts(written)
+    assert len(faults(written)) == 1
+
+
+def test_a_mistake_in_a_group_is_found() -> None:
+    found = faults("displays: [{type: Group, displays: [{type: Grid}, {type: Grid, alpha: 2}]}]")
+    assert found == ["$.displays[0].displays[1].alpha: 2 is greater than the maximum of 1"]
+
+
+def test_displays_of_others_are_no_error() -> None:
+    assert faults("displays: [{type: Sonar, beams: [1, 2]}]") == []
+    assert faults("displays: [{type: Grid, name: Mine, rviz: {Class: Grid, Odd: 1}}]") == []
+
+
+def test_properties_are_described_with_unit_and_default() -> None:
+    properties: Any = schema(INSTALLED)["definitions"]["LaserScan"]["properties"]
+    assert properties["size"]["description"].endswith("In m.")
+    assert properties["size"]["default"] == 0.01
+    assert properties["size_pixels"]["description"].endswith('Where style is "Points".')
+    assert properties["topic"]["default"] == "/scan"
+
+
+def test_the_command_writes_it_with_displays_of_a_plugin(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plugin, written = tmp_path / "beacon.py", tmp_path / "out.json"
+    plugin.write_text(
+        "from webviz import Display\n\n\n"
+        'class Beacon(Display):\n    """A light."""\n\n    height: float = 2.0\n'
+    )
+    try:
+        assert cli.main(["schema", "--plugin", str(plugin), "-o", str(written)]) == 0
+        assert capsys.readouterr().out == f"webviz: wrote {written}\n"
+        made = json.loads(written.read_text())
+        assert made["definitions"]["Beacon"]["properties"]["height"]["default"] == 2.0
+    finally:
+        registry.register(str(plugin), {})
+    assert cli.main(["schema"]) == 0
+    assert capsys.readouterr().out == text(INSTALLED)
+    assert cli.main(["schema", "-o", str(tmp_path / "no folder" / "x")]) == 1
+    assert "Cannot write" in capsys.readouterr().err
