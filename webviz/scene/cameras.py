@@ -8,9 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import msgspec
+import numpy as np
 import viser
 
 from webviz.scene.adapter import Adapter
+from webviz.scene.image_script import IMAGE_SCRIPT
+from webviz.scene.mouse_script import MOUSE_SCRIPT
 from webviz.scene.names import node_path
 from webviz.scene.view_script import REPORT, VIEW_SCRIPT, call
 from webviz.views import (
@@ -76,9 +79,11 @@ class Cameras:
         self._numbers = itertools.count(1)
         self._browsers: dict[int, _Browser] = {}
         link.on_told(REPORT, self._hear)
-        link.run_javascript(VIEW_SCRIPT)
+        for script in (VIEW_SCRIPT, MOUSE_SCRIPT, IMAGE_SCRIPT):
+            link.run_javascript(script)
         link.server.on_client_connect(self._join)
         link.server.on_client_disconnect(self._leave)
+        self.start_with(self._start)
 
     def start_with(self, view: AnyView) -> None:
         """Choose what browsers that join begin with."""
@@ -100,7 +105,7 @@ class Cameras:
             if browser in (None, id_):
                 if known := self._browsers.get(id_):
                     known.view, known.number = view, number
-                self._link.run_javascript(call("show", _json(view, number)), client)
+                self._link.run_javascript(call("webvizView.show", _json(view, number)), client)
 
     def views(self) -> Mapping[int, AnyView]:
         """What every browser shows now, by its id."""
@@ -123,19 +128,21 @@ class Cameras:
         """Let a browser, or every one, download what it shows as a PNG of that name."""
         for id_, client in self._link.server.get_clients().items():
             if browser in (None, id_):
-                self._link.run_javascript(call("saveImage", json.dumps(name)), client)
+                self._link.run_javascript(call("webvizImage.save", json.dumps(name)), client)
 
     def _view(self, known: _Browser, client: viser.ClientHandle) -> AnyView:
         if known.obeyed != known.number:
             return known.view
-        camera = Camera(*self._link.camera(client))
+        position, (w, x, y, z), pivot = self._link.camera(client)
+        forward = np.array((2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
+        camera = Camera(position, position + forward * np.linalg.norm(pivot - position))
         return view_of(type(known.view), known.view.target_frame, camera, known.size[1])
 
     # Called on viser's event loop
 
     async def _join(self, client: viser.ClientHandle) -> None:
         # A page that only lost its connection keeps its camera, and tells of it.
-        self._link.run_javascript(call("join", _json(self._start, 0)), client)
+        self._link.run_javascript(call("webvizView.join", _json(self._start, 0)), client)
 
     async def _leave(self, client: viser.ClientHandle) -> None:
         self._browsers.pop(client.client_id, None)

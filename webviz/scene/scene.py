@@ -24,6 +24,7 @@ from webviz.nodes import (
 )
 from webviz.scene.adapter import Adapter
 from webviz.scene.axes import AxesDrawn
+from webviz.scene.cameras import Cameras
 from webviz.scene.drawn import Drawn
 from webviz.scene.images import ImageDrawn
 from webviz.scene.instances import InstancesDrawn
@@ -70,6 +71,7 @@ class Scene:
         server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
         self.link.run_javascript(PAGE_SCRIPT)
+        self.cameras = Cameras(self.link)
 
     def has_watchers(self) -> bool:
         """Whether any browser is connected."""

@@ -18,7 +18,25 @@ from webviz.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISE
 REPORT = "webviz view"
 """Marks the messages by which a page tells which view it has, and how large."""
 
-_SCRIPT = """
+_CONSTANTS = {
+    "ROOT": ROOT,
+    "REPORT": REPORT,
+    "RAISED": RAISED,
+    "EYE": EYE,
+    "FIELD_OF_VIEW": FIELD_OF_VIEW,
+    "FLAT_FIELD_OF_VIEW": FLAT_FIELD_OF_VIEW,
+    "NEAR_PX": 4,  # what the mouse points at although it is not quite there
+    "SENT_MS": 100,  # after which viser has told where the camera is
+}
+
+
+def as_script(source: str) -> str:
+    """JavaScript in a scope of its own that knows the constants of views."""
+    constants = "".join(f"const {key} = {json.dumps(value)};" for key, value in _CONSTANTS.items())
+    return f"(function () {{{constants}{source}}})();"
+
+
+VIEW_SCRIPT = as_script("""
 (function install() {
   const mutable = window.__viserMutable;
   const scene = mutable && mutable.scene;
@@ -30,8 +48,6 @@ _SCRIPT = """
 
   const camera = mutable.camera;
   const canvas = mutable.canvas;
-  const SENT_MS = 100;  // after which viser has told where the camera is
-  const ACTION = controls.constructor.ACTION;
   const vector = (xyz) => camera.position.clone().fromArray(xyz);
   const matrix = () => camera.matrixWorld.clone().identity();
   let view = null;
@@ -73,10 +89,16 @@ _SCRIPT = """
   function adopt(camera) {
     if (camera.webviz) return;
     camera.webviz = true;
-    const project = camera.updateProjectionMatrix;
+    const { updateProjectionMatrix, updateMatrixWorld } = camera;
     camera.updateProjectionMatrix = function () {
-      project.call(this);
+      updateProjectionMatrix.call(this);
       if (isFlat()) flatten(this);
+    };
+    camera.updateMatrixWorld = function (force) {
+      updateMatrixWorld.call(this, force);
+      if (rig === null) return;
+      this.matrixWorld.premultiply(rig);
+      this.matrixWorldInverse.copy(this.matrixWorld).invert();
     };
   }
 
@@ -90,8 +112,20 @@ _SCRIPT = """
     this.ray.direction.set(0, 0, -1).transformDirection(camera.matrixWorld);
   };
 
-  // What viser keeps before the camera, and what it shows where the camera turns about.
+  // Labels stand where their parents were in the frame before, unless that is brought up to date
+  // between viser's placing of nodes (priority -1000) and of labels (0).
+  root.getState().internal.subscribe(
+    { current: () => rig !== null && scene.updateMatrixWorld() }, -900, root,
+  );
+
+  // What viser keeps before the camera, and the cross where it turns about, without knowing rigs.
+  const cross = scene.children.find((child) => {
+    let found = false;
+    child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
+    return found;
+  });
   function dress(camera) {
+    if (cross) cross.visible = rig === null;
     for (const child of scene.children) {
       if (child.material && child.material === mutable.backgroundMaterial) {
         const depth = isFlat() ? controlled().distance : 1;
@@ -108,11 +142,8 @@ _SCRIPT = """
     adopt(camera);
     if (isFlat()) flatten(camera);
     follow();
-    if (rig !== null) {
-      camera.matrixWorld.premultiply(rig);
-      camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
-    }
-    if (isFlat() || rig !== null) dress(camera);
+    camera.updateMatrixWorld();
+    dress(camera);
     settle();
   };
 
@@ -125,34 +156,6 @@ _SCRIPT = """
     if (Math.abs(target.y - wanted) < 1e-9 * (1 + wanted)) return;
     controls.moveTo(target.x, wanted, target.z, false);
   }
-
-  // The mouse, as in RViz: left turns, middle or left with shift moves, right and wheel zoom.
-  function arm(event) {
-    const controls = controlled();
-    const buttons = controls.mouseButtons;
-    buttons.left = event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
-    buttons.middle = ACTION.TRUCK;
-    const isFPS = view !== null && view.type === "FPS";
-    buttons.right = isFPS ? ACTION.NONE : ACTION.DOLLY;
-    buttons.wheel = isFPS ? ACTION.NONE : ACTION.DOLLY;
-    // RViz turns an FPS view by 5 mrad/px and moves it by 1 cm/px.
-    const tall = canvas.clientHeight;
-    const speed = isFPS ? (0.005 * tall) / (2 * Math.PI) : 1;
-    controls.azimuthRotateSpeed = controls.polarRotateSpeed = speed;
-    controls.truckSpeed = isFPS ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
-  }
-
-  function walk(meters) {
-    controlled().dollyInFixed(meters, false);
-  }
-
-  window.addEventListener("pointerdown", arm, true);
-  canvas.parentElement.addEventListener("wheel", (event) => {
-    if (view !== null && view.type === "FPS") walk(-event.deltaY * 0.01);
-  }, { passive: true });
-  canvas.parentElement.addEventListener("pointermove", (event) => {
-    if (view !== null && view.type === "FPS" && event.buttons === 2) walk(-event.movementY * 0.1);
-  });
 
   function report() {
     mutable.sendMessage({
@@ -191,51 +194,39 @@ _SCRIPT = """
     mutable.configuredMaxOrbitDistance = 1e7;
     controls.minPolarAngle = 0;
     controls.maxPolarAngle = Math.PI;
-    controls.verticalDragToForward = view.type === "XYOrbit" || view.type === "ThirdPersonFollower";
     camera.fov = (fov * 180) / Math.PI;
     adopt(camera);
     controls.setLookAt(...position.toArray(), ...target.toArray(), false);
     controls.update(0);
     if (isFlat()) controls.minPolarAngle = controls.maxPolarAngle = controls.polarAngle;
     camera.updateProjectionMatrix();
-    arm({ shiftKey: false });
+    if (window.webvizMouse) window.webvizMouse.arm();
     mutable.sendCamera();
     mutable.requestRender();
     setTimeout(report, SENT_MS);
   }
 
   window.webvizView = {
+    type: () => (view === null ? "" : view.type),
+    rig: () => (rig === null ? matrix() : rig),
     show,
     report,
     join: (start) => (view === null ? show(start) : report()),
   };
 })();
-"""
-
-_CONSTANTS = {
-    "ROOT": ROOT,
-    "REPORT": REPORT,
-    "RAISED": RAISED,
-    "EYE": EYE,
-    "FIELD_OF_VIEW": FIELD_OF_VIEW,
-    "FLAT_FIELD_OF_VIEW": FLAT_FIELD_OF_VIEW,
-}
-VIEW_SCRIPT = f"""(function () {{
-{"".join(f"const {name} = {json.dumps(value)};" for name, value in _CONSTANTS.items())}
-{_SCRIPT}
-}})();"""
+""")
 
 
-def call(method: str, argument: str = "") -> str:
-    """A script that calls a method of `window.webvizView` once the page has it.
+def call(function: str, argument: str = "") -> str:
+    """A script that calls a function of the page once the page has it.
 
     Args:
-        method: its name.
+        function: an object of the window and its method, such as `webvizView.show`.
         argument: JavaScript, such as JSON.
     """
     return f"""
 (function call() {{
-  if (!window.webvizView) return requestAnimationFrame(call);
-  window.webvizView.{method}({argument});
+  if (!window.{function.partition(".")[0]}) return requestAnimationFrame(call);
+  window.{function}({argument});
 }})();
 """

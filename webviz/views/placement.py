@@ -118,7 +118,7 @@ def _wrapped(angle: float) -> float:
 
 
 def _rounded(value: float) -> float:
-    return round(float(value), DIGITS)
+    return round(float(value), DIGITS) + 0.0  # no minus zero
 
 
 def _pitch(pitch: float) -> float:
@@ -126,5 +126,5 @@ def _pitch(pitch: float) -> float:
 
 
 def _point(xyz: ArrayLike) -> tuple[float, float, float]:
-    x, y, z = np.round(np.asarray(xyz, dtype=np.float64), DIGITS).tolist()
+    x, y, z = (np.round(np.asarray(xyz, dtype=np.float64), DIGITS) + 0.0).tolist()
     return x, y, z

@@ -1,0 +1,106 @@
+"""What the mouse and the keyboard do to the camera in the page, as RViz has it.
+
+Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
+under the mouse.
+"""
+
+from __future__ import annotations
+
+from webviz.scene.view_script import as_script
+
+MOUSE_SCRIPT = as_script("""
+(function install() {
+  const mutable = window.__viserMutable;
+  const views = window.webvizView;
+  if (!views) return requestAnimationFrame(install);
+  if (window.webvizMouse) return;
+
+  const scene = mutable.scene;
+  const canvas = mutable.canvas;
+  const events = canvas.parentElement;
+  const ACTION = mutable.cameraControl.constructor.ACTION;
+  const Raycaster = scene.__r3f.root.getState().raycaster.constructor;
+  const isFPS = () => views.type() === "FPS";
+  const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
+  let mouse = null;
+
+  function arm(event) {
+    const controls = mutable.cameraControl;
+    const buttons = controls.mouseButtons;
+    buttons.left = event && event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
+    buttons.middle = ACTION.TRUCK;
+    buttons.right = buttons.wheel = isFPS() ? ACTION.NONE : ACTION.DOLLY;
+    controls.verticalDragToForward = slides();
+    // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
+    const tall = canvas.clientHeight;
+    controls.azimuthRotateSpeed = controls.polarRotateSpeed = (0.005 * tall) / (2 * Math.PI);
+    controls.truckSpeed = isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
+  }
+
+  function walk(meters) {
+    const controls = mutable.cameraControl;
+    const eye = controls.getPosition(mutable.camera.position.clone());
+    const at = controls.getTarget(eye.clone());
+    const step = at.clone().sub(eye).setLength(meters);
+    controls.setLookAt(...eye.add(step).toArray(), ...at.add(step).toArray(), false);
+  }
+
+  // The nearest thing under the mouse, or else the ground, in three.js' coordinates.
+  function pick([x, y]) {
+    const { camera, cameraControl: controls } = mutable;
+    const world = mutable.nodeRefFromName[ROOT];
+    const box = canvas.getBoundingClientRect();
+    const point = { x: ((x - box.left) / box.width) * 2 - 1, y: 1 - ((y - box.top) / box.height) * 2 };
+    const ray = new Raycaster();
+    ray.setFromCamera(point, camera);
+    const pixel = (2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360)) / box.height;
+    ray.params.Points.threshold = NEAR_PX * pixel;
+    ray.params.Line2 = { threshold: NEAR_PX };
+    const things = [];
+    world.traverseVisible((thing) => {
+      if (thing.isPoints && thing.geometry) thing.geometry.boundingSphere = null;
+      if (thing.isMesh || thing.isPoints) things.push(thing);
+    });
+    const [hit] = ray.intersectObjects(things, false);
+    if (hit) return hit.point;
+    const { origin, direction } = ray.ray;
+    const steps = -origin.y / direction.y;
+    return steps > 0 && steps < 1e6 ? origin.addScaledVector(direction, steps) : null;
+  }
+
+  // RViz turns the camera to the point, and moves a view that cannot turn.
+  function focus(point) {
+    const controls = mutable.cameraControl;
+    const at = point.applyMatrix4(views.rig().clone().invert());
+    if (slides() || views.type() === "TopDownOrtho") {
+      controls.moveTo(at.x, at.y, at.z, slides());
+    } else if (isFPS()) {
+      const eye = controls.getPosition(at.clone());
+      at.sub(eye).setLength(EYE).add(eye);
+      controls.setLookAt(eye.x, eye.y, eye.z, at.x, at.y, at.z, true);
+    } else {
+      controls.setTarget(at.x, at.y, at.z, true);
+    }
+  }
+
+  window.addEventListener("pointerdown", arm, true);
+  events.addEventListener("wheel", (event) => {
+    if (isFPS()) walk(-0.01 * event.deltaY);
+  }, { passive: true });
+  events.addEventListener("pointermove", (event) => {
+    mouse = [event.clientX, event.clientY];
+    if (isFPS() && event.buttons === 2) walk(-0.1 * event.movementY);
+  });
+  events.addEventListener("pointerleave", () => (mouse = null));
+  window.addEventListener("keydown", (event) => {
+    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    if (event.key !== "f" || isTyping || !isPlain || mouse === null) return;
+    const point = pick(mouse);
+    if (point) focus(point);
+  });
+
+  window.webvizMouse = { arm, pick };
+  arm();
+})();
+""")
