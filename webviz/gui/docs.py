@@ -162,7 +162,9 @@ def property_rows(found: tuple[Property, ...], display: Display) -> Iterator[tup
         if each.children and each.input is None:
             yield from property_rows(each.children, display)
             continue
-        when = ", ".join(f"`{path}` is {default_of(value)}" for path, value in each.when)
+        when = ", ".join(
+            f"`{path}` is {' or '.join(map(default_of, values))}" for path, values in each.when
+        )
         note = f" Where {when}." if when else ""
         default = each.of(display)
         told = default.name if isinstance(default, Topic) else default

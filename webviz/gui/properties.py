@@ -35,7 +35,7 @@ class Property:
     label: str
     help: str
     type: msgspec.inspect.Type
-    when: tuple[tuple[str, object], ...]
+    when: tuple[tuple[str, tuple[object, ...]], ...]
     widget: str
     input: Input | None
     choices: tuple[Any, ...]
@@ -47,7 +47,7 @@ class Property:
 
     def applies(self, display: Display) -> bool:
         """Whether it has a meaning as the other properties are."""
-        return all(value_at(display, path) == value for path, value in self.when)
+        return all(value_at(display, path) in values for path, values in self.when)
 
 
 def value_at(display: Display, path: str) -> Any:
@@ -84,7 +84,7 @@ def _properties(
                 label=label,
                 help=known.get("description", ""),
                 type=type_,
-                when=_conditions(name, prefix, declared),
+                when=_conditions(name, prefix, declared, hints),
                 widget=known.get("widget", ""),
                 input=inputs.get(name),
                 choices=_choices(hints[name]),
@@ -104,13 +104,21 @@ def _declaration(type_: msgspec.inspect.Type) -> tuple[msgspec.inspect.Type, dic
 
 
 def _conditions(
-    name: str, prefix: str, declared: dict[str, tuple[Any, dict[str, Any]]]
-) -> tuple[tuple[str, object], ...]:
+    name: str,
+    prefix: str,
+    declared: dict[str, tuple[Any, dict[str, Any]]],
+    hints: dict[str, Any],
+) -> tuple[tuple[str, tuple[object, ...]], ...]:
     """What must hold for a property: its own condition, and those of the property it names."""
     when = declared[name][1].get("when")
     if when is None:
         return ()
-    return ((prefix + when[0], when[1]), *_conditions(when[0], prefix, declared))
+    other, wanted = when
+    values = wanted if isinstance(wanted, tuple) else (wanted,)
+    # A base class may name values that only some of its displays offer.
+    choices = _choices(hints[other]) or values
+    condition = prefix + other, tuple(value for value in values if value in choices)
+    return (condition, *_conditions(other, prefix, declared, hints))
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
