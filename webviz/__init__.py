@@ -1,7 +1,8 @@
 """RViz2 in a browser tab.
 
-`Viewer` runs one from a Python program. The rest is the API for those who write displays; a display
-is a function from its properties, messages and transforms to nodes and statuses.
+`Viewer` runs one from a Python program, and `capture` makes pictures. The rest is the API for those
+who write displays; a display is a function from its properties, messages and transforms to nodes
+and statuses.
 """
 
 import importlib
@@ -31,6 +32,7 @@ from webviz.status import Level, Status
 
 if TYPE_CHECKING:
     from webviz.app import Viewer
+    from webviz.capturing import capture
 
 __all__ = [
     "Arrows",
@@ -62,10 +64,11 @@ __all__ = [
     "Status",
     "Topic",
     "Viewer",
+    "capture",
     "compose",
 ]
 
-_LAZY = {"Viewer": "webviz.app"}
+_LAZY = {"Viewer": "webviz.app", "capture": "webviz.capturing"}
 """Where lies what takes long to import, and displays have no use for."""
 
 

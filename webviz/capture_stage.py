@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import msgspec
 
 from webviz.config import Branch, Config, Item, Unreadable, nearest
+from webviz.errors import Error
 from webviz.frames import Frames
 from webviz.group import Group
 from webviz.sources import Source
@@ -18,7 +19,7 @@ from webviz.state import Row, State
 from webviz.status import Level, Status
 from webviz.studio import Studio
 from webviz.viewer import Viewer
-from webviz.views import FIXED_FRAME, FPS, AnyView, TopDownOrtho
+from webviz.views import FIXED_FRAME, FPS, TopDownOrtho, View
 
 STEP_NS = 100_000_000
 """Of the time of a bag in one turn of the frame loop."""
@@ -45,7 +46,7 @@ class Shown:
         for name in self.awaited:
             if name not in self.statuses:
                 hint = nearest(name, self.statuses)
-                raise LookupError(f"No enabled display is named {name!r}, {hint}")
+                raise Error(f"No enabled display is named {name!r}, {hint}")
 
     @property
     def is_ok(self) -> bool:
@@ -92,7 +93,7 @@ class Stage:
             How far it came.
 
         Raises:
-            LookupError: no enabled display has such a name; one sentence.
+            Error: no enabled display has such a name; one sentence.
         """
         deadline = time.monotonic() + timeout
         while True:
@@ -113,18 +114,18 @@ class Stage:
         """
         return list(self._statuses(self._state()))
 
-    def focused(self, view: AnyView, frame: str) -> AnyView:
+    def focused(self, view: View, frame: str) -> View:
         """A view that looks at a frame, where that is now, from the same side and distance.
 
         Raises:
-            LookupError: the frame is not known, or the view looks at no point; one sentence.
+            Error: the frame is not known, or the view looks at no point; one sentence.
         """
         frames = self._frames()
         pose = frames.latest(frame.removeprefix("/"))
         if pose is None:
-            raise LookupError(frames.why_not(frame.removeprefix("/")))
+            raise Error(frames.why_not(frame.removeprefix("/")))
         if isinstance(view, FPS):
-            raise LookupError("A view of type FPS looks at no point: focus another view.")
+            raise Error("A view of type FPS looks at no point: focus another view.")
         x, y, _ = pose.position
         place = (
             {"x": x, "y": y} if isinstance(view, TopDownOrtho) else {"focal_point": pose.position}

@@ -6,13 +6,15 @@ import math
 from collections.abc import Sequence
 from typing import Protocol
 
+from webviz.errors import Error
+
 At = float | str
 """Seconds from the start of a bag; above 1e9 seconds since 1970; "start" or "end"."""
 ABSOLUTE_S = 1e9
 MAX_TIMES = 2000
 
 
-class TimeError(ValueError):
+class TimeError(Error):
     """A time cannot be used; one sentence."""
 
 

@@ -12,28 +12,24 @@ from pathlib import Path
 import msgspec
 
 from webviz import plugins
+from webviz.app import ros_source
 from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
 from webviz.capture_stage import Shown, Stage
-from webviz.capture_times import At, TimeError, position_ns, seconds_from_start
-from webviz.config import Config, ConfigError, load, nearest, parse
+from webviz.capture_times import At, position_ns, seconds_from_start
+from webviz.config import Config, load, nearest, parse
 from webviz.errors import Error
-from webviz.plugins import PluginError
 from webviz.scene import CannotListen
 from webviz.sources import Source
-from webviz.sources.bag import BagError, BagSource
+from webviz.sources.bag import BagSource
 from webviz.sources.bag_extras import Extra
 from webviz.status import Status
 from webviz.studio import Studio
-from webviz.views import AnyView
+from webviz.views import View
 
 SIZE = (1280, 720)
 SMALLEST, LARGEST = 16, 8192
 """Edges of a picture in pixels; more a browser without a GPU cannot draw."""
 TIMEOUT_S = 20.0
-
-
-class CaptureError(Exception):
-    """There is no picture; one sentence that says why, and what to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,27 +86,27 @@ class Order:
     name: str = ""
     at: Sequence[At] = ("end",)
     size: tuple[int, int] = SIZE
-    views: Sequence[str | AnyView] = ()
+    views: Sequence[str | View] = ()
+    focus: str = ""
     transparent: bool = False
     wait_for: Sequence[str] | None = None
     timeout: float = TIMEOUT_S
-    focus: str = ""
 
     def positions(self) -> Sequence[int | None]:
         """When: times of recording, in order; None is now.
 
         Raises:
-            TimeError: a time is outside of the bag.
+            Error: a time is outside of the bag.
         """
         if not isinstance(self.source, BagSource):
             return [None]
         return sorted({position_ns(at, self.source, self.name) for at in self.at})
 
-    def looks(self) -> list[tuple[str, AnyView]]:
+    def looks(self) -> list[tuple[str, View]]:
         """From where: views with their names.
 
         Raises:
-            CaptureError: the config has no view of a name.
+            Error: the config has no view of a name.
         """
         return _looks(self.config, self.views)
 
@@ -121,7 +117,7 @@ def capture(
     bag: str | Path | None = None,
     at: At | Sequence[At] = "end",
     size: tuple[int, int] = SIZE,
-    views: Sequence[str | AnyView] = (),
+    views: Sequence[str | View] = (),
     transparent: bool = False,
     wait_for: Sequence[str] | None = None,
     timeout: float = TIMEOUT_S,
@@ -155,7 +151,7 @@ def capture(
         studio: of a browser that runs already, for many pictures; else one is launched.
 
     Raises:
-        CaptureError: there is no picture; one sentence.
+        Error: there is no picture; one sentence.
     """
 
     def run() -> Capture:
@@ -172,12 +168,12 @@ def capture(
                     source,
                     str(bag),
                     times,
-                    size,
-                    views,
-                    transparent,
-                    wait_for,
-                    timeout,
-                    focus,
+                    size=size,
+                    views=views,
+                    focus=focus,
+                    transparent=transparent,
+                    wait_for=wait_for,
+                    timeout=timeout,
                 )
                 return Capture(tuple(pictures(order, studio)))
 
@@ -208,7 +204,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
         stack.callback(stage.close)
         awaited = stage.names() if order.wait_for is None else order.wait_for
         if not stage.names():
-            raise CaptureError("The config shows nothing: add a display to it, or enable one.")
+            raise Error("The config shows nothing: add a display to it, or enable one.")
         for position in positions:
             at_s = None
             if isinstance(order.source, BagSource) and position is not None:
@@ -227,41 +223,25 @@ def opened(
     """A bag, or the ROS graph.
 
     Raises:
-        BagError: the bag cannot be read.
-        CaptureError: there is no ROS.
+        Error: the bag cannot be read, or there is no ROS.
     """
     if bag is not None:
         source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
     elif extras:
-        raise CaptureError("A map and transforms can be added to a bag only: give a bag.")
+        raise Error("A map and transforms can be added to a bag only: give a bag.")
     else:
-        from webviz.app import ros_source
-
-        try:
-            source = ros_source(ros_args)
-        except Error as error:
-            raise CaptureError(str(error)) from error
+        source = ros_source(ros_args)
     with contextlib.closing(source):
         yield source
 
 
 @contextlib.contextmanager
 def one_sentence() -> Iterator[None]:
-    """Make one kind of error of all that people can put right."""
+    """Make the kind of error that people can put right of what browsers raise."""
     try:
         yield
-    except (
-        BagError,
-        BrowserDied,
-        CannotListen,
-        ConfigError,
-        LookupError,
-        NoBrowser,
-        PluginError,
-        TimeError,
-        TimeoutError,
-    ) as error:
-        raise CaptureError(str(error)) from error
+    except (BrowserDied, CannotListen, NoBrowser, TimeoutError) as error:
+        raise Error(str(error)) from error
 
 
 def set_fixed_frame(config: Config, frame: str) -> None:
@@ -273,10 +253,10 @@ def check_size(size: tuple[int, int]) -> None:
     """Refuse what is no size of a picture.
 
     Raises:
-        CaptureError: one sentence.
+        Error: one sentence.
     """
     if not all(SMALLEST <= edge <= LARGEST for edge in size):
-        raise CaptureError(
+        raise Error(
             f"A picture has {SMALLEST} to {LARGEST} pixels a side, not {size[0]} x {size[1]}."
         )
 
@@ -289,15 +269,15 @@ def _read(config: Config | str | Path) -> Config:
     return load(Path(config))
 
 
-def _looks(config: Config, views: Sequence[str | AnyView]) -> list[tuple[str, AnyView]]:
+def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]]:
     if not views:
         return [("", config.settings.view)]
-    named: dict[str, AnyView] = {}
+    named = config.settings.views
     looks = []
     for number, view in enumerate(views):
         if isinstance(view, str):
             if view not in named:
-                raise CaptureError(f"The config has no view {view!r}, {nearest(view, named)}")
+                raise Error(f"The config has no view {view!r}, {nearest(view, named)}")
             looks.append((view, named[view]))
         else:
             looks.append((str(number), view))
@@ -311,7 +291,7 @@ def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
     for argument in rest:
         theirs, mark, ours = argument.partition(":=")
         if not mark or not theirs.startswith("/"):
-            raise CaptureError(
+            raise Error(
                 f"{argument!r} has no meaning for a bag: of ROS arguments it knows "
                 "`-r /topic:=/other` only."
             )

@@ -14,6 +14,8 @@ import PIL.Image
 import PIL.ImageDraw
 import PIL.ImageFont
 
+from webviz.errors import Error
+
 STILLS = (".png", ".webp", ".jpg", ".jpeg", ".gif")
 ANIMATIONS = (".gif", ".webp")
 WITH_ALPHA = (".png", ".webp")
@@ -25,7 +27,7 @@ MAX_EDGE = 16_000
 PAPER, INK = (24, 24, 24), (210, 210, 210)
 
 
-class OutputError(Exception):
+class OutputError(Error):
     """A picture cannot be written; one sentence."""
 
 

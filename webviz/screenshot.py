@@ -11,15 +11,19 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import PIL.Image
+
 from webviz import config as config_file
 from webviz import convert, picture_files, plugins
 from webviz.capture_times import At, every
+from webviz.overrides import override
 from webviz.picture_files import OutputError
 from webviz.screenshot_options import parse_arguments
 from webviz.status import Level, Status
 
 if TYPE_CHECKING:
     from webviz.capturing import Order, Picture
+    from webviz.sources.bag import BagSource
 
 SHEET_SIZE = (480, 270)
 """Of the pictures of a contact sheet, if nothing else is said."""
@@ -31,19 +35,19 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
 
     Returns:
         The exit status, as --help tells.
+
+    Raises:
+        Error: there is no picture; one sentence.
     """
     options = parse_arguments(arguments)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
     # viser takes a while to import; --help comes before.
-    from webviz.capturing import CaptureError, one_sentence
+    from webviz.capturing import one_sentence
 
     try:
         with one_sentence():
             return _make(options, ros)
-    except (CaptureError, OutputError) as error:
-        print(f"webviz: {error}", file=sys.stderr)
-        return 1
     except KeyboardInterrupt:
         print("webviz: interrupted.", file=sys.stderr)
         return INTERRUPTED
@@ -63,6 +67,7 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
     config = config_file.standard() if path is None else config_file.load(path)
     if path is not None:
         convert.tell(path, config.report)
+    config = override(config, options.set)
     if options.fixed_frame:
         set_fixed_frame(config, options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
@@ -78,17 +83,17 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
             source,
             str(options.bag),
             at,
-            options.size or (SHEET_SIZE if options.contact_sheet else SIZE),
-            options.view,
-            options.transparent,
-            options.wait_for or None,
-            options.timeout,
-            options.focus,
+            size=options.size or (SHEET_SIZE if options.contact_sheet else SIZE),
+            views=options.view,
+            focus=options.focus,
+            transparent=options.transparent,
+            wait_for=options.wait_for or None,
+            timeout=options.timeout,
         )
         return _write(options, order)
 
 
-def _times(options: argparse.Namespace, source) -> Sequence[At]:
+def _times(options: argparse.Namespace, source: BagSource) -> Sequence[At]:
     if options.every is None:
         return options.at or ("end",)
     times = every(options.first, options.last, options.every, source, str(options.bag))
@@ -174,9 +179,7 @@ def _caption(picture: Picture) -> str:
     return "   ".join(filter(None, (picture.view, time)))
 
 
-def _image(picture: Picture):
-    import PIL.Image
-
+def _image(picture: Picture) -> PIL.Image.Image:
     return PIL.Image.fromarray(picture.pixels)
 
 

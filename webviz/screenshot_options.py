@@ -77,6 +77,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
     add(
+        "--set",
+        action="append",
+        default=[],
+        metavar="PATH=VALUE",
+        help="another value than the config's, such as displays.Scan.size=0.1 (repeatable)",
+    )
+    add(
         "--size",
         type=_size,
         metavar="WxH",

@@ -7,6 +7,7 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
+from webviz.errors import Error
 from webviz.sources.source import Publisher
 from webviz_sim.world import WorldError, load_world
 
@@ -16,7 +17,7 @@ MAP_FRAME = "map"
 MAP_TOPIC = "/map"
 
 
-class ExtraError(Exception):
+class ExtraError(Error):
     """It cannot be used; one sentence."""
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from rosbags.interfaces import Connection, MessageDefinitionFormat, QosDurability, QosReliability
 from rosbags.rosbag2 import Reader
 
+from webviz.errors import Error
 from webviz.messages import MessageError, register, type_exists
 from webviz.messages.typestore import full_name
 from webviz.sources.source import Durability, Publisher, Reliability
@@ -18,7 +19,7 @@ KEEP_LAST = 1
 """Messages that a publisher repeats if the bag does not say how many."""
 
 
-class BagError(Exception):
+class BagError(Error):
     """A bag cannot be read; one sentence that ends with what to do."""
 
 
