@@ -82,7 +82,7 @@ def Prop(
         help: one sentence, the control's tooltip.
         unit: "m", "s", "px", ...
         rviz: RViz's name, where it is not the name in snake_case written with spaces.
-        when: (property, value) on which this property has a meaning.
+        when: (property, value) on which this property has a meaning; several values as a tuple.
         widget: how to edit it, where the type alone does not tell.
         gt, ge, lt, le: bounds.
     """

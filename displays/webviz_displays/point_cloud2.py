@@ -12,7 +12,7 @@ from webviz_displays.cloud import Cloud, CloudError, drawable
 from webviz_displays.cloud_colors import automatic, packed_colors, picked, separate_colors
 from webviz_displays.colors import faded
 from webviz_displays.decimation import Rows, evenly, one_per_voxel
-from webviz_displays.points_display import PointsDisplay
+from webviz_displays.points_display import BY_INTENSITY, PointsDisplay
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
@@ -41,7 +41,7 @@ class PointCloud2(PointsDisplay):
     channel_name: Annotated[
         str,
         Prop(
-            when=("color_transformer", "Intensity"),
+            when=BY_INTENSITY,
             help="The field that is coloured, any of the cloud's.",
         ),
     ] = "intensity"
@@ -49,8 +49,8 @@ class PointCloud2(PointsDisplay):
         int,
         Prop(
             ge=0,
-            help="Of more points so many are shown, evenly picked; 0 shows all. A browser needs "
-            "15 bytes for each.",
+            help="Of more points so many are shown, evenly picked; 0 shows all. Clouds that stay "
+            "for the decay time share them. A browser needs 15 bytes for each.",
         ),
     ] = 300_000
     voxel_size: Annotated[
@@ -58,8 +58,22 @@ class PointCloud2(PointsDisplay):
         Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all."),
     ] = 0.0
 
+    def depends(self, ctx: Context) -> int:
+        """How many clouds share max_points: a power of two, so that it seldom changes."""
+        clouds: dict[int, int] = ctx.state.setdefault("clouds", {})
+        oldest = ctx.frames.now_ns - round(self.decay_time * 1e9)
+        for number in [number for number, received_ns in clouds.items() if received_ns < oldest]:
+            del clouds[number]
+        shares = ctx.state.get("shares", 1) if self.decay_time else 1
+        count = len(clouds) + 1 if self.decay_time else 1  # one is about to come
+        if count > shares or count < shares // 4:
+            shares = 1 << (count - 1).bit_length()
+        ctx.state["shares"] = shares
+        return shares
+
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame of the sensor at the stamp."""
+        ctx.state["clouds"][sample.number] = sample.received_ns
         try:
             cloud = Cloud(sample.message)
             xyz, origin = cloud.positions()
@@ -68,7 +82,7 @@ class PointCloud2(PointsDisplay):
             return
         if cloud.remark:
             ctx.warn("Data", cloud.remark)
-        rows, sentence = self._select(xyz)
+        rows, sentence = self._select(xyz, ctx.state["shares"])
         xyz = picked(xyz, rows)
         own = Pose(origin)
         fixed = compose(sample.pose, own) if any(origin) else sample.pose
@@ -90,8 +104,13 @@ class PointCloud2(PointsDisplay):
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
         self.draw_points(xyz, colors, group, fixed, ctx)
 
-    def _select(self, xyz: F32) -> tuple[Rows | None, str]:
-        """Which points to show, None for all, and a sentence about it."""
+    def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
+        """Which points to show, None for all, and a sentence about it.
+
+        Args:
+            xyz: all points of a cloud.
+            shares: so many clouds share what may be shown.
+        """
         total = len(xyz)
         if not total:
             return None, "The cloud is empty: width x height is 0."
@@ -109,13 +128,14 @@ class PointCloud2(PointsDisplay):
             kept = one_per_voxel(picked(xyz, rows), self.voxel_size)
             rows = kept if rows is None else rows[kept]
             count = left(count, rows, f"in voxels of {self.voxel_size:g} m that show another")
-        name, limit = "max_points", self.max_points or total
+        name, limit = "max_points", self.max_points or total * shares
         if self.style == "Points" and limit > DOTS_LIMIT:
             name, limit = "the limit of the style Points", DOTS_LIMIT
-        if count > limit:
-            kept = evenly(count, limit)
+        if count > max(limit // shares, 1):
+            kept = evenly(count, max(limit // shares, 1))
             rows = kept if rows is None else rows[kept]
-            count = left(count, rows, f"over {name}, {spaced(limit)}")
+            many = f" for {shares} clouds" if shares > 1 else ""
+            count = left(count, rows, f"over {name}, {spaced(limit)}{many}")
         sentence = f"Showing {spaced(count)} of {spaced(total)} points"
         if reasons:
             sentence += f"; left out: {', '.join(reasons)}"

@@ -15,6 +15,11 @@ from webviz_displays.geometry import conjugate, coordinate
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
+BY_INTENSITY = ("color_transformer", ("Intensity", "Auto"))
+"""Where options of this transformer have a meaning: Auto, where there is one, may choose it."""
+BY_AXIS = ("color_transformer", ("AxisColor", "Auto"))
+"""Where options of this transformer have a meaning."""
+
 SOLIDS_LIMIT = 20_000
 """A browser without a GPU draws so many lit solids once a second."""
 
@@ -82,7 +87,7 @@ class PointsDisplay(Display):
         bool,
         Prop(
             rviz="Use rainbow",
-            when=("color_transformer", "Intensity"),
+            when=BY_INTENSITY,
             help="Red is low and magenta high, instead of a ramp between two colours.",
         ),
     ] = True
@@ -98,7 +103,7 @@ class PointsDisplay(Display):
     autocompute_intensity_bounds: Annotated[
         bool,
         Prop(
-            when=("color_transformer", "Intensity"),
+            when=BY_INTENSITY,
             help="Take the lowest and highest value from each message.",
         ),
     ] = True
@@ -115,16 +120,16 @@ class PointsDisplay(Display):
     ] = (255, 255, 255)
     axis: Annotated[
         Literal["X", "Y", "Z"],
-        Prop(when=("color_transformer", "AxisColor"), help="The coordinate that is coloured."),
+        Prop(when=BY_AXIS, help="The coordinate that is coloured."),
     ] = "Z"
     autocompute_value_bounds: Annotated[
         ValueBounds,
-        Prop(when=("color_transformer", "AxisColor"), help="Bounds of the coordinate."),
+        Prop(when=BY_AXIS, help="Bounds of the coordinate."),
     ] = ValueBounds()
     use_fixed_frame: Annotated[
         bool,
         Prop(
-            when=("color_transformer", "AxisColor"),
+            when=BY_AXIS,
             help="Colour by coordinates in the fixed frame instead of the sensor's.",
         ),
     ] = True

@@ -245,6 +245,7 @@ def add_condition(name: str, hints: dict[str, Any], prefix: str, needs: dict[str
     for item in getattr(hints[name], "__metadata__", ()):
         if isinstance(item, msgspec.Meta) and (when := (item.extra or {}).get("when")):
             other, wanted = when
+            wanted = wanted[0] if isinstance(wanted, tuple) else wanted
             add_condition(other, hints, prefix, needs)
             inner = isinstance(wanted, bool) and not prefix and is_group(hints[other])
             needs[f"{prefix}{other}{'.value' if inner else ''}"] = wanted

@@ -350,6 +350,28 @@ def test_clouds_stay_for_the_decay_time(lab: Benches) -> None:
     assert [len(node.xyz) for node in bench.nodes().values()] == [1]
 
 
+def test_clouds_of_the_decay_time_share_the_limit_of_points(lab: Benches) -> None:
+    cloud = xyz_cloud(np.random.default_rng(0).random((1000, 3)).tolist())
+    bench = lab(cloud, decay_time=10.0, max_points=800)
+    shown = []
+    for _ in range(7):
+        bench.turn(0.1)
+        bench.send(CLOUD, cloud, frame="lidar")
+        bench.turn()
+        shown.append(sum(len(node.xyz) for node in bench.nodes().values()))
+    assert max(shown) <= 800
+    assert [len(node.xyz) for node in bench.nodes().values()] == [100] * 8
+    assert bench.statuses()["Points"][1] == (
+        "Showing 100 of 1 000 points; left out: 900 over max_points, 800 for 8 clouds."
+    )
+    bench.turn(10.05)
+    bench.send(CLOUD, cloud, frame="lidar")
+    bench.turn()
+    bench.set("decay_time", 0.0)
+    bench.turn()
+    assert [len(node.xyz) for node in bench.nodes().values()] == [800]
+
+
 def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
     made = bench(PointCloud2())
     made.transform("map", "lidar", (0.0, 0.0, 0.0), stamp_ns=made.now_ns - SECOND)
