@@ -16,7 +16,7 @@ else
 endif
 comma := ,
 
-.PHONY: install test check browser
+.PHONY: install test check bench browser
 
 install: $(VENV)/ready
 
@@ -27,6 +27,10 @@ check: $(VENV)/ready-to-test
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/ruff format --check
 	@$(VENV)/bin/basedpyright
+
+# ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.
+bench: $(VENV)/ready-to-bench
+	@PYTHONPATH=tests/benchmarks:tests/support $(VENV)/bin/python -m side_by_side $(ARGS)
 
 browser:
 	@for b in chromium chromium-browser google-chrome; do command -v $$b >/dev/null && exit 0; done; \
@@ -49,4 +53,9 @@ $(VENV)/ready-to-test: $(VENV)/ready
 	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@$(MAKE) --no-print-directory browser
+	@touch $@
+
+$(VENV)/ready-to-bench: $(VENV)/ready-to-test
+	@$(VENV)/bin/python -m pip install --editable ".[test,bench$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
+		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@touch $@

@@ -1,0 +1,269 @@
+"""Runs one system on one scene, with one load after another."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import random
+import re
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import psutil
+from program import Program
+
+from side_by_side.log import Log
+from side_by_side.scenes import Scene
+from side_by_side.systems.registry import System
+from side_by_side.watchers import Watcher
+
+SETTLE_S = 1.5
+"""From the last change of the load to the first second that counts."""
+GIVE_UP_S = 40.0
+SAMPLES_PER_S = 2.0
+QUIET = 0.2
+"""Cores that other programs of a quiet machine use."""
+
+
+class CaseFailed(Exception):
+    """A system did not do its part; the text says what."""
+
+
+@dataclass(frozen=True)
+class Load:
+    """Who watches.
+
+    Args:
+        clients: that read.
+        stalled: that do not.
+    """
+
+    clients: int
+    stalled: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.clients}+stalled" if self.stalled else str(self.clients)
+
+
+@dataclass
+class Result:
+    """Figures of one load. Times in ms, memory in MB, rates per second."""
+
+    seconds: float
+    cpu: float
+    """Cores: CPU seconds per second of the process and its children."""
+    rss: float
+    rss_slope: float
+    """MB per minute."""
+    bytes: float = 0.0
+    """To one client, per second."""
+    published: dict[int, float] = field(default_factory=dict)
+    shown: dict[int, float] = field(default_factory=dict)
+    latency: list[float] = field(default_factory=list)
+    """Of every publication of the scene's first lane that was shown."""
+    others: float = 0.0
+    """Cores that other programs of the machine used meanwhile."""
+
+
+@dataclass
+class CaseResult:
+    """Figures of one system on one scene."""
+
+    start_s: float | None
+    """From the start of the process to the first publication at a client."""
+    start_cpu: float
+    """CPU seconds of that."""
+    loads: dict[str, Result]
+
+
+class Case:
+    """A publisher and a system that run, on a ROS domain of their own."""
+
+    def __init__(self, system: System, scene: Scene, folder: Path) -> None:
+        self.system = system
+        self.scene = scene
+        self.folder = folder
+        self._log = folder / "publications.bin"
+        self._log.touch()
+        self._stack = contextlib.ExitStack()
+        self.env = environment()
+
+    def __enter__(self) -> Case:
+        python = [sys.executable, "-m", "side_by_side.publisher"]
+        try:
+            self._publisher = self._start([*python, self.scene.name, str(self._log)], "publisher")
+            _said(self._publisher, "publishing")
+            self.started = time.monotonic()
+            self.program = self._start(self.system.command(self.scene, self.folder), "system")
+            self.port = int(_said(self.program, r"127\.0\.0\.1:(\d+)|listening").group(1) or 0)
+            self.process = psutil.Process(self.program.process.pid)
+        except BaseException:
+            self._stack.close()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def watch(self, recognise: bool = True, stalls: bool = False) -> Watcher:
+        """A new client."""
+        scene = self.scene if recognise else None
+        return self.system.watch(self.port, self.folder, scene, stalls)
+
+    def wait_until_steady(self) -> None:
+        """Until what is published in advance is out."""
+        _said(self._publisher, "steady")
+
+    def log(self) -> Log:
+        """What was published so far."""
+        return Log(self._log)
+
+    def cpu(self) -> float:
+        """CPU seconds of the system so far."""
+        return sum(
+            sum(process.cpu_times()[:2])
+            for process in (self.process, *self.process.children(recursive=True))
+        )
+
+    def rss(self) -> float:
+        """Resident memory of the system in MB."""
+        return self.process.memory_info().rss / 1e6
+
+    def first_sight(self, seconds: float = GIVE_UP_S) -> tuple[float, float]:
+        """Seconds and CPU seconds from the start of the system to the first publication."""
+        watcher = self.watch()
+        try:
+            wait_for(lambda: watcher.sightings, "no publication was seen", seconds)
+            return time.monotonic() - self.started, self.cpu()
+        finally:
+            watcher.close()
+
+    def measure(self, load: Load, seconds: float, patience: float = 0.0) -> Result:
+        """Figures with so many clients, after up to `patience` seconds for a quiet machine."""
+        with contextlib.ExitStack() as stack:
+            watchers = [self.watch(recognise=i == 0) for i in range(load.clients)]
+            for watcher in watchers:
+                stack.callback(watcher.close)
+            for _ in range(load.stalled):
+                stack.callback(self.watch(recognise=False, stalls=True).close)
+            time.sleep(SETTLE_S)
+            self._wait_until_quiet(patience)
+            return self._figures(watchers, seconds)
+
+    def _figures(self, watchers: Sequence[Watcher], seconds: float) -> Result:
+        start, start_ns, cpu = time.monotonic(), time.time_ns(), self.cpu()
+        everybody, ours = _machine_cpu(), self._all_cpu()
+        sizes = [watcher.bytes for watcher in watchers]
+        memory = []
+        while (now := time.monotonic() - start) < seconds:
+            memory.append((now, self.rss()))
+            time.sleep(min(1 / SAMPLES_PER_S, seconds - now))
+        spent, end_ns, took = self.cpu() - cpu, time.time_ns(), time.monotonic() - start
+        if self.program.process.poll() is not None:
+            raise CaseFailed(f"it ended: {self.program.output()[-300:]}")
+        if not all(watcher.is_connected for watcher in watchers):
+            raise CaseFailed("a client was disconnected")
+        times, sizes_mb = np.array(memory).T
+        slope = float(np.polyfit(times, sizes_mb, 1)[0]) if len(times) > 2 else 0.0
+        result = Result(took, spent / took, float(np.median(sizes_mb)), 60 * slope)
+        everybody, ours = _machine_cpu() - everybody, self._all_cpu() - ours
+        result.others = max(0.0, (everybody - ours) / took)
+        time.sleep(0.3)  # for what is on its way
+        log = self.log()
+        for lane in self.scene.lanes:
+            result.published[lane.number] = (
+                log.published(lane.number, start_ns, end_ns) / result.seconds
+            )
+        if watchers:
+            result.bytes = (watchers[0].bytes - sizes[0]) / (took + 0.3)
+            late = log.latencies(watchers[0].sightings, start_ns, end_ns)
+            result.shown = {lane: len(each) / result.seconds for lane, each in late.items()}
+            result.latency = late.get(self.scene.lane, [])
+        return result
+
+    def _wait_until_quiet(self, patience: float) -> None:
+        deadline = time.monotonic() + patience
+        while time.monotonic() < deadline:
+            start, everybody, ours = time.monotonic(), _machine_cpu(), self._all_cpu()
+            time.sleep(1.0)
+            others = (_machine_cpu() - everybody) - (self._all_cpu() - ours)
+            if others / (time.monotonic() - start) < QUIET:
+                return
+
+    def _all_cpu(self) -> float:
+        """CPU seconds of the system, the publisher and this process."""
+        others = (psutil.Process(), psutil.Process(self._publisher.process.pid))
+        return self.cpu() + sum(sum(process.cpu_times()[:2]) for process in others)
+
+    def _start(self, command: Sequence[str], name: str) -> Program:
+        program = Program(command, self.env, self.folder / f"{name}.txt")
+        self._stack.callback(_end, program)
+        return program
+
+
+def run(
+    system: System,
+    scene: Scene,
+    loads: Sequence[Load],
+    seconds: float,
+    folder: Path,
+    patience: float = 0.0,
+) -> CaseResult:
+    """Start everything, measure each load, end everything."""
+    with Case(system, scene, folder) as case:
+        if any(load.clients for load in loads):
+            start_s, start_cpu = case.first_sight()
+        else:
+            start_s, start_cpu = None, 0.0
+            time.sleep(2 * SETTLE_S)
+        case.wait_until_steady()
+        results = {str(load): case.measure(load, seconds, patience) for load in loads}
+    return CaseResult(start_s, start_cpu, results)
+
+
+def wait_for(condition: Callable[[], object], otherwise: str, seconds: float) -> None:
+    """Wait until it holds.
+
+    Raises:
+        CaseFailed: it does not within `seconds`.
+    """
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise CaseFailed(f"{otherwise} within {seconds:g} s")
+        time.sleep(0.005)
+
+
+def environment() -> Mapping[str, str]:
+    """For processes that meet only each other."""
+    here = Path(__file__).parents[1]
+    path = [str(here), os.environ.get("PYTHONPATH", "")]
+    return {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(filter(None, path)),
+        "ROS_DOMAIN_ID": str(random.SystemRandom().randrange(100, 230)),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+def _machine_cpu() -> float:
+    """CPU seconds that the machine's programs used so far."""
+    times = psutil.cpu_times()
+    return times.user + times.nice + times.system
+
+
+def _said(program: Program, pattern: str) -> re.Match[str]:
+    try:
+        return program.wait_for(pattern, GIVE_UP_S)
+    except AssertionError as error:
+        raise CaseFailed(str(error)[-400:]) from error
+
+
+def _end(program: Program) -> None:
+    with contextlib.suppress(Exception):  # it is killed if it does not end
+        program.end()

@@ -1,0 +1,208 @@
+"""The messages of the scenes, as nested mappings with gaps for stamps and marks."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from clouds import XYZ
+
+from side_by_side import strip
+from side_by_side.marks import FRAME_Z, LINK_Z
+from side_by_side.streams import NO_MARK, header
+
+VARIANTS = 8
+Values = dict[str, Any]
+
+
+def scans(frame: str, beams: int) -> list[Values]:
+    """Laser scans of a room that shimmers; the first beam looks along x and is marked."""
+    rng = np.random.default_rng(1)
+    step = math.tau / beams
+    walls = 4 + np.abs(np.sin(np.arange(beams) * step * 2))
+    made = []
+    for _ in range(VARIANTS):
+        ranges = (walls + rng.normal(0, 0.02, beams)).astype(np.float32)
+        ranges[0] = NO_MARK
+        made.append(
+            {
+                "header": header(frame),
+                "angle_min": 0.0,
+                "angle_max": step * (beams - 1),
+                "angle_increment": step,
+                "range_min": 0.1,
+                "range_max": 1e4,
+                "ranges": ranges,
+                "intensities": rng.uniform(0, 100, beams).astype(np.float32),
+            }
+        )
+    return made
+
+
+def clouds(frame: str, count: int, variants: int = 2) -> list[Values]:
+    """Clouds of x, y, z and intensity; the first ten points are marked, so
+    that the first of a decimated cloud is."""
+    rng = np.random.default_rng(2)
+    names = ("name", "offset", "datatype", "count")
+    fields = [dict(zip(names, field, strict=True)) for field in [*XYZ, ("intensity", 12, 7, 1)]]
+    made = []
+    for _ in range(variants):
+        points = rng.normal(0, 20, (count, 4)).astype(np.float32)
+        points[:10] = (NO_MARK, 0, 0, 1)
+        points[:, 3] = np.abs(points[:, 3])
+        made.append(
+            {
+                "header": header(frame),
+                "height": 1,
+                "width": count,
+                "fields": fields,
+                "point_step": 16,
+                "row_step": 16 * count,
+                "data": points.view(np.uint8).reshape(-1),
+                "is_dense": True,
+            }
+        )
+    return made
+
+
+def frames(prefix: str, root: str, count: int, branching: int = 6) -> list[Values]:
+    """A tree of frames that all sway; the first is marked and has no children."""
+    rng = np.random.default_rng(3)
+    places = rng.uniform(-5, 5, (count, 3))
+    made = []
+    for variant in range(VARIANTS):
+        angle = 0.05 * math.sin(math.tau * variant / VARIANTS)
+        moved = [_moved(root, f"{prefix}mark", (NO_MARK, 0, FRAME_Z), angle)]
+        for i in range(1, count):
+            parent = root if i <= branching else f"{prefix}{(i - 1) // branching}"
+            moved.append(_moved(parent, f"{prefix}{i}", np.abs(places[i]), angle + 0.001 * i))
+        made.append({"transforms": moved})
+    return made
+
+
+def links(count: int) -> list[Values]:
+    """Transforms of the robot of `robot`; its base is marked."""
+    made = []
+    for variant in range(VARIANTS):
+        angle = 0.3 * math.sin(math.tau * variant / VARIANTS)
+        moved = [_moved("map", "link_0", (NO_MARK, 0, LINK_Z), 0)]
+        moved += [
+            _moved(f"link_{(i - 1) // 3}", f"link_{i}", (0.3, 0.1 * (i % 3), 0.2), angle)
+            for i in range(1, count)
+        ]
+        made.append({"transforms": moved})
+    return made
+
+
+def robot(count: int) -> list[Values]:
+    """The description of a robot of boxes, each link with its joint to every third one before."""
+    parts = ["<robot name='bench'>"]
+    for i in range(count):
+        parts.append(
+            f"<link name='link_{i}'><visual><geometry><box size='0.3 0.1 0.1'/></geometry>"
+            f"<material name='m{i}'><color rgba='{i / count:.2f} 0.5 0.3 1'/></material>"
+            "</visual></link>"
+        )
+    for i in range(1, count):
+        parts.append(
+            f"<joint name='joint_{i}' type='continuous'><parent link='link_{(i - 1) // 3}'/>"
+            f"<child link='link_{i}'/><axis xyz='0 0 1'/></joint>"
+        )
+    return [{"data": "".join([*parts, "</robot>"])}]
+
+
+def static(*pairs: tuple[str, str]) -> list[Values]:
+    """Frames that stand half a metre above their parents."""
+    return [{"transforms": [_moved(parent, child, (0, 0, 0.5), 0) for parent, child in pairs]}]
+
+
+def moving(parent: str, child: str) -> list[Values]:
+    """A frame that drives to and fro along y, which leaves marks in x as they are."""
+    angles = np.linspace(0, math.tau, 500, endpoint=False)
+    return [{"transforms": [_moved(parent, child, (0, math.sin(a), 0), 0)]} for a in angles]
+
+
+def maps(size: int, variants: int = 1) -> list[Values]:
+    """Square maps of free, occupied and unknown blobs, with a strip in the midst."""
+    rng = np.random.default_rng(4)
+    made = []
+    for _ in range(variants):
+        coarse = rng.choice([0, 0, 0, 100, -1], (size // 20, size // 20))
+        grid = np.kron(coarse, np.ones((20, 20))).astype(np.int8)
+        middle = size // 8 * 4
+        grid[middle : middle + strip.BLOCK, middle : middle + strip.LENGTH * strip.BLOCK] = 77
+        info = {
+            "resolution": 0.05,
+            "width": size,
+            "height": size,
+            "origin": {"orientation": {"w": 1.0}},
+        }
+        made.append({"header": header("map"), "info": info, "data": grid.reshape(-1)})
+    return made
+
+
+def map_updates(size: int, edge: int) -> list[Values]:
+    """Squares of a map that come anew, each somewhere else; all with a strip."""
+    rng = np.random.default_rng(5)
+    made = []
+    for _ in range(VARIANTS):
+        x, y = (rng.integers(0, (size - edge) // 8, 2) * 8).tolist()
+        grid = rng.choice([0, 100, -1], (edge, edge)).astype(np.int8)
+        grid[: strip.BLOCK, : strip.LENGTH * strip.BLOCK] = 77
+        made.append(
+            {
+                "header": header("map"),
+                "x": x,
+                "y": y,
+                "width": edge,
+                "height": edge,
+                "data": grid.reshape(-1),
+            }
+        )
+    return made
+
+
+def paths(count: int) -> list[Values]:
+    """Lines over ground; the first pose is marked."""
+    made = []
+    for variant in range(VARIANTS):
+        along = np.arange(count) * 0.05
+        across = np.sin(along + variant / VARIANTS)
+        rows = [(NO_MARK, 0.0), *zip(along[1:].tolist(), across[1:].tolist(), strict=True)]
+        poses = [
+            {
+                "header": header("map"),
+                "pose": {"position": {"x": x, "y": y}, "orientation": {"w": 1.0}},
+            }
+            for x, y in rows
+        ]
+        made.append({"header": header("map"), "poses": poses})
+    return made
+
+
+def odometry() -> list[Values]:
+    """A drive round and round, 12 cm a message, always at a new height, which is the mark."""
+    made = []
+    for angle in np.linspace(0, math.tau, 500, endpoint=False):
+        position = {"x": 10 * math.cos(angle), "y": 10 * math.sin(angle), "z": NO_MARK}
+        pose = {"position": position, "orientation": _yaw(angle)}
+        made.append(
+            {
+                "header": header("map"),
+                "child_frame_id": "base_link",
+                "pose": {"pose": pose, "covariance": np.eye(6).reshape(-1) * 0.01},
+                "twist": {"covariance": np.zeros(36)},
+            }
+        )
+    return made
+
+
+def _yaw(angle: float) -> Values:
+    return {"z": math.sin(angle / 2), "w": math.cos(angle / 2)}
+
+
+def _moved(parent: str, child: str, xyz: Any, yaw: float) -> Values:
+    x, y, z = (float(value) for value in xyz)
+    transform = {"translation": {"x": x, "y": y, "z": z}, "rotation": _yaw(yaw)}
+    return {"header": header(parent), "child_frame_id": child, "transform": transform}

@@ -1,0 +1,75 @@
+"""Which publication a sighting is of, and how late it came."""
+
+from __future__ import annotations
+
+import struct
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+RECORD = struct.Struct("<qqqq")
+"""Lane, publication, stamp, time of publication."""
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """A publication seen by a client.
+
+    Args:
+        time_ns: when all its bytes were there.
+        lane: of the stream; None if it was recognised by its stamp.
+        key: the publication modulo `cycle`, or the stamp in ns modulo `cycle`.
+        cycle: 0 if the key is whole.
+    """
+
+    time_ns: int
+    lane: int | None
+    key: int
+    cycle: int = 0
+
+
+class Log:
+    """The publisher's log, as far as it is written."""
+
+    def __init__(self, path: Path) -> None:
+        size = path.stat().st_size // RECORD.size
+        self._rows = np.fromfile(path, np.int64, 4 * size).reshape(-1, 4)
+        self._of_lane: dict[int, NDArray[np.int64]] = {
+            lane: self._rows[self._rows[:, 0] == lane] for lane in np.unique(self._rows[:, 0])
+        }
+
+    def published(self, lane: int, since_ns: int, until_ns: int) -> int:
+        """How many were published in a span of time."""
+        return len(self._between(lane, since_ns, until_ns))
+
+    def latencies(
+        self, sightings: Iterable[Sighting], since_ns: int, until_ns: int
+    ) -> dict[int, list[float]]:
+        """Milliseconds from publication to first sight by lane, of what was published in a span."""
+        first: dict[tuple[int, int], int] = {}
+        for sighting in sightings:
+            found = self._find(sighting)
+            if found is not None and since_ns <= found[3] < until_ns:
+                first.setdefault((int(found[0]), int(found[3])), sighting.time_ns)
+        late: dict[int, list[float]] = defaultdict(list)
+        for (lane, published), seen in first.items():
+            late[lane].append((seen - published) / 1e6)
+        return late
+
+    def _between(self, lane: int, since_ns: int, until_ns: int) -> NDArray[np.int64]:
+        rows = self._of_lane.get(lane, self._rows[:0])
+        return rows[(rows[:, 3] >= since_ns) & (rows[:, 3] < until_ns)]
+
+    def _find(self, sighting: Sighting) -> NDArray[np.int64] | None:
+        """The newest publication before the sighting that fits."""
+        column = 2 if sighting.lane is None else 1
+        rows = self._rows if sighting.lane is None else self._of_lane.get(sighting.lane)
+        if rows is None:
+            return None
+        keys = rows[:, column] % sighting.cycle if sighting.cycle else rows[:, column]
+        fitting = np.flatnonzero((keys == sighting.key) & (rows[:, 3] <= sighting.time_ns))
+        return rows[fitting[-1]] if len(fitting) else None
