@@ -44,6 +44,14 @@ def test_the_title_tells_what_is_not_saved() -> None:
     assert title_of(LAB, is_paused=True) == "lab.yaml · paused"
 
 
+def test_the_page_is_called_as_the_file(loop: Any, tab: Any) -> None:
+    title = "() => document.querySelector('[data-page-title]').dataset.pageTitle"
+    tab.wait_for(lambda: tab.page.evaluate(title) == "webviz")
+    loop.show(file=File('/home/me/"<b>.yaml', is_changed=True))
+    tab.wait_for(lambda: tab.page.evaluate(title) == '"<b>.yaml* · webviz')
+    assert '"<b>.yaml*' in tab.text()
+
+
 def test_save_writes_where_it_came_from(loop: Any, tab: Any) -> None:
     loop.show(file=LAB)
     tab.wait_for(lambda: "lab.yaml" in tab.text())

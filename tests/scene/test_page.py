@@ -74,3 +74,20 @@ def test_a_browser_that_joins_late_sees_the_same(view: Any, browser: Any) -> Non
     other.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
     other.wait_for(lambda: other.draw(2) or bool((other.pixels() == view.pixels()).mean() > 0.999))
     other.close()
+
+
+def test_the_tab_of_the_browser_is_called_as_the_panel_says(view: Any) -> None:
+    server = view.scene.link.server
+    label = server.gui.add_html('<div data-page-title="lab.yaml* · webviz"></div>')
+    view.wait_for(lambda: view.tab.title() == "lab.yaml* · webviz")
+    label.remove()
+
+
+def test_the_camera_does_not_walk_while_somebody_saves(view: Any) -> None:
+    before = view.evaluate("() => window.__viserMutable.camera.position.toArray()")
+    view.tab.keyboard.press("Control+s", delay=300)
+    view.draw()
+    assert view.evaluate("() => window.__viserMutable.camera.position.toArray()") == before
+    view.tab.keyboard.press("s", delay=300)
+    view.draw()
+    assert view.evaluate("() => window.__viserMutable.camera.position.toArray()") != before

@@ -8,7 +8,8 @@ from webviz.gui.text import plain
 from webviz.state import File
 
 SUFFIXES = (".yaml", ".yml", ".rviz")
-NEW_NAME = "webviz.yaml"
+NAME = "webviz"
+NEW_NAME = f"{NAME}.yaml"
 
 
 def file_name(entered: str) -> str:
@@ -27,5 +28,5 @@ def file_name(entered: str) -> str:
 
 def title_of(file: File, is_paused: bool = False) -> str:
     """What the panel is called: the name of the file, and whether something is not saved."""
-    name = plain(Path(file.path).name) if file.path else "webviz"
+    name = plain(Path(file.path).name) if file.path else NAME
     return f"{name}{'*' if file.is_changed else ''}{' · paused' if is_paused else ''}"

@@ -10,14 +10,15 @@ from webviz.commands import Command
 from webviz.gui.answers import Answers
 from webviz.gui.dialogs import Dialogs
 from webviz.gui.displays_tab import DisplaysTab
-from webviz.gui.file_names import title_of
+from webviz.gui.file_names import NAME, title_of
 from webviz.gui.files import Files
 from webviz.gui.shortcuts import add_shortcuts
 from webviz.gui.style import panel_style
+from webviz.gui.text import escape
 from webviz.gui.time_tab import TimeTab
 from webviz.gui.topics_tab import TopicsTab
 from webviz.gui.transforms_tab import TransformsTab
-from webviz.state import State
+from webviz.state import File, State
 
 WIDTH_PX = 360
 
@@ -34,14 +35,14 @@ class Panel:
 
     def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
         self._gui = gui = server.gui
-        self._title = title_of(State((), "", (), {}, {}).file)
-        gui.set_panel_label(self._title)
+        self._title = ""
         gui.main_panel.dock_left()
         gui.main_panel.set_width(WIDTH_PX)
         self._answers = Answers(server)
         self._dialogs = Dialogs(server, enqueue)
         self._files = Files(self._dialogs, enqueue)
-        gui.add_html(panel_style())
+        self._style = gui.add_html("")
+        self._call(title_of(File()))
         tabs = gui.add_tab_group()
         with tabs.add_tab("Displays"):
             self._displays = DisplaysTab(server, enqueue, self._dialogs, self._files)
@@ -59,9 +60,7 @@ class Panel:
         To be called by the frame loop some times a second, and after commands: edits settle with
         time.
         """
-        if (title := title_of(state.file, state.clock.is_paused)) != self._title:
-            self._title = title
-            self._gui.set_panel_label(title)
+        self._call(title_of(state.file, state.clock.is_paused))
         self._files.update(state)
         self._displays.update(state)
         self._time.update(state)
@@ -69,3 +68,12 @@ class Panel:
         self._topics.update(state)
         self._dialogs.update(state)
         self._answers.update(state.answer)
+
+    def _call(self, title: str) -> None:
+        """Give the panel and the page a title."""
+        if title != self._title:
+            self._title = title
+            self._gui.set_panel_label(title)
+            self._style.content = panel_style(
+                escape(title if title.startswith(NAME) else f"{title} · {NAME}")
+            )

@@ -71,9 +71,13 @@ def picks_style() -> str:
     return f'<div class="webviz-picks"><style>{_PICKS}</style></div>'
 
 
-def panel_style() -> str:
-    """What holds for the whole panel, on screens that are touched too."""
-    return f'<div class="webviz-panel"><style>{_PANEL}</style></div>'
+def panel_style(title: str) -> str:
+    """What holds for the whole panel, on screens that are touched too, and what the page is called.
+
+    Args:
+        title: text for an attribute, escaped.
+    """
+    return f'<div class="webviz-panel" data-page-title="{title}"><style>{_PANEL}</style></div>'
 
 
 _LIST_BOX = ":has(> div > .webviz-list)"

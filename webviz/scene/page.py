@@ -16,6 +16,17 @@ PAGE_SCRIPT = """
   // Colours as they were sent: no film curve (viser's page turns ACES on).
   Object.defineProperty(root.getState().gl, "toneMapping", { get: () => 0, set: () => {} });
 
+  // Ctrl+S is a command; the camera of viser, which listens further out, would walk as well.
+  document.documentElement.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) event.stopPropagation();
+  });
+
+  // The tab of the browser is called as the panel is.
+  setInterval(() => {
+    const panel = document.querySelector("[data-page-title]");
+    if (panel) document.title = panel.dataset.pageTitle;
+  }, 500);
+
   // Pictures: sharp cells; behind lines and meshes of the same plane, and by layer over each other;
   // never hiding what is blended later; not a white sheet while the first texture is decoded.
   const refs = window.__viserMutable.nodeRefFromName;
