@@ -12,6 +12,8 @@ from webviz.studio import Studio
 from webviz.testing.recording import RecordingScene
 from webviz.views import View
 
+__tracebackhide__ = True  # failures are shown where the test calls
+
 Size = tuple[int, int]
 T = TypeVar("T")
 
@@ -53,7 +55,6 @@ class Darkroom:
             NoBrowser: there is none; it says how to get one.
             BrowserDied: it ended; the next picture launches another.
         """
-        __tracebackhide__ = True
 
         def capture() -> Pixels:
             studio = self._show(scene, view, size)
@@ -73,7 +74,6 @@ class Darkroom:
             scene, view, size: as for `capture`.
             prefix: of the names of the groups.
         """
-        __tracebackhide__ = True
 
         def capture() -> Pixels:
             studio = self._show(scene, view, size)
@@ -90,8 +90,6 @@ class Darkroom:
     # In the thread
 
     def _call(self, work: Callable[[], T]) -> T:
-        __tracebackhide__ = True
-
         def guarded() -> T:
             try:
                 return work()

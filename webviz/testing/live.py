@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from webviz.config import Config
@@ -16,6 +17,8 @@ from webviz.testing.pictures import Photographer
 from webviz.testing.recording import RecordingScene
 from webviz.testing.shown import Shown
 from webviz.testing.watched import WatchedViewer
+
+__tracebackhide__ = True  # failures are shown where the test calls
 
 if TYPE_CHECKING:
     from webviz.ros.node import RosSource
@@ -72,23 +75,25 @@ class LiveViewer(Shown):
 
         self._inbox = _WatchedInbox()
         self._crash: BaseException | None = None
-        self._simulator = _start_simulator(simulator, domain)
-        self._talker = Talker("webviz_test", domain)
-        self.source: RosSource = RosSource(domain_id=domain)
-        self.source.inbox = self._inbox
-        super().__init__(WatchedViewer(config, self.source, scene), scene, photographer)
-        self._thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
-        self._thread.start()
-        self._catch_up()
+        with contextlib.ExitStack() as stack:
+            if simulator is not None:
+                stack.enter_context(_simulator(simulator, domain))
+            self._talker = Talker("webviz_test", domain)
+            stack.callback(self._talker.close)
+            self.source: RosSource = RosSource(domain_id=domain)
+            stack.callback(self.source.close)
+            self.source.inbox = self._inbox
+            super().__init__(WatchedViewer(config, self.source, scene), scene, photographer)
+            self._thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
+            stack.callback(self._thread.join)
+            stack.callback(self.viewer.stop)
+            self._thread.start()
+            self._catch_up()
+            self._close = stack.pop_all().close
 
     def close(self) -> None:
         """End everything, without a thread or a process left."""
-        self.viewer.stop()
-        self._thread.join()
-        self.source.close()
-        self._talker.close()
-        if self._simulator is not None:
-            _end(self._simulator)
+        self._close()
 
     def publish_bytes(
         self, topic: str, type_name: str, cdr: bytes, *, latched: bool | None = None
@@ -104,7 +109,6 @@ class LiveViewer(Shown):
             cdr: serialised message with its encapsulation header.
             latched: transient local, also for nodes that come later; None: as /tf_static is.
         """
-        __tracebackhide__ = True
         is_latched = topic == "/tf_static" if latched is None else latched
         publisher = self._talker.open(topic, type_name, is_latched)
         if self._is_wanted(topic, type_name):
@@ -135,7 +139,6 @@ class LiveViewer(Shown):
         Raises:
             AssertionError: it did not hold in time.
         """
-        __tracebackhide__ = True
         deadline = time.monotonic() + seconds
         while not (result := condition()):
             if time.monotonic() > deadline:
@@ -150,7 +153,6 @@ class LiveViewer(Shown):
         Raises:
             AssertionError: it did not come about in time; the statuses of the display say why.
         """
-        __tracebackhide__ = True
         row = self._row(display)
 
         def is_drawn() -> bool:
@@ -172,7 +174,6 @@ class LiveViewer(Shown):
 
     def settle(self) -> None:
         """Let all that was published be drawn, and slow work of displays finish."""
-        __tracebackhide__ = True
         self.wait_for(
             lambda: not self._inbox.missing(),
             lambda: f"What was published on {', '.join(self._inbox.missing())} has not come.",
@@ -187,7 +188,6 @@ class LiveViewer(Shown):
 
     def _turn(self) -> None:
         """Wait until a turn ends."""
-        __tracebackhide__ = True
         with self.viewer.turned:
             turns = self.viewer.turns
             self._inbox.arrived.set()
@@ -227,22 +227,20 @@ class LiveViewer(Shown):
         return offer.problem or f"it knows {offer}." if offer else "it does not know the topic."
 
 
-def _start_simulator(
-    parameters: Mapping[str, Any] | None, domain: int
-) -> subprocess.Popen[bytes] | None:
-    if parameters is None:
-        return None
+@contextlib.contextmanager
+def _simulator(parameters: Mapping[str, Any], domain: int) -> Iterator[None]:
+    """A simulated robot in a process of its own."""
     command = [sys.executable, "-m", "webviz_sim", "--ros-args"]
     for name, value in parameters.items():
         text = str(value).lower() if isinstance(value, bool) else str(value)
         command += ["-p", f"{name}:={text}"]
-    return subprocess.Popen(command, env={**os.environ, "ROS_DOMAIN_ID": str(domain)})
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.terminate()
+    process = subprocess.Popen(command, env={**os.environ, "ROS_DOMAIN_ID": str(domain)})
     try:
-        process.wait(timeout=10.0)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
+        yield
+    finally:
+        process.terminate()
+        try:
+            process.wait(timeout=10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()

@@ -14,6 +14,8 @@ from webviz import config
 from webviz.messages.definitions import DEFINITIONS
 from webviz.testing.source import SECOND
 
+__tracebackhide__ = True  # failures are shown where the test calls
+
 
 @functools.cache
 def store() -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from webviz.browser import Pixels
@@ -19,6 +19,8 @@ from webviz.testing.comparing import (
 from webviz.testing.darkroom import Darkroom, Size
 from webviz.testing.recording import RecordingScene
 from webviz.views import View
+
+__tracebackhide__ = True  # failures are shown where the test calls
 
 UPDATE = "--update-pictures"
 
@@ -62,11 +64,10 @@ class Photographer:
     scene: RecordingScene
     darkroom: Darkroom
     album: Album
-    view: View = field(default_factory=View)
+    view: View
 
     def capture(self, transparent: bool = False) -> Pixels:
         """What a browser shows."""
-        __tracebackhide__ = True
         return self.darkroom.capture(self.scene, self.view, self.album.size, transparent)
 
     def check(
@@ -80,14 +81,13 @@ class Photographer:
 
         Args:
             name: of the picture in the album, without suffix.
-            displays: prefix of the groups, by name, of each display that must be seen in it.
+            displays: prefix of groups and name of each display that must be seen in it.
             mask: what does not matter.
             tolerance: share of pixels that may differ.
 
         Raises:
             AssertionError: a person would see the difference; the text tells where to look.
         """
-        __tracebackhide__ = True
         album = self.album
         path = album.folder / f"{name}.png"
         actual = masked(self.capture(), mask)
@@ -119,9 +119,8 @@ class Photographer:
         whole: Pixels,
     ) -> None:
         """Raise if a display could be left out without anybody noticing."""
-        __tracebackhide__ = True
         unseen: list[str] = []
-        for display, prefix in displays.items():
+        for prefix, display in displays.items():
             rest = self.darkroom.capture_without(self.scene, self.view, self.album.size, prefix)
             if share_of_difference(masked(rest, mask), whole) <= tolerance:
                 unseen.append(display)

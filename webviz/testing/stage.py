@@ -11,6 +11,8 @@ from webviz.testing.shown import Shown
 from webviz.testing.source import HandFedSource
 from webviz.testing.watched import WatchedViewer
 
+__tracebackhide__ = True  # failures are shown where the test calls
+
 LOADING_S = 60.0
 """A robot's meshes may be large."""
 
@@ -62,7 +64,6 @@ class Stage(Shown):
         Raises:
             AssertionError: nothing can be seen of it; its statuses say why.
         """
-        __tracebackhide__ = True
         self.settle()
         if not self.is_drawn(display):
             raise AssertionError(f"{display} draws nothing. {self.status(display).text}")
