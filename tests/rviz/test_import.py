@@ -256,7 +256,8 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
 )
 def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
-    assert f"Scan: {what}" in said(report)
+    at_line = "Scan" if what.endswith("here yet") else "Scan (line 3)"
+    assert f"{at_line}: {what}" in said(report)
 
 
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:

@@ -62,7 +62,19 @@ def parse(text: str, where: str) -> Config:
     if not isinstance(entries, list):
         raise ConfigError(top.at("displays").says(NO_LIST))
     items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
-    return Config(settings, items)
+    if not any(map(_is_kept, items)):
+        return Config(settings, items)
+    from webviz import rviz  # it stands on this module
+
+    items, settings, report = rviz.revive(items, settings)
+    return Config(settings, items, report.sentences())
+
+
+def _is_kept(item: Item) -> bool:
+    """Whether a display is kept of a .rviz file, or one in a group."""
+    if isinstance(item, Branch):
+        return any(map(_is_kept, item.displays))
+    return isinstance(item, Unreadable) and item.is_from_rviz
 
 
 def read_display(entry: Any, place: Place) -> Item:

@@ -120,6 +120,11 @@ class Place:
         """A place within this one."""
         return Place((*self.path, *path), self.source)
 
+    @property
+    def line(self) -> int:
+        """The line in the file; 0 without a file."""
+        return self.source.line(self.path) if self.source else 0
+
     def words(self) -> str:
         """The path: `displays[2].size`."""
         words = ""
@@ -135,5 +140,5 @@ class Place:
         words = self.words()
         parts = [words, clause] if words else [clause]
         if self.source:
-            parts.insert(0, f"{self.source.where}:{self.source.line(self.path)}")
+            parts.insert(0, f"{self.source.where}:{self.line}")
         return ": ".join(parts) + ("" if clause.endswith(("?", ".", ":")) else ".")

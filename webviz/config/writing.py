@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,11 +12,12 @@ from typing import Any
 import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
-from ruamel.yaml.representer import SafeRepresenter
 
 from webviz.config.atomic import write_text
-from webviz.config.files import is_rviz
+from webviz.config.errors import ConfigError
+from webviz.config.files import is_rviz, read_text
 from webviz.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
+from webviz.config.representer import Representer
 from webviz.display import to_values
 from webviz.registry import type_name
 
@@ -47,7 +50,7 @@ def dump(config: Config) -> str:
     return stream.getvalue()
 
 
-class _Representer(SafeRepresenter):
+class _Representer(Representer):
     """Gives each value a line of its own where they are too many for one."""
 
     def represent_mapping(self, tag: Any, mapping: Any, flow_style: Any = None) -> MappingNode:
@@ -70,6 +73,10 @@ def _fits(nodes: Sequence[Node]) -> bool:
 def save(config: Config, path: Path) -> None:
     """Write a config file; a name that ends with .rviz makes it RViz's.
 
+    The version before is kept, see `write_text`. Comments at the beginning of the file stay, such
+    as a licence or what tells an editor of the schema; other comments go, since the displays they
+    stood at may have moved or gone.
+
     Raises:
         ConfigError: it cannot be written.
     """
@@ -78,7 +85,16 @@ def save(config: Config, path: Path) -> None:
 
         write_text(rviz.write(config)[0], path)
     else:
-        write_text(dump(config), path)
+        write_text(_comments(path) + dump(config), path)
+
+
+def _comments(path: Path) -> str:
+    """The comments at the beginning of a file, with the lines between them."""
+    with contextlib.suppress(ConfigError, OSError):
+        if path.is_file():
+            lines = read_text(path).splitlines(keepends=True)
+            return "".join(itertools.takewhile(lambda line: line.startswith(("#", "\n")), lines))
+    return ""
 
 
 def _entry(display: Item) -> Any:

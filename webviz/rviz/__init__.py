@@ -6,5 +6,6 @@ lost no key, and no value but in the last digit of single precision.
 
 from webviz.rviz.document import read, write
 from webviz.rviz.report import Note, Report
+from webviz.rviz.revival import revive
 
-__all__ = ["Note", "Report", "read", "write"]
+__all__ = ["Note", "Report", "read", "revive", "write"]

@@ -44,21 +44,23 @@ class Kept:
         return {}
 
 
-def read_items(entries: list[Any], report: Report, kept: Kept) -> list[Item]:
-    """Displays of a list in a .rviz file."""
-    return [_read_item(entry, report, kept) for entry in entries]
+def read_items(entries: list[Any], report: Report, kept: Kept, place: Place) -> list[Item]:
+    """Displays of a list in a .rviz file, which is at `place`."""
+    return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
 
 
-def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
+def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
     found = display_class(cls)
     report.count("displays", found is not None, 1)
     if found is None:
-        report.note(name or "?", cls or "a display without class", NO_DISPLAY)
+        report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
         report.count("properties", 0, len(_effective(tree)))
-        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Place((name or "?",)))
-    display = _read(found, tree, name, report)
+        return read_display(
+            {"type": cls or "?", "name": name or cls, "rviz": entry}, Place((name or "?",))
+        )
+    display = _read(found, tree, name, report, place)
     if found.rviz != cls:
         report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
     inner = tree.pop("Displays", []) if isinstance(display, Group) else []
@@ -66,7 +68,8 @@ def _read_item(entry: Any, report: Report, kept: Kept) -> Item:
     kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
     if not isinstance(display, Group):
         return display
-    return Branch(display, read_items(inner if isinstance(inner, list) else [], report, kept))
+    entries = inner if isinstance(inner, list) else []
+    return Branch(display, read_items(entries, report, kept, place.at("Displays")))
 
 
 def display_class(cls: str) -> type[Display] | None:
@@ -80,18 +83,22 @@ def _classes(types: tuple[type[Display], ...]) -> dict[str, type[Display]]:
     return {f"rviz/{name.partition('/')[2]}": cls for name, cls in found.items()} | found
 
 
-def _read(cls: type[Display], tree: Tree, name: str, report: Report) -> Display:
+def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Place) -> Display:
     reading = Reading()
     display = display_from(cls, tree, reading)
-    place = name or display.name
     for path, reason in reading.faults:
-        report.note(place, "/".join(path), reason)
+        report.note(_at_line(display.name, place.at(*path)), "/".join(path), reason)
     told = [path for path, _ in reading.faults]
     for path in _effective(tree):
         report.count("properties", path in reading.used, 1)
         if path not in reading.used and not any(path[: len(each)] == each for each in told):
-            report.note(place, "/".join(path), NO_PROPERTY)
+            report.note(display.name, "/".join(path), NO_PROPERTY)
     return display
+
+
+def _at_line(name: str, place: Place) -> str:
+    """A display's name with the line where there is something to put right."""
+    return f"{name} (line {place.line})" if place.line else name
 
 
 def _effective(tree: Tree) -> list[Path]:
@@ -141,7 +148,9 @@ def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | No
             if isinstance(item.values, Mapping) and "rviz" in item.values:
                 written.append(item.values["rviz"])
             else:
-                report.note(item.name, "this entry", f"it is left out: {item.reason.removesuffix('.')}")
+                report.note(
+                    item.name, "this entry", f"it is left out: {item.reason.removesuffix('.')}"
+                )
         elif isinstance(item, Branch):
             tree = _write(item.group, kept)
             written.append(tree | {"Displays": write_items(item.displays, report, kept)})

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from webviz.config import Config, ConfigError, Settings
+from webviz.config import Config, ConfigError, Place, Settings, Source
 from webviz.display import Color
 from webviz.rviz import values, views
 from webviz.rviz.displays import Kept, read_items, write_items
@@ -66,7 +66,8 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     Raises:
         ConfigError: it is not a .rviz file.
     """
-    document = parse(text, where)
+    source = Source(text, where)
+    document = parse(source)
     if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
         raise ConfigError(f"{where} is no RViz config: it has no `{MANAGER}`.")
     report, kept = Report(), Kept()
@@ -78,7 +79,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if not isinstance(entries, list):
         report.note(MANAGER, "Displays", "it is no list, so there are no displays")
         entries = []
-    items = read_items(entries, report, kept)
+    items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
     _note_the_rest(document, report)
     basis = _bare(settings)
     if child(manager, "Views", "Current").get("Class") != views.ORBIT:

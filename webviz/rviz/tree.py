@@ -14,18 +14,14 @@ from typing import Any
 
 import numpy as np
 from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
-from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
-from ruamel.yaml.representer import SafeRepresenter
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from webviz.config import MAX_VALUES, ConfigError
+from webviz.config import ConfigError, Source
+from webviz.config.representer import Representer
 
 Tree = dict[str, Any]
 Path = tuple[str, ...]
 """Keys from the top of a tree."""
-
-MAX_DEPTH = 64
-"""Levels; real files have fewer than 20."""
 
 _NULL = "tag:yaml.org,2002:null"
 _FLOAT_MAX = float(np.finfo(np.float32).max)
@@ -33,44 +29,25 @@ _MOST_DIGITS = 18
 """Longer integers stay text: not every reader has integers that large."""
 
 
-def parse(text: str, where: str) -> Any:
-    """A tree from YAML text; of a key that is there twice the last one counts.
+def parse(source: Source) -> Any:
+    """A tree from YAML; of a key that is there twice the last one counts.
 
     Raises:
-        ConfigError: it is not YAML, too large or too deep; the sentence begins with `where`.
+        ConfigError: a key is no plain word.
     """
-    try:
-        node = YAML(typ="safe", pure=True).compose(io.StringIO(text))
-    except YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f"{where}:{mark.line + 1}" if mark else where
-        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise ConfigError(f"{place} is not valid YAML: {problem}.") from error
-    except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{where} is not valid YAML: {error}.") from error
-    return _Builder(where).build(node, 0)
+    return _built(source.node, source.where)
 
 
-class _Builder:
-    def __init__(self, where: str) -> None:
-        self._where = where
-        self._count = 0
-
-    def build(self, node: Any, depth: int) -> Any:
-        self._count += 1
-        if self._count > MAX_VALUES:
-            raise ConfigError(f"{self._where} holds more than {MAX_VALUES} values.")
-        if depth > MAX_DEPTH:
-            raise ConfigError(f"{self._where} is nested deeper than {MAX_DEPTH} levels.")
-        if isinstance(node, MappingNode):
-            if not all(isinstance(key, ScalarNode) for key, _ in node.value):
-                raise ConfigError(f"{self._where}: a key is not a plain word.")
-            return {key.value: self.build(value, depth + 1) for key, value in node.value}
-        if isinstance(node, SequenceNode):
-            return [self.build(value, depth + 1) for value in node.value]
-        if node is None or node.tag == _NULL or str(node.ctag) == _NULL:
-            return None
-        return scalar(node.value)
+def _built(node: Node | None, where: str) -> Any:
+    if isinstance(node, MappingNode):
+        if not all(isinstance(key, ScalarNode) for key, _ in node.value):
+            raise ConfigError(f"{where}: a key is not a plain word.")
+        return {key.value: _built(value, where) for key, value in node.value}
+    if isinstance(node, SequenceNode):
+        return [_built(value, where) for value in node.value]
+    if node is None or node.tag == _NULL or str(node.ctag) == _NULL:
+        return None
+    return scalar(node.value)
 
 
 def scalar(text: str) -> bool | int | float | str:
@@ -89,7 +66,7 @@ def scalar(text: str) -> bool | int | float | str:
     return text
 
 
-class _Representer(SafeRepresenter):
+class _Representer(Representer):
     """Writes what is empty as RViz does."""
 
 

@@ -1,0 +1,86 @@
+"""What was kept of a .rviz file comes alive when its display is there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Annotated, Any
+
+import pytest
+from rviz_trees import lost, texts
+
+from webviz import registry, rviz
+from webviz.config import Branch, Unreadable, dump, parse
+from webviz.display import Display, Input, Topic
+
+TEXT = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_common/Group
+      Name: Sensors
+      Enabled: true
+      Displays:
+        - Class: rviz_plugins/Sonar
+          Name: Front
+          Enabled: true
+          Beam Count: 7
+          Glow: 1
+          Topic: {Value: /front, Depth: 5}
+    - Class: rviz_plugins/Sonar
+      Name: Twin
+      Value: true
+      Beam Count: many
+      Glow: 2
+    - Class: rviz_plugins/Sonar
+      Name: Twin
+      Value: true
+    - Class: rviz_plugins/Radar
+      Name: Radar
+"""
+
+
+class Sonar(Display):
+    """Beams of sound."""
+
+    rviz = "rviz_plugins/Sonar"
+
+    topic: Annotated[Topic, Input("sensor_msgs/msg/Range")] = Topic("/sonar")
+    beam_count: int = 3
+
+
+@pytest.fixture
+def install() -> Iterator[Callable[[], None]]:
+    """Makes the display known."""
+    yield lambda: registry.register("test", {"Sonar": Sonar})
+    registry.register("test", {})
+
+
+def test_kept_displays_are_read_once_their_type_is_there(install: Callable[[], None]) -> None:
+    saved = dump(rviz.read(TEXT, "x.rviz")[0])
+    before = parse(saved, "x.yaml")
+    group: Any = before.displays[0]
+    assert isinstance(group.displays[0], Unreadable)
+    assert before.report == []
+    install()
+    after = parse(saved, "x.yaml")
+    branch, twin, other, radar = after.displays
+    assert isinstance(branch, Branch)
+    (front,) = branch.displays
+    assert isinstance(front, Sonar)
+    assert (front.name, front.topic.name, front.beam_count) == ("Front", "/front", 7)
+    assert isinstance(twin, Sonar)
+    assert isinstance(other, Sonar)
+    assert twin.beam_count == 3
+    assert isinstance(radar, Unreadable)
+    assert "Twin: Beam Count: `many` is no number; the default is used." in after.report
+    assert "Front, Twin: Glow: there is no such property here yet" in "\n".join(after.report)
+
+
+def test_no_key_is_lost_by_coming_alive(install: Callable[[], None]) -> None:
+    saved = dump(rviz.read(TEXT, "x.rviz")[0])
+    install()
+    config = parse(dump(parse(saved, "x.yaml")), "x.yaml")
+    written = rviz.write(config)[0]
+    assert list(lost(texts(TEXT), texts(written))) == []
+    assert [each["Glow"] for each in texts(written)["Visualization Manager"]["Displays"][1:2]] == [
+        "2"
+    ]
