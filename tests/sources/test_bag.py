@@ -169,7 +169,7 @@ def test_a_recorded_clock_is_the_time(tmp_path, opened):
     for at_s in (0.5, 1.5, 2.5):
         recorded.put(at_s, "/clock", {"clock": {"sec": 10 + round(at_s)}})
     bag = opened(recorded.write(tmp_path / "bag"))
-    assert bag.source.now_ns() == ns(10)
+    assert bag.source.now_ns() == ns(10)  # before anything arrived
     bag.want("/words")
     bag.play(2)
     assert bag.source.now_ns() == ns(12)

@@ -53,11 +53,10 @@ class BagSource:
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
         self._time = BagTime(self._file)
-        self._position_ns = self._file.start_ns
+        self._position_ns = self._file.start_ns - 1
         self._wanted: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
         self._offers = self._all_offers()
-        self._begun = False
         self._next: Recorded | None = None
         self._upcoming: Iterator[Recorded] = iter(())
 
@@ -103,7 +102,6 @@ class BagSource:
             self._next = next(self._upcoming, None)
         else:
             self._position_ns = max(self._position_ns, until_ns)
-        self._begun = True
         self.inbox.arrived.set()
 
     # What every source can do, see webviz.sources.Source
@@ -122,8 +120,7 @@ class BagSource:
         for topic, wish in fresh.items():
             self._repeat(topic, wish)
         if _types(before) != _types(self._wanted):
-            begin = self._position_ns + 1 if self._begun else self._position_ns
-            self._upcoming = self._file.messages(self._heard(), begin)
+            self._upcoming = self._file.messages(self._heard(), self._position_ns + 1)
             self._next = next(self._upcoming, None)
         self._offers = self._all_offers()
 
@@ -190,8 +187,7 @@ class BagSource:
         latched = [
             channel
             for channel in self._channels()
-            if self._begun
-            and channel.topic == topic
+            if channel.topic == topic
             and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
         ]
         # Nobody knows who of the publishers of a transform was still there: all of them count.

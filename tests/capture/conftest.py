@@ -1,0 +1,50 @@
+"""A robot that was recorded while it drove along x, one metre a second."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import playwright.sync_api as playwright
+import pytest
+from bags import START_NS, Bag, ns
+from ros_messages import header
+
+from webviz.studio import Studio
+
+SIZE = (320, 240)
+SECONDS = 6
+
+
+def write_run(path: Path) -> Path:
+    """Scans of three points around the robot, ten a second, and its transforms."""
+    bag = Bag()
+    bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
+    bag.transform(0, "map", "odom", static=True)
+    for step in range(10 * SECONDS + 1):
+        at_s = step / 10
+        bag.transform(at_s, "odom", "base", x=at_s)
+        scan = {
+            "header": header("base", START_NS + ns(at_s)),
+            "angle_min": -0.2,
+            "angle_max": 0.2,
+            "angle_increment": 0.2,
+            "range_max": 10.0,
+            "ranges": [0.1, 0.1, 0.1],
+        }
+        bag.put(at_s, "/scan", scan)
+    return bag.write(path)
+
+
+@pytest.fixture(scope="session")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The bag."""
+    return write_run(tmp_path_factory.mktemp("bags") / "run")
+
+
+@pytest.fixture(scope="session")
+def studio(browser: playwright.Browser) -> Iterator[Studio]:
+    """One tab for all pictures."""
+    studio = Studio(browser, *SIZE)
+    yield studio
+    studio.close()

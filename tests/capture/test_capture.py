@@ -1,0 +1,166 @@
+"""`webviz.capture`: pictures and statuses of a config, as a program gets them."""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import webviz
+from webviz import Level
+from webviz.capturing import Capture
+from webviz.config import parse
+from webviz.views import Orbit
+
+SIZE = (320, 240)
+CONFIG = (Path(__file__).parent / "top.yaml").read_text()
+MARGIN_PX = 3
+
+
+@pytest.fixture
+def capture(run, studio) -> Any:
+    """`webviz.capture` of the run in small pictures."""
+    return functools.partial(webviz.capture, bag=run, size=SIZE, studio=studio)
+
+
+def scan(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """Column and row of each pixel of the scan."""
+    red, green, blue = (pixels[..., channel].astype(int) for channel in range(3))
+    return np.argwhere((red > 200) & (green < 80) & (blue > 200))[:, ::-1].astype(float)
+
+
+def column(x: float, distance: float = 20.0) -> float:
+    """Where a point at x is in a picture from straight above."""
+    half = distance * np.tan(np.pi / 8)
+    return SIZE[0] / 2 + x / half * SIZE[1] / 2
+
+
+def test_a_picture_shows_the_robot_where_it_was(capture):
+    shot: Capture = capture(CONFIG, at=2.0)
+    assert (shot.pixels.shape, shot.pixels.dtype) == ((240, 320, 3), np.uint8)
+    assert scan(shot.pixels).mean(axis=0)[0] == pytest.approx(column(2.1), abs=MARGIN_PX)
+    assert shot.is_ok
+    assert {name: status.level for name, status in shot.statuses.items()} == {"Scan": Level.OK}
+
+
+def test_several_times_are_pictures_in_the_order_of_time(capture):
+    shot: Capture = capture(CONFIG, at=["end", 1.0, 3.0])
+    assert [picture.at_s for picture in shot.pictures] == [1.0, 3.0, 6.0]
+    columns = [scan(picture.pixels).mean(axis=0)[0] for picture in shot.pictures]
+    assert columns == pytest.approx([column(x + 0.1) for x in (1, 3, 6)], abs=MARGIN_PX)
+
+
+def test_the_same_bag_makes_the_same_picture_and_the_same_words(capture):
+    one, other = capture(CONFIG, at=2.5), capture(CONFIG, at=[0.7, 2.5])
+    assert (one.pixels == other.pixels).all()
+    assert one.statuses == other.statuses
+
+
+def test_what_displays_keep_is_there_as_if_one_had_watched_from_the_start(capture):
+    decaying = CONFIG.replace("size: 0.3,", "size: 0.3, decay_time: 2.5,")
+    shot: Capture = capture(decaying, at=5.0)
+    columns = scan(shot.pixels)[:, 0]
+    assert columns.min() == pytest.approx(column(2.5), abs=2 * MARGIN_PX)
+    assert columns.max() == pytest.approx(column(5.2), abs=2 * MARGIN_PX)
+
+
+def test_views_are_pictures_of_one_moment(capture):
+    near = Orbit(distance=10.0, yaw=-1.570796, pitch=1.5697)
+    shot: Capture = capture(CONFIG, at=1.0, views=["Far", near])
+    assert [picture.view for picture in shot.pictures] == ["Far", "1"]
+    far, near = (scan(picture.pixels) for picture in shot.pictures)
+    assert far.mean(axis=0)[0] == pytest.approx(column(1.1, 40.0), abs=MARGIN_PX)
+    assert near.mean(axis=0)[0] == pytest.approx(column(1.1, 10.0), abs=MARGIN_PX)
+
+
+def test_a_frame_that_is_focused_is_in_the_middle(capture):
+    shot: Capture = capture(CONFIG, at="end", focus="base")
+    assert scan(shot.pixels).mean(axis=0) == pytest.approx(
+        (column(0.1), SIZE[1] / 2), abs=MARGIN_PX
+    )
+
+
+def test_without_its_background_a_picture_has_only_what_is_drawn(capture):
+    shot: Capture = capture(CONFIG, at=1.0, transparent=True)
+    assert shot.pixels.shape == (240, 320, 4)
+    opaque = np.argwhere(shot.pixels[..., 3] > 128)[:, ::-1]
+    assert opaque.mean(axis=0) == pytest.approx(scan(shot.pixels).mean(axis=0), abs=1)
+
+
+def test_a_display_that_shows_nothing_is_told_with_the_reason(capture):
+    config = CONFIG + "- {type: Path, topic: /plan}\n- {type: Path, enabled: false}\n"
+    shot: Capture = capture(config)
+    assert not shot.is_ok
+    assert shot.statuses.keys() == {"Scan", "Path"}
+    assert shot.statuses["Path"].level is Level.WARN
+    assert "Nobody publishes /plan" in shot.statuses["Path"].text
+    assert capture(config, wait_for=["Scan"]).is_ok
+
+
+def test_displays_of_one_name_are_numbered(capture):
+    config = CONFIG + "- {type: Path, topic: /a}\n- {type: Path, topic: /b}\n"
+    statuses = capture(config).statuses
+    assert "/a" in statuses["Path"].text
+    assert "/b" in statuses["Path (2)"].text
+
+
+def test_a_config_can_be_a_file_a_text_or_a_config(capture, tmp_path):
+    file = tmp_path / "top.yaml"
+    file.write_text(CONFIG)
+    pictures = [capture(config).pixels for config in (CONFIG, file, str(file), parse(CONFIG, ""))]
+    assert all((picture == pictures[0]).all() for picture in pictures)
+
+
+def test_another_fixed_frame_is_told_where_it_is_not_known(capture):
+    shot: Capture = capture(CONFIG, fixed_frame="mapp")
+    assert not shot.is_ok
+    assert "did you mean `map`?" in shot.pictures[0].shown.general["Fixed Frame"].text
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"at": 7.0}, "7 s is outside of"),
+        ({"at": [1.0, "soon"]}, "'soon' is no time"),
+        ({"views": ["Farr"]}, "did you mean `Far`?"),
+        ({"wait_for": ["Scam"]}, "No enabled display is named 'Scam', did you mean `Scan`?"),
+        ({"size": (8, 240)}, "16 to 8192 pixels a side, not 8 x 240"),
+        ({"focus": "bass"}, "bass"),
+        ({"bag": "nowhere.mcap"}, "There is no bag nowhere.mcap"),
+        ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' has no meaning for a bag"),
+    ],
+)
+def test_what_cannot_be_is_one_sentence(capture, options, sentence):
+    with pytest.raises(webviz.Error) as caught:
+        capture(CONFIG, **options)
+    assert sentence in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "displays", ["", "displays:\n- {type: Group, enabled: false, displays: [{type: Grid}]}\n"]
+)
+def test_a_config_that_shows_nothing_is_refused(capture, displays):
+    with pytest.raises(webviz.Error, match="The config shows nothing"):
+        capture(f"fixed_frame: map\n{displays}")
+
+
+def test_a_topic_can_be_remapped(capture):
+    config = CONFIG.replace("name: Scan", "name: Scan, topic: /front")
+    assert not capture(config).is_ok
+    assert capture(config, ros_args=["--ros-args", "-r", "/front:=/scan"]).is_ok
+
+
+def test_a_notebook_can_make_pictures(run):
+    async def cell() -> Capture:
+        return webviz.capture(CONFIG, bag=run, at=1.0, size=SIZE)
+
+    with ThreadPoolExecutor(1) as notebook:
+        shot = notebook.submit(asyncio.run, cell()).result()
+    assert len(scan(shot.pixels)) > 20

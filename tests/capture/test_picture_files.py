@@ -1,0 +1,131 @@
+"""Pictures as files."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+
+from webviz.picture_files import (
+    OutputError,
+    check,
+    contact_sheet,
+    numbered,
+    save,
+    save_animation,
+)
+
+RED, BLUE = (255, 0, 0), (0, 0, 255)
+
+
+def plain(color: tuple[int, ...], size: tuple[int, int] = (40, 30)) -> PIL.Image.Image:
+    return PIL.Image.new("RGBA" if len(color) == 4 else "RGB", size, color)
+
+
+@pytest.mark.parametrize("ending", [".png", ".webp", ".jpg", ".JPEG", ".gif"])
+def test_a_picture_is_written_in_the_form_of_its_ending(tmp_path, ending):
+    path = tmp_path / f"a{ending}"
+    save(plain(RED), path)
+    with PIL.Image.open(path) as image:
+        assert np.abs(np.asarray(image.convert("RGB"), int) - RED).max() < 5
+    assert os.listdir(tmp_path) == [path.name]
+
+
+def test_a_picture_can_be_read_by_others_as_far_as_the_umask_lets_them(tmp_path):
+    before = os.umask(0o022)
+    try:
+        save(plain(RED), tmp_path / "a.png")
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE((tmp_path / "a.png").stat().st_mode) == 0o644
+
+
+def test_transparency_is_kept(tmp_path):
+    for name in ("a.png", "a.webp"):
+        save(plain((255, 0, 0, 0)), tmp_path / name)
+        with PIL.Image.open(tmp_path / name) as image:
+            assert np.asarray(image.convert("RGBA"))[..., 3].max() == 0
+
+
+@pytest.mark.parametrize("ending", [".gif", ".webp"])
+def test_an_animation_shows_every_picture(tmp_path, ending):
+    path = tmp_path / f"a{ending}"
+    save_animation((plain(color) for color in (RED, BLUE, RED)), path, 5.0)
+    with PIL.Image.open(path) as image:
+        frames = []
+        for index in range(image.n_frames):
+            image.seek(index)
+            frames.append(np.asarray(image.convert("RGB"), int)[10, 10])
+            assert image.info["duration"] == 200
+        assert image.info["loop"] == 0
+    assert np.abs(np.array(frames) - (RED, BLUE, RED)).max() < 5
+
+
+def test_a_contact_sheet_shows_every_picture_above_its_caption():
+    sheet = contact_sheet([("one", plain(RED)), ("two", plain(BLUE)), ("three", plain(RED))], 2)
+    pixels = np.asarray(sheet)
+    red, blue = ((pixels == color).all(axis=2).sum() for color in (RED, BLUE))
+    assert (red, blue) == (2 * 40 * 30, 40 * 30)
+    assert sheet.width < 3 * 40
+    caption = pixels[4 + 30 : 4 + 30 + 20, 4:44]
+    assert (caption > 150).any()
+
+
+def test_a_contact_sheet_that_is_too_large_is_refused():
+    with pytest.raises(OutputError, match="at most 16000 a side"):
+        contact_sheet([("", plain(RED, (8000, 10)))] * 3, 3)
+
+
+def test_names_of_several_pictures_sort_by_time():
+    path = Path("out/run.png")
+    assert numbered(path, "", None, 1) == path
+    assert numbered(path, "", 3, 11) == Path("out/run-03.png")
+    assert numbered(path, "Front left/2", None, 1) == Path("out/run-Front_left_2.png")
+    assert numbered(path, "Top", 0, 2) == Path("out/run-Top-0.png")
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "sentence"),
+    [
+        ("a.txt", {}, "no ending of a picture"),
+        ("a", {}, "no ending of a picture"),
+        ("a.jpg", {"transparent": True}, r"use .png or .webp"),
+        ("a.png", {"is_animation": True}, r"ends with .gif or .webp"),
+        ("nowhere/a.png", {}, "No such file or directory"),
+    ],
+)
+def test_a_name_that_does_not_do_is_refused_at_once(tmp_path, name, options, sentence):
+    with pytest.raises(OutputError, match=sentence):
+        check(tmp_path / name, **{"is_animation": False, "transparent": False, **options})
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "a.gif"
+    save(plain(RED), path)
+    old = path.read_bytes()
+
+    def broken():
+        yield plain(RED)
+        raise RuntimeError("the browser died")
+
+    with pytest.raises(RuntimeError, match="the browser died"):
+        save_animation(broken(), path, 10.0)
+    with pytest.raises(RuntimeError, match="the browser died"):
+        save_animation(broken(), tmp_path / "b.webp", 10.0)
+    assert path.read_bytes() == old
+    assert os.listdir(tmp_path) == ["a.gif"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk_is_one_sentence_and_a_device_stays_one(tmp_path):
+    path = tmp_path / "full.png"
+    path.symlink_to("/dev/full")
+    noise = np.random.default_rng(1).integers(0, 255, (200, 200, 3), np.uint8)
+    with pytest.raises(OutputError, match=r"Cannot write .*full\.png: No space left on device\."):
+        save(PIL.Image.fromarray(noise), path)
+    assert stat.S_ISCHR(path.stat().st_mode)

@@ -1,0 +1,90 @@
+"""A bag that ran to a moment unseen shows what one sees who watched from the start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bags import START_NS, Bag, ns
+from ros_messages import header
+
+from webviz.config import parse
+from webviz.sources.bag import BagSource
+from webviz.state import State
+from webviz.testing.recording import RecordingScene
+from webviz.viewer import Viewer
+
+CONFIG = """\
+fixed_frame: map
+displays:
+- {type: LaserScan, decay_time: 1.2}
+- {type: Odometry, keep: 7, position_tolerance: 0.25}
+- {type: Map}
+- {type: Axes, reference_frame: base}
+"""
+CELLS = 4
+
+
+def grid(value: int) -> dict:
+    info = {"resolution": 1.0, "width": CELLS, "height": CELLS, "origin": {"orientation": {"w": 1}}}
+    return {"header": header("map", START_NS), "info": info, "data": [value] * CELLS * CELLS}
+
+
+@pytest.fixture
+def run(tmp_path) -> Path:
+    bag = Bag()
+    bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    bag.add("/map", "nav_msgs/msg/OccupancyGrid", latched=True)
+    bag.add("/map_updates", "map_msgs/msg/OccupancyGridUpdate")
+    bag.transform(0, "map", "odom", static=True)
+    bag.put(0, "/map", grid(0))
+    for step in range(60):
+        at_s = step / 10
+        stamp_ns = START_NS + ns(at_s)
+        # The transform comes after the data that needs it, as it does on robots.
+        ranges = {"angle_increment": 0.1, "range_max": 9.0, "ranges": [1.0 + at_s, 2.0, 3.0]}
+        bag.put(at_s, "/scan", {"header": header("base", stamp_ns), **ranges})
+        pose = {"pose": {"position": {"x": at_s}, "orientation": {"w": 1.0}}}
+        bag.put(at_s + 0.01, "/odom", {"header": header("odom", stamp_ns), "pose": pose})
+        bag.transform(at_s + 0.03, "odom", "base", x=at_s)
+        if step % 10 == 5:
+            x = step // 10 % CELLS
+            update = {"x": x, "y": 1, "width": 1, "height": 1, "data": [100]}
+            bag.put(at_s, "/map_updates", {"header": header("map", stamp_ns), **update})
+    return bag.write(tmp_path / "run")
+
+
+def show(run: Path, to_s: float, step_s: float, watched: bool) -> tuple[object, object]:
+    """What the scene and the statuses are in the end, if one plays in steps."""
+    source, scene, states = BagSource(run), RecordingScene(), list[State]()
+    config = parse(CONFIG, "the config")
+    viewer = Viewer(config, source, scene, strict=True, clock=lambda: source.position_ns / 1e9)
+    scene.watched = watched
+    viewer.turn()
+    while source.position_ns < source.start_ns + ns(to_s):
+        source.play(min(source.position_ns + ns(step_s), source.start_ns + ns(to_s)))
+        viewer.turn()
+    scene.watched = True
+    viewer.turn()
+    states.append(viewer.state(viewer._frames))
+    viewer.close()
+    source.close()
+    statuses = [(row.name, row.statuses) for row in states[-1].rows]
+    seen = sorted(scene.visible(), key=lambda item: (item[0], item[1].position))
+    return [(pose, node) for _, pose, node in seen], statuses
+
+
+@pytest.mark.parametrize("to_s", [0.0, 0.3, 2.0, 3.05, 5.9])
+def test_playing_unseen_ends_where_watching_does(run, to_s):
+    watched, watched_statuses = show(run, to_s, 0.01, True)
+    unseen, unseen_statuses = show(run, to_s, 0.1, False)
+    assert watched
+    assert unseen == watched
+    assert [name for name, _ in unseen_statuses] == [name for name, _ in watched_statuses]
+
+
+def test_history_is_longer_than_the_last_message(run):
+    nodes, _ = show(run, 5.9, 0.1, False)
+    assert isinstance(nodes, list)
+    assert len(nodes) > 10
