@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from webviz.browser import Page, Pixels
 from webviz.nodes import Rgb
-from webviz.scene import Scene, move_cameras, open_server, set_background, set_view
+from webviz.scene import Scene, open_server, set_background
 from webviz.scene.server import BACKGROUND
 from webviz.views import View
 
@@ -69,8 +69,8 @@ class Studio:
 
     def look(self, view: View) -> None:
         """Put the camera where a view says."""
-        set_view(self.server, view)  # for a page that connects again
-        move_cameras(self.server, view)
+        self.scene.cameras.start_with(view)  # for a page that connects again
+        self.scene.cameras.show(view)
 
     def set_background(self, rgb: Rgb) -> None:
         """Change what lies behind the scene."""

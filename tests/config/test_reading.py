@@ -15,7 +15,7 @@ from ruamel.yaml import YAML
 from webviz.config import ConfigError, Unreadable, dump, load, parse, standard
 from webviz.config.model import STANDARD
 from webviz.display import to_values
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 
@@ -39,7 +39,7 @@ def test_what_a_file_says_is_what_the_config_holds() -> None:
     config = parse(WHOLE, "x.yaml")
     assert config.settings.fixed_frame == "odom"
     assert config.settings.background == (10, 20, 30)
-    assert config.settings.view == View(distance=4.0, yaw=0.5, focal_point=(1.0, 2.0, 0.0))
+    assert config.settings.view == Orbit(distance=4.0, yaw=0.5, focal_point=(1.0, 2.0, 0.0))
     floor, front, rear = config.displays
     assert isinstance(floor, Grid)
     assert isinstance(front, LaserScan)

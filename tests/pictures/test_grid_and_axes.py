@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from webviz.testing import Stage, turned
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 
@@ -13,7 +13,7 @@ Stages = Callable[..., Stage]
 
 
 def test_a_grid_has_cells_lines_and_a_plane(webviz_stage: Stages) -> None:
-    seen = webviz_stage(Grid(), view=View(distance=17.0, yaw=-1.2, pitch=0.6))
+    seen = webviz_stage(Grid(), view=Orbit(distance=17.0, yaw=-1.2, pitch=0.6))
     seen.check_picture("grid/default")
     seen.set("line_style", "Billboards")
     seen.set("line_width", 0.15)
@@ -32,7 +32,7 @@ def test_a_grid_has_cells_lines_and_a_plane(webviz_stage: Stages) -> None:
 
 def test_a_grid_lies_in_its_reference_frame(webviz_stage: Stages) -> None:
     seen = webviz_stage(
-        Grid(plane_cell_count=4), Axes(), view=View(distance=9.0, yaw=-1.2, pitch=0.6)
+        Grid(plane_cell_count=4), Axes(), view=Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
     )
     seen.transform("map", "ramp", (1.5, 0.0, 0.5), turned(pitch=-0.4, yaw=0.6))
     seen.set("reference_frame", "ramp")
@@ -40,7 +40,7 @@ def test_a_grid_lies_in_its_reference_frame(webviz_stage: Stages) -> None:
 
 
 def test_axes_have_a_length_a_radius_and_a_frame(webviz_stage: Stages) -> None:
-    view = View(distance=6.0, yaw=0.9, pitch=0.5)
+    view = Orbit(distance=6.0, yaw=0.9, pitch=0.5)
     seen = webviz_stage(Axes(), Grid(), view=view)
     seen.check_picture("axes/default")
     seen = webviz_stage(Axes(length=2.0, radius=0.03), Grid(), view=view)

@@ -8,7 +8,7 @@ import building
 
 from webviz.testing import Stage, turned
 from webviz.testing.source import SECOND
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.axes import Axes
 from webviz_displays.laser_scan import LaserScan
 from webviz_sim.pose import Pose
@@ -16,7 +16,7 @@ from webviz_sim.pose import Pose
 Stages = Callable[..., Stage]
 
 LASER = Pose(-2.0, 0.0, 0.3)
-VIEW = View(distance=13.5, yaw=-1.5708, pitch=1.2, focal_point=(0.0, -0.2, 0.0))
+VIEW = Orbit(distance=13.5, yaw=-1.5708, pitch=1.2, focal_point=(0.0, -0.2, 0.0))
 
 
 def send(seen: Stage, laser: Pose = LASER) -> None:

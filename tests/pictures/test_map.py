@@ -9,14 +9,14 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from webviz.testing import Stage, turned
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.map import Map
 
 Stages = Callable[..., Stage]
 
 GRID = "nav_msgs/msg/OccupancyGrid"
-VIEW = View(distance=12.5, yaw=-1.5708, pitch=1.1, focal_point=(0.0, -0.2, 0.0))
+VIEW = Orbit(distance=12.5, yaw=-1.5708, pitch=1.1, focal_point=(0.0, -0.2, 0.0))
 
 
 def costs() -> np.ndarray:
@@ -56,7 +56,7 @@ def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_stage: Stages) -> N
     seen = webviz_stage(
         Map(alpha=1.0),
         Grid(),
-        view=View(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
+        view=Orbit(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
     )
     seen.transform("map", "room", (0.5, 0.0, 0.0), turned(yaw=0.3))
     origin = {"position": {"x": -1.0, "y": -1.0}, "orientation": {"z": 0.2474, "w": 0.9689}}

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from webviz.testing import Stage, turned
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.odometry import Odometry
 from webviz_displays.pose_properties import Covariance, PoseShape
@@ -42,7 +42,7 @@ def drive(seen: Stage, variances: tuple[float, ...], steps: int = 9) -> None:
 
 
 def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_stage: Stages) -> None:
-    view = View(distance=5.5, yaw=-0.3, pitch=0.8, focal_point=(0.4, 0.0, 0.0))
+    view = Orbit(distance=5.5, yaw=-0.3, pitch=0.8, focal_point=(0.4, 0.0, 0.0))
     seen = webviz_stage(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.0,) * 6)
     seen.check_picture("odometry/without_covariance")
@@ -62,7 +62,7 @@ def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_stage: Stages
 
 
 def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_stage: Stages) -> None:
-    view = View(distance=5.5, yaw=-0.3, pitch=0.9, focal_point=(0.4, 0.0, 0.0))
+    view = Orbit(distance=5.5, yaw=-0.3, pitch=0.9, focal_point=(0.4, 0.0, 0.0))
     seen = webviz_stage(Odometry(shape=ARROW), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.03, 0.12, 0.0, 0.0, 0.0, 0.06), steps=5)
     seen.check_picture("odometry/default")
@@ -79,7 +79,7 @@ def test_covariances_in_the_plane_are_ellipses_and_wedges(webviz_stage: Stages) 
 
 
 def test_covariances_in_space_are_ellipsoids_and_discs(webviz_stage: Stages) -> None:
-    view = View(distance=5.0, yaw=-0.6, pitch=0.6, focal_point=(0.5, 1.2, 0.3))
+    view = Orbit(distance=5.0, yaw=-0.6, pitch=0.6, focal_point=(0.5, 1.2, 0.3))
     seen = webviz_stage(Odometry(shape=ARROW, keep=1), Grid(plane_cell_count=6), view=view)
     drive(seen, (0.05, 0.2, 0.1, 0.1, 0.05, 0.2), steps=6)
     seen.check_picture("odometry/default_in_space")

@@ -8,13 +8,13 @@ import building
 import numpy as np
 
 from webviz.testing import Stage
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.path import Path
 
 Stages = Callable[..., Stage]
 
-VIEW = View(distance=6.5, yaw=-1.3, pitch=0.9)
+VIEW = Orbit(distance=6.5, yaw=-1.3, pitch=0.9)
 
 
 def send(seen: Stage, height: float) -> None:

@@ -15,7 +15,7 @@ from webviz import Display
 from webviz.browser import Pixels
 from webviz.testing import TOLERANCE, Stage, share_of_difference, turned
 from webviz.testing.comparing import load
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
@@ -90,7 +90,7 @@ def everything(seen: Stage) -> None:
 def test_without_any_one_of_its_displays_a_scene_has_another_picture(
     webviz_stage: Callable[..., Stage],
 ) -> None:
-    view = View(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
+    view = Orbit(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
     seen = webviz_stage(*(cls() for cls in EVERYTHING), view=view)
     everything(seen)
     seen.check_picture("all_displays/together", each_display=True)

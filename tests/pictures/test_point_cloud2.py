@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from webviz.testing import Stage
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.point_cloud2 import PointCloud2
 
@@ -42,7 +42,7 @@ def cloud() -> dict[str, Any]:
 
 
 def test_points_have_colours_styles_and_fewer_of_them(webviz_stage: Stages) -> None:
-    view = View(distance=8.0, yaw=-1.2, pitch=0.7)
+    view = Orbit(distance=8.0, yaw=-1.2, pitch=0.7)
     seen = webviz_stage(PointCloud2(size=0.12), Grid(plane_cell_count=8), view=view)
     seen.transform("map", "camera")
     seen.publish("/points", "sensor_msgs/msg/PointCloud2", cloud(), frame="camera")

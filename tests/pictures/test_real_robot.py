@@ -14,7 +14,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from webviz import Level
 from webviz.testing import Stage
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -60,7 +60,7 @@ def test_the_scan_lies_on_the_walls_of_the_map(webviz_stage: Callable[..., Stage
     origin = {"position": {"x": x, "y": y}, "orientation": {"w": 1.0}}
     info = {"resolution": RESOLUTION, "width": width, "height": height, "origin": origin}
     odometry = Odometry(keep=1, covariance=Covariance(value=False))
-    view = View(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
+    view = Orbit(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
     seen = webviz_stage(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
     seen.transform("map", "odom", *ODOM)
     map_ = {"info": info, "data": grid.ravel()}

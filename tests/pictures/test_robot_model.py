@@ -10,7 +10,7 @@ from robots import DEMO, place_links, robots_folder
 
 from webviz import Level
 from webviz.testing import Stage
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_parts import LinkSettings
@@ -18,29 +18,29 @@ from webviz_displays.robot_parts import LinkSettings
 Stages = Callable[..., Stage]
 
 # Each with a view of the whole of it: mirrored parts, textures, units and colours of all kinds.
-ROBOTS: dict[str, tuple[str, View]] = {
+ROBOTS: dict[str, tuple[str, Orbit]] = {
     # Collada: many parts of several colours each; with textures; with upper-case suffixes.
-    "panda": ("panda_description/urdf/panda.urdf", View(distance=1.9, focal_point=(0.1, 0, 0.45))),
-    "ur5": ("ur_description/urdf/ur5_robot.urdf", View(distance=1.6, focal_point=(0.4, 0.1, 0.1))),
-    "anymal_c": ("anymal_c_simple_description/urdf/anymal.urdf", View(distance=1.9)),
-    "go2": ("go2_description/urdf/go2.urdf", View(distance=1.2, focal_point=(0, 0, -0.1))),
-    "baxter": ("baxter_description/urdf/baxter.urdf", View(distance=3.4, pitch=0.5)),
+    "panda": ("panda_description/urdf/panda.urdf", Orbit(distance=1.9, focal_point=(0.1, 0, 0.45))),
+    "ur5": ("ur_description/urdf/ur5_robot.urdf", Orbit(distance=1.6, focal_point=(0.4, 0.1, 0.1))),
+    "anymal_c": ("anymal_c_simple_description/urdf/anymal.urdf", Orbit(distance=1.9)),
+    "go2": ("go2_description/urdf/go2.urdf", Orbit(distance=1.2, focal_point=(0, 0, -0.1))),
+    "baxter": ("baxter_description/urdf/baxter.urdf", Orbit(distance=3.4, pitch=0.5)),
     # STL: mirrored by negative scales; colours of the URDF, some given inside a link.
-    "talos": ("talos_data/robots/talos_reduced.urdf", View(distance=2.4, pitch=0.3)),
-    "pr2": ("pr2_description/urdf/pr2.urdf", View(distance=2.8, focal_point=(0.2, 0, 0.6))),
-    "allegro": ("allegro_hand_description/urdf/allegro_right_hand.urdf", View(distance=0.5)),
-    "g1": ("g1_description/urdf/g1_29dof_rev_1_0.urdf", View(distance=1.9, pitch=0.3)),
+    "talos": ("talos_data/robots/talos_reduced.urdf", Orbit(distance=2.4, pitch=0.3)),
+    "pr2": ("pr2_description/urdf/pr2.urdf", Orbit(distance=2.8, focal_point=(0.2, 0, 0.6))),
+    "allegro": ("allegro_hand_description/urdf/allegro_right_hand.urdf", Orbit(distance=0.5)),
+    "g1": ("g1_description/urdf/g1_29dof_rev_1_0.urdf", Orbit(distance=1.9, pitch=0.3)),
     "tiago": (
         "tiago_description/robots/tiago.urdf",
-        View(distance=2.4, pitch=0.4, focal_point=(0.1, 0, 0.5)),
+        Orbit(distance=2.4, pitch=0.4, focal_point=(0.1, 0, 0.5)),
     ),
     # Wavefront.
-    "laikago": ("laikago_description/urdf/laikago.urdf", View(distance=1.5)),
+    "laikago": ("laikago_description/urdf/laikago.urdf", Orbit(distance=1.5)),
 }
 
 
 def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_stage: Stages) -> None:
-    view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
+    view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
     seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
@@ -68,7 +68,7 @@ def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_stage: Stages) -> None
 
 
 def test_links_without_a_transform_are_grey_where_they_were(webviz_stage: Stages) -> None:
-    view = View(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
+    view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
     seen = webviz_stage(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(seen, DEMO)
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})

@@ -11,7 +11,7 @@ from robots import DEMO, place_links
 from webviz import Level, Status
 from webviz.testing import Stage, turned
 from webviz.testing.source import SECOND
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.path import Path
@@ -22,7 +22,7 @@ from webviz_sim.pose import Pose
 
 Stages = Callable[..., Stage]
 
-VIEW = View(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
+VIEW = Orbit(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
 START = Pose(-2.0, 0.0)
 """Where the robot was switched on: in the corridor."""
 

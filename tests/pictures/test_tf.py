@@ -7,7 +7,7 @@ from collections.abc import Callable
 from webviz import Level
 from webviz.testing import Stage, turned
 from webviz.testing.source import SECOND
-from webviz.views import View
+from webviz.views import Orbit
 from webviz_displays.grid import Grid
 from webviz_displays.tf import TF
 
@@ -24,7 +24,7 @@ def frames(seen: Stage, stamp_ns: int) -> None:
 
 
 def test_frames_have_axes_arrows_and_names(webviz_stage: Stages) -> None:
-    view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
+    view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
     seen = webviz_stage(TF(), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
     seen.check_picture("tf/default")
@@ -44,7 +44,7 @@ def test_frames_have_axes_arrows_and_names(webviz_stage: Stages) -> None:
 
 
 def test_frames_that_are_not_updated_turn_grey_and_disappear(webviz_stage: Stages) -> None:
-    view = View(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
+    view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
     seen = webviz_stage(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
     frames(seen, seen.source.now)
     seen.source.now += 10 * SECOND

@@ -10,7 +10,6 @@ import pytest
 from webviz import rviz
 from webviz.config import Branch, Config, ConfigError, Unreadable, dump, parse
 from webviz.display import to_values
-from webviz.views import View
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
@@ -298,44 +297,7 @@ def test_placeholders_are_names_like_others() -> None:
     assert "Global Options: Fixed Frame: it has no value; base_link is used" in said(report)
 
 
-def view(text: str) -> tuple[View, str]:
-    config, report = opened(manager=f"Views: {{Current: {text}}}\n")
-    return config.settings.view, said(report)
-
-
-def test_an_orbit_view_is_the_camera() -> None:
-    camera, sentences = view(
-        "{Class: rviz_default_plugins/Orbit, Distance: 3.5, Yaw: 1.5, Pitch: 1.5697963237762451, "
-        "Focal Point: {X: 1, Y: 2, Z: 3}, Target Frame: <Fixed Frame>}"
-    )
-    assert camera == View(distance=3.5, yaw=1.5, pitch=1.5697963, focal_point=(1.0, 2.0, 3.0))
-    assert sentences == ""
-
-
-def test_a_view_from_above_shows_the_same_place_and_says_it_is_another() -> None:
-    camera, sentences = view(
-        "{Class: rviz_default_plugins/TopDownOrtho, Scale: 40, X: 5, Y: -1, Angle: 0}"
-    )
-    assert camera.focal_point == (5.0, -1.0, 0.0)
-    assert camera.distance == pytest.approx(10 / 0.41421356, rel=1e-3)
-    assert (camera.yaw, camera.pitch) == (pytest.approx(-1.570796), 1.5698)
-    assert "TopDownOrtho: there is no such view here yet" in sentences
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("{Class: rviz_default_plugins/FPS, Position: {X: 1}}", "FPS: there is no such view"),
-        ("{Class: rviz_default_plugins/Orbit, Distance: far}", "Distance: `far` is no number"),
-        ("{Class: rviz_default_plugins/Orbit, Target Frame: base}", "does not follow a frame"),
-        ("{Class: rviz_default_plugins/XYOrbit, Distance: 2}", "Orbit is used"),
-    ],
-)
-def test_what_a_view_has_that_the_camera_has_not_is_told(text: str, sentence: str) -> None:
-    assert sentence in view(text)[1]
-
-
-def test_panels_tools_and_saved_views_are_told_once() -> None:
+def test_panels_and_tools_are_told_once() -> None:
     _, report = rviz.read(
         textwrap.dedent(
             """\
@@ -347,9 +309,6 @@ def test_panels_tools_and_saved_views_are_told_once() -> None:
                 - Class: rviz_default_plugins/MoveCamera
                 - Class: rviz_default_plugins/Measure
                 - Class: rviz_default_plugins/Select
-              Views:
-                Saved:
-                  - {Class: rviz_default_plugins/Orbit, Name: Corner}
             """
         ),
         "x.rviz",
@@ -357,7 +316,6 @@ def test_panels_tools_and_saved_views_are_told_once() -> None:
     sentences = said(report)
     assert "Panels: rviz_common/Time: not here yet" in sentences
     assert "Tools: rviz_default_plugins/Measure, rviz_default_plugins/Select: not" in sentences
-    assert "saved views: Corner:" in sentences
     assert "rviz_common/Displays" not in sentences
 
 

@@ -17,7 +17,7 @@ from webviz.config import Branch, Config, ConfigError, dump, parse
 from webviz.display import make, set_property
 from webviz.registry import display_types
 from webviz.rviz.tree import write
-from webviz.views import View
+from webviz.views import Orbit
 
 NASTY = """\
 Panels: ~
@@ -206,7 +206,7 @@ def test_what_was_kept_goes_with_its_display() -> None:
 def test_a_view_that_was_moved_is_written_as_orbit() -> None:
     config, _ = rviz.read(NASTY, "x.rviz")
     assert exported(config)["Views"]["Current"]["Class"] == "rviz_default_plugins/TopDownOrtho"
-    config.settings.view = View(distance=2.0)
+    config.settings.view = Orbit(distance=2.0)
     current = exported(config)["Views"]["Current"]
     assert (current["Class"], current["Distance"]) == ("rviz_default_plugins/Orbit", 2)
     assert "Scale" not in current

@@ -11,7 +11,7 @@ import msgspec
 from webviz.display import Color, Display, Prop, make
 from webviz.group import Group
 from webviz.registry import display_types
-from webviz.views import View
+from webviz.views import Orbit, View
 
 VERSION = 1
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
@@ -27,7 +27,10 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     frame_rate: Annotated[
         float, Prop(ge=1, le=240, unit="Hz", help="How often the scene may change.")
     ] = 60.0
-    view: View = View()
+    view: View = Orbit()
+    """What browsers begin with."""
+    views: dict[str, View] = {}
+    """Saved views by name."""
     rviz: Annotated[
         dict[str, Any], Prop(help="What a .rviz file says that has no counterpart here.")
     ] = {}  # msgspec copies it

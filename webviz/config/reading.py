@@ -16,6 +16,7 @@ from webviz.config.source import Place, Source
 from webviz.display import Display, make
 from webviz.group import Group
 from webviz.registry import broken_display_types, display_types
+from webviz.views import with_type
 
 NO_TYPE = "a display needs a `type`, such as `type: Grid`."
 NO_LIST = "expected a list, each entry with a `type`."
@@ -53,6 +54,7 @@ def parse(text: str, where: str) -> Config:
         )
     rest = {str(key): value for key, value in document.items() if key != "displays"}
     _refuse_unknown(rest, [*Settings.__struct_fields__, "displays"], top)
+    rest = _typed(rest)
     try:
         settings = msgspec.convert(rest, Settings)
     except msgspec.ValidationError as error:
@@ -75,6 +77,15 @@ def _is_kept(item: Item) -> bool:
     if isinstance(item, Branch):
         return any(map(_is_kept, item.displays))
     return isinstance(item, Unreadable) and item.is_from_rviz
+
+
+def _typed(settings: dict[str, Any]) -> dict[str, Any]:
+    """Settings whose views all say which type they are."""
+    if "view" in settings:
+        settings = settings | {"view": with_type(settings["view"])}
+    if isinstance(views := settings.get("views"), Mapping):
+        settings = settings | {"views": {key: with_type(view) for key, view in views.items()}}
+    return settings
 
 
 def read_display(entry: Any, place: Place) -> Item:

@@ -23,7 +23,7 @@ BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
 
 SAME_HERE = {
     "Tools": ("rviz_default_plugins/MoveCamera",),
-    "Panels": ("rviz_common/Displays",),
+    "Panels": ("rviz_common/Displays", "rviz_common/Views"),
 }
 """Classes that need no counterpart: the mouse always moves the camera, the panel is always there"""
 
@@ -47,7 +47,6 @@ NEW_FILE: Tree = {
             )
         ],
         "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
-        "Views": {"Saved": None},
     },
 }
 """What RViz needs besides displays, in a file that was never RViz's: without it there is no panel
@@ -75,6 +74,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         report.count(kind, 0, 0)
     manager = dict(document[MANAGER])
     settings = _settings(manager, report)
+    settings.views = views.read_saved(child(manager, "Views").get("Saved"), report)
     entries = manager.pop("Displays", None) or []
     if not isinstance(entries, list):
         report.note(MANAGER, "Displays", "it is no list, so there are no displays")
@@ -82,8 +82,10 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
     _note_the_rest(document, report)
     basis = _bare(settings)
-    if child(manager, "Views", "Current").get("Class") != views.ORBIT:
+    if views.kind_of(child(manager, "Views", "Current")) is None:
         del basis[MANAGER]["Views"]["Current"]  # it is kept whole
+    else:
+        del basis[MANAGER]["Views"]["Current"]["Class"]  # the rest is kept for this class
     rest = difference({**document, MANAGER: manager}, basis)
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
@@ -99,16 +101,19 @@ def write(config: Config) -> tuple[str, Report]:
     entries = manager.pop("Displays", None)
     entries = entries if isinstance(entries, list) else []
     kept = Kept([dict(entry) for entry in entries if isinstance(entry, Mapping)])
-    current = child(manager, "Views", "Current")
+    kept_views = child(manager, "Views")
+    current, view = child(kept_views, "Current"), config.settings.view
     tree = _bare(config.settings)
-    if current and current.get("Class", views.ORBIT) != views.ORBIT:
-        manager["Views"] = {**child(manager, "Views")}
-        del manager["Views"]["Current"]
-        if views.read(current, Report()) == config.settings.view:
+    if current and views.kind_of(current) is not type(view):
+        del kept_views["Current"]
+        if views.kind_of(current) is None and views.read_current(current, Report()) == view:
             tree[MANAGER]["Views"]["Current"] = current
-
+    saved = views.write_saved(config.settings.views, kept_views.pop("Saved", None))
+    tree[MANAGER]["Views"]["Saved"] = saved
+    if saved or isinstance(manager.get("Views"), Mapping):
+        manager["Views"] = kept_views
     rest = {**rest, MANAGER: manager} if rest else NEW_FILE
-    own = msgspec.structs.replace(config.settings, rviz={})
+    own = msgspec.structs.replace(config.settings, rviz={}, views={})
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
     return write_tree(tree), report
@@ -123,7 +128,7 @@ def _settings(manager: Mapping[str, Any], report: Report) -> Settings:
         fixed_frame=frame.removeprefix("/"),
         background=_option(options, "Background Color", Color, default.background, report),
         frame_rate=min(max(rate, 1.0), 240.0),
-        view=views.read(child(manager, "Views").get("Current"), report),
+        view=views.read_current(child(manager, "Views").get("Current"), report),
     )
 
 
@@ -162,7 +167,7 @@ def _worth_keeping(entries: list[Tree]) -> list[Tree]:
 
 
 def _note_the_rest(document: Tree, report: Report) -> None:
-    """Tell of panels, tools, saved views and the window."""
+    """Tell of panels, tools and the window."""
     manager = document[MANAGER]
     for kind, entries in (("Panels", document.get("Panels")), ("Tools", manager.get("Tools"))):
         for entry in entries if isinstance(entries, list) else []:
@@ -171,11 +176,6 @@ def _note_the_rest(document: Tree, report: Report) -> None:
             report.count(kind.lower(), is_here, 1)
             if not is_here:
                 report.note(kind, cls, "not here yet, kept for export")
-    saved = child(manager, "Views").get("Saved")
-    for view in saved if isinstance(saved, list) else []:
-        name = values.text(view.get("Name", "?")) if isinstance(view, Mapping) else "?"
-        report.count("views", 0, 1)
-        report.note("saved views", name, "views cannot be saved here yet, it is kept for export")
     transformer = child(manager, "Transformation", "Current").get(
         "Class", "rviz_default_plugins/TF"
     )

@@ -1,100 +1,179 @@
-"""The view of a .rviz file as the camera here."""
+"""The views of a .rviz file: the current one and the saved ones."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
+
+import msgspec
 
 from webviz.rviz import values
 from webviz.rviz.report import Report
 from webviz.rviz.tree import Tree
 from webviz.rviz.values import Unfit
-from webviz.views import View
+from webviz.views import FIXED_FRAME, VIEW_TYPES, Orbit, View, type_of
 
-ORBIT = "rviz_default_plugins/Orbit"
-TOP_DOWN = "rviz_default_plugins/TopDownOrtho"
-FPS = "rviz_default_plugins/FPS"
-AROUND_A_POINT = ("Orbit", "XYOrbit", "ThirdPersonFollower")
+PREFIX = "rviz_default_plugins/"
+NEAR_CLIP_DISTANCE = 0.01
+"""RViz's default; here the nearest thing that is drawn follows from the distance."""
 
-HEIGHT_PX = 800
-"""Of RViz's picture, to know how much of the world a scale in pixels per metre shows."""
-FIELD_OF_VIEW = math.pi / 4
-STEEPEST = 1.5698
-MIN_DISTANCE, MAX_DISTANCE = 0.01, 1e6
-PLACE = "current view"
-
-
-def read(tree: Any, report: Report) -> View:
-    """The camera that shows what a view of RViz shows, or nearly."""
-    tree = dict(tree) if isinstance(tree, Mapping) else {}
-    cls = values.text(tree.get("Class", ORBIT))
-    kind = cls.rpartition("/")[2]
-    report.count("views", kind == "Orbit", 1)
-    if kind == "TopDownOrtho":
-        reason = "there is no such view here yet, the camera looks down in perspective; it is kept"
-        report.note(PLACE, cls, reason)
-        return _from_above(tree, report)
-    if kind not in AROUND_A_POINT:
-        reason = "there is no such view here yet, the camera starts at its default; it is kept"
-        report.note(PLACE, cls, reason)
-        return View()
-    if kind != "Orbit":
-        report.note(PLACE, cls, "there is no such view here yet, Orbit is used; it is kept")
-    if values.text(tree.get("Target Frame", "<Fixed Frame>")) != "<Fixed Frame>":
-        reason = "the camera does not follow a frame yet; it is kept for export"
-        report.note(PLACE, "Target Frame", reason)
-    default = View()
-    point = tree.get("Focal Point")
-    axes = ("X", "Y", "Z") if isinstance(point, Mapping) else ()
-    x, y, z = [_number(point, axis, 0.0, report) for axis in axes] or default.focal_point
-    distance = _number(tree, "Distance", default.distance, report)
-    pitch = _number(tree, "Pitch", default.pitch, report)
-    return View(
-        distance=min(max(distance, MIN_DISTANCE), MAX_DISTANCE),
-        yaw=_number(tree, "Yaw", default.yaw, report),
-        pitch=min(max(pitch, -STEEPEST), STEEPEST),
-        focal_point=(x, y, z),
-    )
+KEYS = {
+    "distance": "Distance",
+    "yaw": "Yaw",
+    "pitch": "Pitch",
+    "focal_point": "Focal Point",
+    "position": "Position",
+    "scale": "Scale",
+    "angle": "Angle",
+    "x": "X",
+    "y": "Y",
+    "target_frame": "Target Frame",
+}
+"""RViz's keys of the fields of views."""
+BOUNDS = {
+    "distance": (0.01, 1e6),
+    "pitch": (-1.5698, 1.5698),
+    "yaw": (-1e6, 1e6),
+    "angle": (-1e6, 1e6),
+    "scale": (1e-5, 1e6),
+}
+FARTHEST = 1e9
 
 
-def write(view: View) -> Tree:
-    """A camera as RViz's Orbit view."""
-    return {
-        "Class": ORBIT,
-        "Name": "Current View",
-        "Value": "Orbit (rviz_default_plugins)",
-        "Target Frame": "<Fixed Frame>",
-        "Near Clip Distance": 0.01,
-        "Distance": values.write(view.distance, float),
-        "Yaw": values.write(view.yaw, float),
-        "Pitch": values.write(view.pitch, float),
-        "Focal Point": values.write(view.focal_point, tuple[float, float, float]),
-    }
+def kind_of(tree: Mapping[str, Any]) -> type[View] | None:
+    """The type of a view of RViz, None if there is none here."""
+    return VIEW_TYPES.get(values.text(tree.get("Class", PREFIX + "Orbit")).rpartition("/")[2])
 
 
-def _from_above(tree: Tree, report: Report) -> View:
-    """The middle of the picture and how much of the world it shows stay.
+def read(tree: Any, report: Report, place: str = "current view") -> View | None:
+    """A view of RViz, None if there is no such type here.
 
-    TopDownOrtho turns its camera by Angle about z, so that up is (-sin, cos) of it; up in an Orbit
-    view from above is -(cos, sin) of its yaw.
+    Args:
+        tree: of the view.
+        report: hears of what is not carried over.
+        place: names the view in the report.
     """
-    scale = max(abs(_number(tree, "Scale", 10.0, report)), 1e-3)
-    distance = HEIGHT_PX / scale / 2 / math.tan(FIELD_OF_VIEW / 2)
-    x, y = _number(tree, "X", 0.0, report), _number(tree, "Y", 0.0, report)
-    return View(
-        distance=round(min(max(distance, MIN_DISTANCE), MAX_DISTANCE), 3),
-        yaw=round(_number(tree, "Angle", 0.0, report) - math.pi / 2, 6),
-        pitch=STEEPEST,
-        focal_point=(x, y, 0.0),
-    )
+    tree = dict(tree) if isinstance(tree, Mapping) else {}
+    cls = kind_of(tree)
+    report.count("views", cls is not None, 1)
+    if cls is None:
+        reason = "there is no such view here, the default is used; it is kept for export"
+        report.note(place, values.text(tree["Class"]), reason)
+        return None
+    if _switched_on(tree.get("Invert Z Axis")):
+        report.note(place, "Invert Z Axis", "the camera is always upright; it is kept for export")
+    given = {
+        field.name: _read_field(field, tree[KEYS[field.name]], report, place)
+        for field in msgspec.structs.fields(cls)
+        if KEYS[field.name] in tree
+    }
+    return cls(**given)
 
 
-def _number(tree: Mapping[str, Any], key: str, default: float, report: Report) -> float:
-    if key not in tree:
-        return default
+def read_saved(trees: Any, report: Report) -> dict[str, View]:
+    """The saved views by name; of several with one name, each gets a number but the first."""
+    found: dict[str, View] = {}
+    for tree in trees if isinstance(trees, list) else []:
+        if not isinstance(tree, Mapping):
+            continue
+        view = read(tree, report, f"saved view {_name(tree)}")
+        if view is not None:
+            found[free_name(_name(tree), found)] = view
+    return found
+
+
+def free_name(name: str, taken: Mapping[str, Any]) -> str:
+    """A name that is not taken: with a number if it has to be."""
+    number, free = 1, name
+    while free in taken:
+        number += 1
+        free = f"{name} {number}"
+    return free
+
+
+def write(view: View, name: str = "Current View") -> Tree:
+    """A view as RViz writes it."""
+    tree: Tree = {
+        "Class": PREFIX + type_of(view),
+        "Name": name,
+        "Value": f"{type_of(view)} (rviz_default_plugins)",
+        "Near Clip Distance": NEAR_CLIP_DISTANCE,
+    }
+    for field in msgspec.structs.fields(type(view)):
+        tree[KEYS[field.name]] = values.write(getattr(view, field.name), _kind(field))
+    return tree
+
+
+def read_current(tree: Any, report: Report) -> View:
+    """The view that a file begins with."""
+    return read(tree, report) or Orbit()
+
+
+def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
+    """The list of saved views as RViz writes it.
+
+    Args:
+        saved: by name.
+        kept: the list of the file they come from; what has not been changed stays as it was there,
+            and so does what has no counterpart here.
+
+    Returns:
+        None for an empty list, as RViz has it.
+    """
+    trees: list[Any] = []
+    names: dict[str, None] = {}
+    for tree in kept if isinstance(kept, list) else []:
+        view = read(tree, Report()) if isinstance(tree, Mapping) else None
+        if view is None:
+            trees.append(tree)
+            continue
+        name = free_name(_name(tree), names)
+        names[name] = None
+        if name in saved:
+            same = saved[name] == view
+            trees.append(
+                tree if same else {**_others(tree, saved[name]), **write(saved[name], name)}
+            )
+    trees += [write(view, name) for name, view in saved.items() if name not in names]
+    return trees or None
+
+
+def _name(tree: Mapping[str, Any]) -> str:
+    return values.text(tree.get("Name") or "View")
+
+
+def _others(tree: Mapping[str, Any], view: View) -> Tree:
+    """What a tree says besides the fields of a view, if it is of its type."""
+    if kind_of(tree) is not type(view):
+        return {}
+    return {key: value for key, value in tree.items() if key not in KEYS.values()}
+
+
+def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, place: str) -> Any:
+    """The value of a field as RViz has it, within what is possible here."""
+    key = KEYS[field.name]
     try:
-        return values.read(tree[key], float)
+        value = values.read(given, _kind(field))
     except Unfit as error:
-        report.note(PLACE, key, f"{error}; the default is used")
-        return default
+        report.note(place, key, f"{error}; the default is used")
+        return field.default
+    if field.name == "scale":
+        value = abs(value)  # RViz turns the picture over
+    if isinstance(value, str):
+        return value or FIXED_FRAME
+    if isinstance(value, tuple):
+        return tuple(min(max(part, -FARTHEST), FARTHEST) for part in value)
+    low, high = BOUNDS.get(field.name, (-FARTHEST, FARTHEST))
+    return min(max(value, low), high)
+
+
+def _kind(field: msgspec.structs.FieldInfo) -> Any:
+    is_point = isinstance(field.default, tuple)
+    return tuple[float, float, float] if is_point else type(field.default)
+
+
+def _switched_on(raw: Any) -> bool:
+    try:
+        return values.read(raw, bool)
+    except Unfit:
+        return False

@@ -20,10 +20,10 @@ from webviz.views import (
     FIELD_OF_VIEW,
     FIXED_FRAME,
     VIEW_TYPES,
-    AnyView,
     Camera,
     Orbit,
     ThirdPersonFollower,
+    View,
     camera_of,
     type_of,
     view_of,
@@ -60,7 +60,7 @@ class _Browser:
         size: width and height of its picture in pixels.
     """
 
-    view: AnyView
+    view: View
     number: int
     obeyed: int
     size: tuple[float, float]
@@ -75,7 +75,7 @@ class Cameras:
 
     def __init__(self, link: Adapter) -> None:
         self._link = link
-        self._start: AnyView = Orbit()
+        self._start: View = Orbit()
         self._numbers = itertools.count(1)
         self._browsers: dict[int, _Browser] = {}
         link.on_told(REPORT, self._hear)
@@ -85,7 +85,7 @@ class Cameras:
         link.server.on_client_disconnect(self._leave)
         self.start_with(self._start)
 
-    def start_with(self, view: AnyView) -> None:
+    def start_with(self, view: View) -> None:
         """Choose what browsers that join begin with."""
         self._start = view
         camera = camera_of(view, ASSUMED_PX)
@@ -95,7 +95,7 @@ class Cameras:
         initial.up = (0.0, 0.0, 1.0)
         initial.fov = FIELD_OF_VIEW
 
-    def show(self, view: AnyView, browser: int | None = None) -> None:
+    def show(self, view: View, browser: int | None = None) -> None:
         """Put the camera of a browser, or of every one, where a view says.
 
         Its target frame is followed if `target_group` of it is in the scene.
@@ -107,7 +107,7 @@ class Cameras:
                     known.view, known.number = view, number
                 self._link.run_javascript(call("webvizView.show", _json(view, number)), client)
 
-    def views(self) -> Mapping[int, AnyView]:
+    def views(self) -> Mapping[int, View]:
         """What every browser shows now, by its id."""
         clients = self._link.server.get_clients()
         return {
@@ -130,7 +130,7 @@ class Cameras:
             if browser in (None, id_):
                 self._link.run_javascript(call("webvizImage.save", json.dumps(name)), client)
 
-    def _view(self, known: _Browser, client: viser.ClientHandle) -> AnyView:
+    def _view(self, known: _Browser, client: viser.ClientHandle) -> View:
         if known.obeyed != known.number:
             return known.view
         position, (w, x, y, z), pivot = self._link.camera(client)
@@ -166,7 +166,7 @@ def target_group(frame: str) -> str:
     return f"target frame/{frame}"
 
 
-def _json(view: AnyView, number: int) -> str:
+def _json(view: View, number: int) -> str:
     camera = camera_of(view, ASSUMED_PX)
     frame = view.target_frame
     return json.dumps(

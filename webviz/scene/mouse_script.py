@@ -50,7 +50,8 @@ MOUSE_SCRIPT = as_script("""
     const { camera, cameraControl: controls } = mutable;
     const world = mutable.nodeRefFromName[ROOT];
     const box = canvas.getBoundingClientRect();
-    const point = { x: ((x - box.left) / box.width) * 2 - 1, y: 1 - ((y - box.top) / box.height) * 2 };
+    const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
+    const point = { x: across * 2 - 1, y: 1 - down * 2 };
     const ray = new Raycaster();
     ray.setFromCamera(point, camera);
     const pixel = (2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360)) / box.height;

@@ -18,8 +18,6 @@ import websockets.asyncio.server as websocket
 from webviz.nodes import Rgb
 from webviz.scene.guard import HostList, guarded_serve
 from webviz.scene.gui_values import accepts_update
-from webviz.scene.view import set_view
-from webviz.views import View
 
 BACKGROUND: Rgb = (48, 48, 48)
 """RViz's default."""
@@ -120,7 +118,6 @@ def _prepare(server: viser.ViserServer) -> None:
     _light(server.scene)
     server.scene.set_up_direction("+z")
     server.initial_camera.far = 1e5
-    set_view(server, View())
 
 
 def _light(scene: viser.SceneApi) -> None:

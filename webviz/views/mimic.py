@@ -20,10 +20,10 @@ from webviz.views.placement import (
 )
 from webviz.views.types import (
     FPS,
-    AnyView,
     Orbit,
     ThirdPersonFollower,
     TopDownOrtho,
+    View,
 )
 
 REACH = 10.0
@@ -53,7 +53,7 @@ class Rig:
         return Camera(*(_turned(p - origin, -self.yaw) for p in (camera.position, camera.look_at)))
 
 
-def rig_of(cls: type[AnyView], pose: Pose | None) -> Rig:
+def rig_of(cls: type[View], pose: Pose | None) -> Rig:
     """How a view of a type follows its target frame.
 
     Args:
@@ -68,8 +68,8 @@ def rig_of(cls: type[AnyView], pose: Pose | None) -> Rig:
 
 
 def mimic(
-    view: AnyView, rig: Rig, cls: type[AnyView], frame: str, new_rig: Rig, height_px: float
-) -> AnyView:
+    view: View, rig: Rig, cls: type[View], frame: str, new_rig: Rig, height_px: float
+) -> View:
     """A view of another type or target frame that shows the same as nearly as it can."""
     if type(view) is cls:
         camera = camera_of(view, height_px)
@@ -79,8 +79,8 @@ def mimic(
 
 
 def focus(
-    view: AnyView, rig: Rig, low: Vector, high: Vector, width_px: float, height_px: float
-) -> AnyView:
+    view: View, rig: Rig, low: Vector, high: Vector, width_px: float, height_px: float
+) -> View:
     """The view from the same direction with a box in its middle, as large as fits.
 
     Args:
@@ -97,21 +97,21 @@ def focus(
     )
 
 
-def focus_point(view: AnyView, rig: Rig, point: Vector, height_px: float) -> AnyView:
+def focus_point(view: View, rig: Rig, point: Vector, height_px: float) -> View:
     """The view from the same direction and distance of a point of the fixed frame."""
     eye = rig.outward(_eye(view, height_px))
     return _looking(view, rig, eye, point, eye.distance, height_px)
 
 
 def _looking(
-    view: AnyView, rig: Rig, eye: Camera, at: Vector, distance: float, height_px: float
-) -> AnyView:
+    view: View, rig: Rig, eye: Camera, at: Vector, distance: float, height_px: float
+) -> View:
     back = (eye.position - eye.look_at) / eye.distance
     camera = rig.inward(Camera(at + distance * back, at))
     return _fitted(type(view), view.target_frame, camera, height_px)
 
 
-def _eye(view: AnyView, height_px: float) -> Camera:
+def _eye(view: View, height_px: float) -> Camera:
     """A camera with perspective that shows a view or nearly, and looks at what it is about."""
     camera = camera_of(view, height_px)
     if isinstance(view, TopDownOrtho):
@@ -128,7 +128,7 @@ def _eye(view: AnyView, height_px: float) -> Camera:
     return camera
 
 
-def _fitted(cls: type[AnyView], frame: str, eye: Camera, height_px: float) -> AnyView:
+def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
     """The view of a type that shows what a camera with perspective shows."""
     back = (eye.position - eye.look_at) / eye.distance
     if cls is TopDownOrtho:

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz.views.types import (
     FPS,
-    AnyView,
     Orbit,
     TopDownOrtho,
+    View,
 )
 
 FIELD_OF_VIEW = math.pi / 4
@@ -49,7 +49,7 @@ class Camera:
         return float(np.linalg.norm(self.position - self.look_at))
 
 
-def camera_of(view: AnyView, height_px: float) -> Camera:
+def camera_of(view: View, height_px: float) -> Camera:
     """The camera that shows a view in a picture of that height."""
     if isinstance(view, FPS):
         position = np.array(view.position)
@@ -64,7 +64,7 @@ def camera_of(view: AnyView, height_px: float) -> Camera:
     return Camera(at + view.distance * _direction(view.yaw, view.pitch), at)
 
 
-def view_of(cls: type[AnyView], frame: str, camera: Camera, height_px: float) -> AnyView:
+def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> View:
     """The view of a type that a camera shows which was placed for that type.
 
     The reverse of `camera_of`, rounded to six digits behind the point and kept within what a view

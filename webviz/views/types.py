@@ -25,7 +25,6 @@ class _View(
     frozen=True,
     kw_only=True,
     forbid_unknown_fields=True,
-    omit_defaults=True,
     tag_field="type",
 ):
     target_frame: str = FIXED_FRAME
@@ -67,10 +66,9 @@ class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
     y: Length = 0.0
 
 
-AnyView = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho
-View = Orbit
+View = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho
 
-VIEW_TYPES: dict[str, type[AnyView]] = {
+VIEW_TYPES: dict[str, type[View]] = {
     cls.__name__: cls for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, TopDownOrtho)
 }
 """By the name that RViz and config files give them."""
@@ -81,6 +79,6 @@ def with_type(values: Any) -> Any:
     return {"type": "Orbit", **values} if isinstance(values, Mapping) else values
 
 
-def type_of(view: AnyView) -> str:
+def type_of(view: View) -> str:
     """The name of the type of a view."""
     return type(view).__name__

@@ -1,0 +1,169 @@
+"""Views of .rviz files: the current one and the saved ones, there and back."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from ruamel.yaml import YAML
+
+from webviz import rviz
+from webviz.config import Config, Settings
+from webviz.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
+
+NUMBERS = st.floats(-1000, 1000, width=32).map(lambda number: float(f"{number:.4g}"))
+POINTS = st.tuples(NUMBERS, NUMBERS, NUMBERS)
+FRAMES = st.sampled_from(["<Fixed Frame>", "base_link", "a/b c"])
+DISTANCES = st.floats(0.125, 1000, width=32).map(lambda number: float(f"{number:.4g}"))
+PITCHES = st.floats(-1.5, 1.5, width=32).map(lambda number: float(f"{number:.4g}"))
+
+
+def around(cls: Any) -> st.SearchStrategy[View]:
+    return st.builds(
+        cls,
+        target_frame=FRAMES,
+        distance=DISTANCES,
+        yaw=NUMBERS,
+        pitch=PITCHES,
+        focal_point=POINTS,
+    )
+
+
+VIEWS = st.one_of(
+    around(Orbit),
+    around(XYOrbit),
+    around(ThirdPersonFollower),
+    st.builds(FPS, target_frame=FRAMES, yaw=NUMBERS, pitch=PITCHES, position=POINTS),
+    st.builds(
+        TopDownOrtho, target_frame=FRAMES, scale=DISTANCES, angle=NUMBERS, x=NUMBERS, y=NUMBERS
+    ),
+)
+
+
+def opened(views: str) -> tuple[Config, rviz.Report]:
+    """A file with these keys of "Views"."""
+    head = "Visualization Manager:\n  Views:\n"
+    return rviz.read(head + textwrap.indent(textwrap.dedent(views), "    "), "x.rviz")
+
+
+def current(view: str) -> tuple[View, str]:
+    """The current view of a file, and what is told of it."""
+    config, report = opened(f"Current: {view}\n")
+    return config.settings.view, "\n".join(report.sentences())
+
+
+def exported(config: Config) -> dict[str, Any]:
+    """What is written under "Views"."""
+    text = rviz.write(config)[0]
+    return YAML(typ="safe").load(text)["Visualization Manager"]["Views"]
+
+
+@pytest.mark.parametrize(
+    ("text", "view"),
+    [
+        (
+            "{Class: rviz_default_plugins/Orbit, Distance: 3.5, Yaw: 1.5, "
+            "Pitch: 1.5697963237762451, Focal Point: {X: 1, Y: 2, Z: 3}}",
+            Orbit(distance=3.5, yaw=1.5, pitch=1.5697963, focal_point=(1.0, 2.0, 3.0)),
+        ),
+        ("{Distance: 3.5}", Orbit(distance=3.5)),
+        ("{Class: rviz/XYOrbit, Yaw: -1}", XYOrbit(yaw=-1.0)),
+        (
+            "{Class: rviz_default_plugins/ThirdPersonFollower, Target Frame: base_link}",
+            ThirdPersonFollower(target_frame="base_link"),
+        ),
+        (
+            "{Class: rviz_default_plugins/FPS, Position: {X: 1, Y: 2, Z: 3}, Pitch: 0.5}",
+            FPS(position=(1.0, 2.0, 3.0), pitch=0.5),
+        ),
+        (
+            "{Class: rviz_default_plugins/TopDownOrtho, Scale: -40, X: 5, Y: -1, Angle: 0.5}",
+            TopDownOrtho(scale=40.0, x=5.0, y=-1.0, angle=0.5),
+        ),
+    ],
+)
+def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
+    assert current(text) == (view, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            "{Class: rviz_default_plugins/FrameAligned, Target Frame: base_link}",
+            "rviz_default_plugins/FrameAligned: there is no such view here",
+        ),
+        ("{Distance: far}", "current view: Distance: `far` is no number; the default is used"),
+        ("{Focal Point: 1}", "Focal Point: it needs X, Y, Z; the default is used"),
+        ("{Invert Z Axis: true}", "Invert Z Axis: the camera is always upright"),
+    ],
+)
+def test_what_a_view_has_that_cannot_be_shown_is_told(text: str, sentence: str) -> None:
+    view, sentences = current(text)
+    assert view == Orbit()
+    assert sentence in sentences
+
+
+SAVED = """\
+Current: {Class: rviz_default_plugins/Orbit, Focal Shape Size: 0.1}
+Saved:
+  - {Class: rviz_default_plugins/Orbit, Name: Corner, Distance: 2.5, Near Clip Distance: 0.1}
+  - {Class: rviz_default_plugins/FrameAligned, Name: Odd, Yaw: 1}
+  - {Class: rviz_default_plugins/TopDownOrtho, Name: Corner, Scale: 30}
+"""
+
+
+def test_saved_views_are_carried_over_by_name() -> None:
+    config, report = opened(SAVED)
+    assert config.settings.views == {
+        "Corner": Orbit(distance=2.5),
+        "Corner 2": TopDownOrtho(scale=30.0),
+    }
+    assert (report.carried["views"], report.total["views"]) == (3, 4)
+    assert "saved view Odd: rviz_default_plugins/FrameAligned" in "\n".join(report.sentences())
+
+
+def test_saved_views_that_nobody_changed_are_written_as_they_were() -> None:
+    saved = exported(opened(SAVED)[0])["Saved"]
+    assert saved == YAML(typ="safe").load(SAVED)["Saved"]
+
+
+def test_a_changed_view_keeps_what_only_rviz_knows_of_it() -> None:
+    config, _ = opened(SAVED)
+    config.settings.views |= {"Corner": Orbit(distance=7.0), "New": FPS(yaw=1.0)}
+    del config.settings.views["Corner 2"]
+    first, odd, new = exported(config)["Saved"]
+    assert (first["Distance"], first["Near Clip Distance"], first["Name"]) == (7, 0.1, "Corner")
+    assert odd["Name"] == "Odd"
+    assert (new["Class"], new["Name"], new["Yaw"]) == ("rviz_default_plugins/FPS", "New", 1)
+    config.settings.views["Corner"] = TopDownOrtho()
+    assert "Distance" not in exported(config)["Saved"][0]
+
+
+def test_a_view_of_another_type_keeps_nothing_of_the_one_before() -> None:
+    config, _ = opened(SAVED)
+    assert exported(config)["Current"]["Focal Shape Size"] == 0.1
+    config.settings.view = TopDownOrtho(scale=20.0)
+    tree = exported(config)["Current"]
+    assert (tree["Class"], tree["Scale"]) == ("rviz_default_plugins/TopDownOrtho", 20)
+    assert "Focal Shape Size" not in tree
+
+
+def test_a_view_without_counterpart_is_kept_until_another_is_chosen() -> None:
+    text = "Current: {Class: rviz_default_plugins/FrameAligned, Name: Current View, Yaw: 1}\n"
+    config, _ = opened(text)
+    assert exported(config)["Current"] == YAML(typ="safe").load(text)["Current"]
+    config.settings.view = Orbit(distance=3.0)
+    assert exported(config)["Current"]["Class"] == "rviz_default_plugins/Orbit"
+
+
+@given(VIEWS, st.dictionaries(st.sampled_from(["A", "View", "b c"]), VIEWS, max_size=3))
+def test_views_that_were_exported_are_imported_as_they_were(
+    view: View, saved: dict[str, View]
+) -> None:
+    config = Config(Settings(view=view, views=saved))
+    settings = rviz.read(rviz.write(config)[0], "x.rviz")[0].settings
+    assert (settings.view, settings.views) == (view, saved)
