@@ -253,35 +253,6 @@ def test_reset_is_one_click(loop: Any, tab: Any) -> None:
     assert loop.commands == [Reset()]
 
 
-def test_two_browsers_see_the_same(
-    loop: Any, tab: Any, open_tab: Callable[[], Any], make_row: MakeRow
-) -> None:
-    loop.show(make_row("a"), make_row("b"))
-    other = open_tab()
-    tab.fill("Count", "5")
-    tab.boxes().nth(1).uncheck()
-    tab.wait_for(lambda: loop.turn() or other.field("Count").input_value() == "5")
-    other.wait_for(lambda: not other.boxes().nth(1).is_checked())
-    late = open_tab()
-    late.wait_for(lambda: late.field("Count").input_value() == "5")
-    assert not late.boxes().nth(1).is_checked()
-
-
-def test_a_hundred_displays_stay_light(
-    server: viser.ViserServer, loop: Any, tab: Any, make_row: MakeRow
-) -> None:
-    def elements() -> int:
-        return tab.page.locator("*").count()
-
-    loop.show(*(make_row(str(i)) for i in range(5)))
-    tab.wait_for(lambda: len(tab.names()) == 5)
-    few = elements()
-    loop.show(*(make_row(str(i)) for i in range(100)))
-    tab.wait_for(lambda: len(tab.names()) == 100)
-    assert tab.page.locator("input, button, textarea").count() < 300
-    assert elements() - few < 95 * 20
-
-
 def test_a_panel_without_displays_can_be_shown(server: viser.ViserServer) -> None:
     commands: list[Any] = []
     assert isinstance(Panel(server, commands.append), Panel)
