@@ -17,7 +17,9 @@ TOP = {
     "webviz.capturing",
     "webviz.cli",
     "webviz.__main__",
+    "webviz.running",
     "webviz.screenshot",
+    "webviz.snapshots",
     "webviz.studio",
     "webviz.viewer",
 }

@@ -2,67 +2,38 @@
 
 from __future__ import annotations
 
-import atexit
-import contextlib
-import logging
 import os
-import sys
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from webviz import config as config_file
-from webviz import plugins as plugin_files
 from webviz.commands import (
     AddDisplay,
-    Command,
     Export,
     Load,
     Open,
     Pause,
-    Refresh,
     Reset,
     Save,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
 )
-from webviz.config import Config
 from webviz.display import Color
 from webviz.errors import Error
 from webviz.handles import DisplayHandle, NoSuchDisplay, check_properties
 from webviz.registry import display_types
-from webviz.state import State
+from webviz.running import Running
 from webviz.status import Status
 
 if TYPE_CHECKING:
-    from webviz.ros.node import RosSource
-    from webviz.sources import Source
-
-log = logging.getLogger("webviz")
-
-NO_ROS = (
-    "webviz needs rclpy of ROS 2 Jazzy, which this Python ({version}) does not have: run "
-    "`source /opt/ros/jazzy/setup.bash` if ROS is installed, or `pip install 'webviz[ros]'`."
-)
-PATIENCE_S = 30.0
-"""For the frame loop to do one thing; a config of hundreds of displays takes seconds."""
+    pass
 
 
-def read_config(path: Path | None) -> Config:
-    """The config of a file; without one, the usual displays.
-
-    Raises:
-        ConfigError: it cannot be read; one sentence.
-    """
-    return config_file.standard() if path is None else config_file.load(path)
-
-
-class Viewer:
+class Viewer(Running):
     """A viewer at work, with its page at `url`; it ends with `close` or its `with` block.
 
     Every method returns when what it asks for is done, drawn and shown on the page. All of them may
@@ -86,99 +57,16 @@ class Viewer:
             port; one sentence.
     """
 
-    def __init__(
-        self,
-        config: str | os.PathLike[str] | None = None,
-        *,
-        port: int = 8080,
-        host: str = "127.0.0.1",
-        allow_hosts: Sequence[str] = (),
-        fixed_frame: str = "",
-        source: Source | None = None,
-        ros_args: Sequence[str] = (),
-        plugins: Sequence[str | os.PathLike[str]] = (),
-        autosave: Path | None = None,
-        read: Callable[[Path | None], Config] = read_config,
-    ) -> None:
-        with contextlib.ExitStack() as stack:
-            if source is not None:
-                stack.callback(source.close)
-            files = [Path(file) for file in plugins]
-            watcher = plugin_files.Watcher(files)
-            for file in files:
-                plugin_files.load(file)
-            path = Path(config) if config is not None else None
-            # viser takes a while to import; mistakes in files are told before.
-            shown = read(path) if path is not None else None
-            from webviz.gui import Panel
-            from webviz.scene import CannotListen, Scene, open_server, set_view
-            from webviz.viewer import Viewer as FrameLoop
-
-            try:
-                server = open_server(host, port, allow_hosts)
-            except CannotListen as error:
-                raise Error(str(error)) from error
-            stack.callback(server.stop)
-            if source is None:
-                source = ros_source(ros_args)
-                stack.callback(source.close)
-            shown = shown or read(path)
-            if fixed_frame:
-                shown.settings = msgspec.structs.replace(
-                    shown.settings, fixed_frame=fixed_frame.removeprefix("/")
-                )
-            set_view(server, shown.settings.view)
-            self._loop = FrameLoop(
-                shown, source, Scene(server), self._show, path=path, autosave=autosave
-            )
-            self._panel = Panel(server, self._enqueue)
-            self._host, self.port = host, server.get_port()
-            self._ended: Future[None] = Future()
-            thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
-            thread.start()
-            stack.callback(thread.join)
-            stack.callback(self._loop.stop)
-            watcher.start(self._loop.enqueue)
-            stack.callback(watcher.stop)
-            self.do(Refresh())  # so that there is a state
-            self._stack = stack.pop_all()
-        atexit.register(self.close)
-
     def __enter__(self) -> Viewer:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def close(self) -> None:
-        """End the viewer and its page, leaving no thread."""
-        atexit.unregister(self.close)
-        self._stack.close()
-
-    def stop(self) -> None:
-        """Let `wait` return, from any thread or a signal handler; `close` ends the rest."""
-        self._loop.stop()
-
-    def wait(self) -> None:
-        """Wait until Ctrl-C or `stop`."""
-        with contextlib.suppress(KeyboardInterrupt):
-            self._ended.result()
-
     def __repr__(self) -> str:
         return f"<webviz.Viewer at {self.url}>"
 
     # What it shows
-
-    @property
-    def url(self) -> str:
-        """Where the page is, for a browser on this machine."""
-        host = "127.0.0.1" if self._host in ("0.0.0.0", "::") else self._host
-        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
-
-    @property
-    def state(self) -> State:
-        """All that the panel shows, as it was less than half a second ago: a snapshot to read."""
-        return self._state
 
     @property
     def displays(self) -> list[DisplayHandle]:
@@ -196,21 +84,24 @@ class Viewer:
         Raises:
             NoSuchDisplay: there is none, or several have the name.
         """
+        rows = self.state.rows
+        names = [row.name for row in rows]
         if isinstance(key, int):
-            if not -len(self.displays) <= key < len(self.displays):
-                raise NoSuchDisplay(f"There is no display {key}, only {len(self.displays)}.")
-            return self.displays[key]
-        names = [row.name for row in self.state.rows]
-        if names.count(key) > 1:
-            numbers = [str(number) for number, name in enumerate(names) if name == key]
+            if not -len(rows) <= key < len(rows):
+                raise NoSuchDisplay(f"There is no display {key}, only {len(rows)}.")
+            number = key
+        elif names.count(key) > 1:
+            numbers = " or ".join(str(number) for number, name in enumerate(names) if name == key)
             raise NoSuchDisplay(
-                f"{len(numbers)} displays are named {key!r}: take one by its number in the list, "
-                f"{' or '.join(numbers)}."
+                f"{names.count(key)} displays are named {key!r}: take one by its number in the "
+                f"list, {numbers}."
             )
-        if key not in names:
-            hint = f"{config_file.nearest(key, names)}" if names else "there are none"
+        elif key in names:
+            number = names.index(key)
+        else:
+            hint = config_file.nearest(key, names) if names else "there are none."
             raise NoSuchDisplay(f"No display is named {key!r}: {hint}")
-        return self.displays[names.index(key)]
+        return DisplayHandle(self, rows[number].id)
 
     def __contains__(self, name: object) -> bool:
         return any(row.name == name for row in self.state.rows)
@@ -357,41 +248,6 @@ class Viewer:
         text = config if isinstance(config, str) else msgspec.json.encode(config).decode()
         self.do(Load(text, "the config"))
 
-    def do(self, command: Command) -> str:
-        """Do anything that a panel can ask for; see `webviz.commands`.
-
-        Returns:
-            What there is to tell of it, a sentence or "".
-
-        Raises:
-            Error: it cannot be done, one sentence says why; or the viewer has ended.
-        """
-        if not self._ended.done():
-            answer = self._loop.enqueue(command)
-            either: list[Future[Any]] = [answer, self._ended]
-            wait(either, PATIENCE_S, FIRST_COMPLETED)
-            if answer.done():
-                return answer.result()
-        if self._ended.done():
-            raise Error("The viewer has ended: make a new one.") from self._ended.exception()
-        raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
-
-    def _enqueue(self, command: Command) -> None:
-        self._loop.enqueue(command)  # what comes of it stands in the state
-
-    def _run(self) -> None:
-        try:
-            self._loop.run()
-        except BaseException as error:
-            log.exception("The viewer stopped")
-            self._ended.set_exception(error)
-        else:
-            self._ended.set_result(None)
-
-    def _show(self, state: State) -> None:
-        self._state = state
-        self._panel.update(state)
-
     def _group_id(self, group: DisplayHandle | str | None) -> str:
         if group is None:
             return ""
@@ -418,20 +274,3 @@ class Viewer:
             names = ", ".join(pick.display for pick in fitting)
             raise Error(f"Several displays show {topic}, so say which: {names}.")
         return fitting[0].display, {fitting[0].input: topic, **properties}
-
-
-def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
-    """The ROS graph, as the arguments for ROS say.
-
-    Raises:
-        Error: there is no ROS, or it does not start; one sentence.
-    """
-    try:
-        from webviz.ros.node import RosSource
-    except ImportError as error:
-        raise Error(NO_ROS.format(version=sys.version.split()[0])) from error
-    try:
-        return RosSource(ros_args)
-    except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
-        reason = " ".join(str(error).split()).partition(", at /")[0]
-        raise Error(f"ROS did not start: {reason}.") from error

@@ -12,12 +12,12 @@ from pathlib import Path
 import msgspec
 
 from webviz import plugins
-from webviz.app import ros_source
 from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
 from webviz.capture_stage import Shown, Stage
 from webviz.capture_times import At, position_ns, seconds_from_start
 from webviz.config import Config, load, nearest, parse
 from webviz.errors import Error
+from webviz.running import ros_source
 from webviz.scene import CannotListen
 from webviz.sources import Source
 from webviz.sources.bag import BagSource

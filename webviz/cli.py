@@ -18,10 +18,11 @@ from pathlib import Path
 
 from webviz import config as config_file
 from webviz import convert, plugins, schema, screenshot
-from webviz.app import NO_ROS, Viewer
+from webviz.app import Viewer
 from webviz.config import Config, ConfigError
 from webviz.errors import Error
 from webviz.overrides import override
+from webviz.running import NO_ROS
 
 DEMO = Path(__file__).parent / "demo.yaml"
 EPILOG = """\

@@ -22,6 +22,7 @@ from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.ros import qos
+from webviz.ros.control import Control
 from webviz.ros.types import message_class
 from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
 
@@ -67,6 +68,7 @@ class RosSource:
         silent = Parameter("start_type_description_service", value=False)
         self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
         self._clock = self._node.get_clock()
+        self.control = Control(self._node)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
@@ -124,8 +126,10 @@ class RosSource:
                     wanted = self._wanted
                     self._look([*self._offers, *wanted], only=wanted)
                     self._reconcile(wanted)
+                self.control.turn()
                 executor.spin_once(timeout_sec=SPIN_S)
         finally:
+            self.control.close()
             executor.shutdown()
             self._node.destroy_node()
             self._context.try_shutdown()

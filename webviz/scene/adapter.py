@@ -124,8 +124,8 @@ class Adapter:
         """Messages that a browser which joins now is sent."""
         return len(self._buffer.message_from_id)
 
-    def acknowledge(self, timeout: float = 10.0) -> None:
-        """Waits until every connected browser has applied everything queued so far.
+    def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> None:
+        """Waits until one connected browser, or every one, has applied everything queued so far.
 
         That is what was queued for everybody and for that browser alone, which travel apart.
         Applied means handled in order; the pixels follow with the next frame. Not to be called on
@@ -141,6 +141,8 @@ class Adapter:
         answered = {question.request_uuid: set[int]() for question in (shared, own)}
         self._acknowledged |= answered
         asked = self.server.get_clients()
+        if client_id is not None:
+            asked = {id_: client for id_, client in asked.items() if id_ == client_id}
         deadline = time.monotonic() + timeout
         try:
             self.late.wait(timeout)

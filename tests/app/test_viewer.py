@@ -1,0 +1,181 @@
+"""A viewer from Python: how it begins and ends, what it shows, and its files."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+import urllib.error
+import urllib.request
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import webviz
+from webviz.commands import Refresh
+from webviz.testing import header, serialized
+from webviz.testing.source import HandFedSource
+
+Refused = Callable[[Callable[[], object]], str]
+
+CONFIG = """\
+fixed_frame: odom
+displays:
+- {type: Grid, name: Floor}
+"""
+
+
+def test_importing_webviz_imports_neither_viser_nor_rclpy() -> None:
+    script = (
+        "import sys, webviz; "
+        "assert 'Viewer' in dir(webviz); "
+        "assert not {'viser', 'rclpy', 'playwright'} & sys.modules.keys()"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_a_name_that_webviz_lacks_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'Viewr'"):
+        webviz.Viewr  # noqa: B018  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_the_page_is_there_as_long_as_the_block(source: HandFedSource) -> None:
+    before = threading.active_count()
+    with webviz.Viewer(port=0, source=source) as viewer:
+        assert b"<html" in urllib.request.urlopen(viewer.url, timeout=10).read(4000)
+    with pytest.raises(urllib.error.URLError):
+        urllib.request.urlopen(viewer.url, timeout=2)
+    assert threading.active_count() == before
+    viewer.close()  # again is no error
+
+
+def test_without_a_config_the_usual_displays_are_shown(source: HandFedSource) -> None:
+    with webviz.Viewer(port=0, source=source) as viewer:
+        names = [display.name for display in viewer.displays]
+    assert names == ["Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry"]
+
+
+def test_a_config_opens_in_another_frame(source: HandFedSource, tmp_path: Path) -> None:
+    path = tmp_path / "a.yaml"
+    path.write_text(CONFIG)
+    with webviz.Viewer(path, port=0, source=source, fixed_frame="/base") as viewer:
+        assert viewer.fixed_frame == "base"
+        assert [display.name for display in viewer] == ["Floor"]
+        assert viewer.path == str(path)
+
+
+def test_a_config_that_is_missing_is_refused(source: HandFedSource, refused: Refused) -> None:
+    sentence = refused(lambda: webviz.Viewer("nowhere.yaml", port=0, source=source))
+    assert sentence == "Cannot read nowhere.yaml: No such file or directory."
+
+
+def test_a_taken_port_is_refused_and_leaves_nothing(
+    viewer: webviz.Viewer, refused: Refused
+) -> None:
+    before = threading.active_count()
+    sentence = refused(lambda: webviz.Viewer(port=viewer.port, source=HandFedSource()))
+    assert "is in use" in sentence
+    assert threading.active_count() == before
+
+
+def test_after_the_end_everything_is_refused(source: HandFedSource, refused: Refused) -> None:
+    with webviz.Viewer(port=0, source=source) as viewer:
+        grid = viewer["Grid"]
+    assert refused(viewer.reset) == "The viewer has ended: make a new one."
+    assert refused(grid.remove) == "The viewer has ended: make a new one."
+
+
+def test_waiting_ends_when_somebody_stops_it(viewer: webviz.Viewer) -> None:
+    waiting = threading.Thread(target=viewer.wait)
+    waiting.start()
+    viewer.stop()
+    waiting.join(10)
+    assert not waiting.is_alive()
+
+
+def test_global_options_are_set_and_checked(viewer: webviz.Viewer, refused: Refused) -> None:
+    viewer.fixed_frame = "odom"
+    viewer.background = (1, 2, 3)
+    viewer.frame_rate = 20.0
+    assert (viewer.fixed_frame, viewer.background, viewer.frame_rate) == ("odom", (1, 2, 3), 20.0)
+
+    def make_it_too_bright() -> None:
+        viewer.background = (1, 2, 300)
+
+    assert "background[2]" in refused(make_it_too_bright)
+    assert viewer.background == (1, 2, 3)
+
+
+def test_frames_and_topics_are_known(viewer: webviz.Viewer, source: HandFedSource) -> None:
+    transform = {
+        "header": header("map", source.now),
+        "child_frame_id": "base",
+        "transform": {"rotation": {"w": 1.0}},
+    }
+    name = "tf2_msgs/msg/TFMessage"
+    source.put("/tf_static", name, serialized(name, {"transforms": [transform]}))
+    viewer.do(Refresh())
+    assert viewer.frames == ("base", "map")
+    assert viewer.topics == {"/tf_static": (name,)}
+    assert viewer.statuses["Fixed Frame"].level is webviz.Level.OK
+    viewer.reset()
+    assert viewer.frames == ("base", "map")  # of static transforms
+
+
+def test_time_stands_still_while_paused(viewer: webviz.Viewer, source: HandFedSource) -> None:
+    viewer.pause()
+    paused = viewer.state.clock
+    source.now += 1_000_000_000
+    viewer.do(Refresh())
+    assert viewer.state.clock.is_paused
+    assert viewer.state.clock.ros_ns == paused.ros_ns
+    viewer.resume()
+    assert viewer.state.clock.ros_ns == source.now
+
+
+def test_a_config_is_saved_changed_and_opened_again(
+    viewer: webviz.Viewer, tmp_path: Path, refused: Refused
+) -> None:
+    assert refused(viewer.save) == "This config has no file yet: give it a name."
+    viewer.add("Grid", name="Floor")
+    path = tmp_path / "floor.yaml"
+    assert viewer.save(path) == path
+    assert not viewer.is_changed
+    viewer["Floor"].cell_size = 2.0
+    assert viewer.is_changed
+    viewer.open(path)
+    assert viewer["Floor"].cell_size == 1.0
+    assert not viewer.is_changed
+    viewer["Floor"].cell_size = 3.0
+    viewer.save()
+    assert "cell_size: 3.0" in path.read_text()
+
+
+def test_what_cannot_be_opened_changes_nothing(
+    viewer: webviz.Viewer, tmp_path: Path, refused: Refused
+) -> None:
+    viewer.add("Grid")
+    assert "No such file" in refused(lambda: viewer.open(tmp_path / "no.yaml"))
+    assert "Grid" in viewer
+
+
+def test_the_config_is_values_and_text(viewer: webviz.Viewer, refused: Refused) -> None:
+    viewer.config = CONFIG
+    assert viewer.config["displays"] == [{"type": "Grid", "name": "Floor"}]
+    assert "fixed_frame: odom" in viewer.config_text
+    viewer.config = {"fixed_frame": "map", "displays": [{"type": "Axes"}]}
+    assert [display.type for display in viewer] == ["Axes"]
+
+    def set_nonsense() -> None:
+        viewer.config = {"fixed_frme": "map"}
+
+    assert "did you mean `fixed_frame`" in refused(set_nonsense)
+    assert [display.type for display in viewer] == ["Axes"]
+
+
+def test_a_display_of_a_plug_in_can_be_added(source: HandFedSource, tmp_path: Path) -> None:
+    plugin = tmp_path / "mine.py"
+    plugin.write_text("import webviz\nclass Mine(webviz.Display):\n    size: float = 1.0\n")
+    with webviz.Viewer(port=0, source=source, plugins=[plugin]) as viewer:
+        assert viewer.add("Mine", size=2.0).size == 2.0

@@ -1,0 +1,233 @@
+"""A viewer put together and at work, in threads of its own."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import itertools
+import logging
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import PIL.Image
+
+from webviz import config as config_file
+from webviz import picture_files
+from webviz import plugins as plugin_files
+from webviz.commands import Command, Refresh
+from webviz.config import Config
+from webviz.errors import Error
+from webviz.state import State
+
+if TYPE_CHECKING:
+    from webviz.browser import Pixels
+    from webviz.ros.node import RosSource
+    from webviz.sources import Source
+
+log = logging.getLogger("webviz")
+
+NO_ROS = (
+    "webviz needs rclpy of ROS 2 Jazzy, which this Python ({version}) does not have: run "
+    "`source /opt/ros/jazzy/setup.bash` if ROS is installed, or `pip install 'webviz[ros]'`."
+)
+PATIENCE_S = 30.0
+"""For the frame loop to do one thing; a config of hundreds of displays takes seconds."""
+
+
+def read_config(path: Path | None) -> Config:
+    """The config of a file; without one, the usual displays.
+
+    Raises:
+        ConfigError: it cannot be read; one sentence.
+    """
+    return config_file.standard() if path is None else config_file.load(path)
+
+
+class Running:
+    """Source, frame loop, server and panel of one viewer; see `webviz.Viewer`."""
+
+    def __init__(
+        self,
+        config: str | os.PathLike[str] | None = None,
+        *,
+        port: int = 8080,
+        host: str = "127.0.0.1",
+        allow_hosts: Sequence[str] = (),
+        fixed_frame: str = "",
+        source: Source | None = None,
+        ros_args: Sequence[str] = (),
+        plugins: Sequence[str | os.PathLike[str]] = (),
+        autosave: Path | None = None,
+        read: Callable[[Path | None], Config] = read_config,
+    ) -> None:
+        with contextlib.ExitStack() as stack:
+            if source is not None:
+                stack.callback(source.close)
+            files = [Path(file) for file in plugins]
+            watcher = plugin_files.Watcher(files)
+            for file in files:
+                plugin_files.load(file)
+            path = Path(config) if config is not None else None
+            # viser takes a while to import; mistakes in files are told before.
+            shown = read(path) if path is not None else None
+            from webviz.gui import Panel
+            from webviz.scene import CannotListen, Scene, open_server
+            from webviz.snapshots import Snapshots
+            from webviz.viewer import Viewer as FrameLoop
+
+            try:
+                server = open_server(host, port, allow_hosts)
+            except CannotListen as error:
+                raise Error(str(error)) from error
+            stack.callback(server.stop)
+            control = None
+            if source is None:
+                source = ros_source(ros_args)
+                stack.callback(source.close)
+                control = source.control
+                if path is None and control.asked["config_file"]:
+                    path = Path(control.asked["config_file"])
+                fixed_frame = fixed_frame or control.asked["fixed_frame"]
+            shown = shown or read(path)
+            if fixed_frame:
+                shown.settings = msgspec.structs.replace(
+                    shown.settings, fixed_frame=fixed_frame.removeprefix("/")
+                )
+            scene = Scene(server)
+            self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
+            self._panel = Panel(server, self._enqueue)
+            self._host, self.port = host, server.get_port()
+            self._ended: Future[None] = Future()
+            thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
+            thread.start()
+            stack.callback(thread.join)
+            stack.callback(self._loop.stop)
+            self._snapshots = Snapshots(scene, lambda: self.do(Refresh()))
+            stack.callback(self._snapshots.close)
+            watcher.start(self._loop.enqueue)
+            stack.callback(watcher.stop)
+            self.do(Refresh())  # so that there is a state
+            if control is not None:
+                control.open(self)
+            self._stack = stack.pop_all()
+        atexit.register(self.close)
+
+    def close(self) -> None:
+        """End the viewer and its page, leaving no thread."""
+        atexit.unregister(self.close)
+        self._stack.close()
+
+    def stop(self) -> None:
+        """Let `wait` return, from any thread or a signal handler; `close` ends the rest."""
+        self._loop.stop()
+
+    def wait(self) -> None:
+        """Wait until Ctrl-C or `stop`."""
+        with contextlib.suppress(KeyboardInterrupt):
+            self._ended.result()
+
+    @property
+    def url(self) -> str:
+        """Where the page is, for a browser on this machine."""
+        host = "127.0.0.1" if self._host in ("0.0.0.0", "::") else self._host
+        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
+
+    @property
+    def state(self) -> State:
+        """All that the panel shows, as it was less than half a second ago: a snapshot to read."""
+        return self._state
+
+    def do(self, command: Command) -> str:
+        """Do anything that a panel can ask for; see `webviz.commands`.
+
+        Returns:
+            What there is to tell of it, a sentence or "".
+
+        Raises:
+            Error: it cannot be done, one sentence says why; or the viewer has ended.
+        """
+        if not self._ended.done():
+            answer = self._loop.enqueue(command)
+            either: list[Future[Any]] = [answer, self._ended]
+            wait(either, PATIENCE_S, FIRST_COMPLETED)
+            if answer.done():
+                return answer.result()
+        if self._ended.done():
+            raise Error("The viewer has ended: make a new one.") from self._ended.exception()
+        raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
+
+    def screenshot(
+        self, path: str | os.PathLike[str] | None = None, *, size: tuple[int, int] = (1280, 720)
+    ) -> Pixels:
+        """Make a picture of the scene, as a browser that joins now shows it.
+
+        That takes seconds, and needs a browser on this machine and playwright.
+
+        Args:
+            path: where to write it, by its ending as PNG, JPEG or WebP; None is nowhere.
+            size: width and height in pixels.
+
+        Returns:
+            uint8 (height, width, 3).
+
+        Raises:
+            Error: there is no browser, or the file cannot be written; one sentence.
+        """
+        if path is not None:
+            picture_files.check(Path(path), is_animation=False, transparent=False)
+        pixels = self._snapshots.take(self.url, size)
+        if path is not None:
+            picture_files.save(PIL.Image.fromarray(pixels), Path(path))
+        return pixels
+
+    def save_screenshot(self) -> Path:
+        """Make a picture of the scene in a new file beside the config, named by the time."""
+        stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
+        folder = Path(self.state.file.folder)
+        path = folder / f"{stem}.png"
+        for number in itertools.count(2):
+            if not path.exists():
+                break
+            path = folder / f"{stem}_{number}.png"
+        self.screenshot(path)
+        return path
+
+    def _enqueue(self, command: Command) -> None:
+        self._loop.enqueue(command)  # what comes of it stands in the state
+
+    def _run(self) -> None:
+        try:
+            self._loop.run()
+        except BaseException as error:
+            log.exception("The viewer stopped")
+            self._ended.set_exception(error)
+        else:
+            self._ended.set_result(None)
+
+    def _show(self, state: State) -> None:
+        self._state = state
+        self._panel.update(state)
+
+
+def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
+    """The ROS graph, as the arguments for ROS say.
+
+    Raises:
+        Error: there is no ROS, or it does not start; one sentence.
+    """
+    try:
+        from webviz.ros.node import RosSource
+    except ImportError as error:
+        raise Error(NO_ROS.format(version=sys.version.split()[0])) from error
+    try:
+        return RosSource(ros_args)
+    except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
+        reason = " ".join(str(error).split()).partition(", at /")[0]
+        raise Error(f"ROS did not start: {reason}.") from error
