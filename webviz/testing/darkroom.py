@@ -26,16 +26,18 @@ class Darkroom:
     """
 
     def __init__(self) -> None:
-        self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-pictures")
+        self._thread: ThreadPoolExecutor | None = None
         self._open = contextlib.ExitStack()
         self._studio: Studio | None = None
         self._shown: RecordingScene | None = None
         self._look: tuple[View, Size] | None = None
 
     def close(self) -> None:
-        """End the browser."""
-        self._call(self._forget)
-        self._thread.shutdown()
+        """End the browser; the next picture would launch another."""
+        if self._thread is not None:
+            self._call(self._forget)
+            self._thread.shutdown()
+            self._thread = None
 
     def capture(
         self, scene: RecordingScene, view: View, size: Size, transparent: bool = False
@@ -97,6 +99,8 @@ class Darkroom:
                 self._forget()
                 raise
 
+        if self._thread is None:
+            self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-pictures")
         try:
             return self._thread.submit(guarded).result()
         except (NoBrowser, BrowserDied) as error:

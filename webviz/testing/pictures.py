@@ -90,12 +90,12 @@ class Photographer:
         """
         album = self.album
         path = album.folder / f"{name}.png"
-        actual = masked(self.capture(), mask)
         if not path.exists() and not album.update:
             raise AssertionError(
                 f"There is no {album.shown(path)}: run pytest with {UPDATE}, look at the picture, "
                 "and commit it."
             )
+        actual = masked(self.capture(), mask)
         expected = load(path) if path.exists() else None
         if expected is not None:
             expected = masked(expected, mask)

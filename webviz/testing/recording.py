@@ -8,9 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from webviz.bounds import Box, bounds, union
 from webviz.frames import compose
 from webviz.nodes import Node, Pose, Rgb
 from webviz.viewer import Scene
+from webviz.viewing import Cameras, NoCameras
 
 
 class Target(Scene, Protocol):
@@ -36,6 +38,7 @@ class RecordingScene:
     upserts: int = 0
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
+    cameras: Cameras = field(default_factory=NoCameras)
     _target: Target | None = None
 
     def attach(self, target: Target) -> None:
@@ -60,6 +63,16 @@ class RecordingScene:
                 self._target.clear()
                 self._target.flush()
             self._target = None
+
+    def bounds(self, prefix: str) -> Box | None:
+        """The box around all that is visible of the groups of a prefix."""
+        return union(
+            box.moved(pose).moved(self.poses.get(name, Pose()))
+            for name, nodes in self.groups.items()
+            if name.startswith(prefix) and name not in self.hidden
+            for node, pose in nodes.values()
+            if (box := bounds(node)) is not None
+        )
 
     def set_background(self, rgb: Rgb) -> None:
         """Fill what lies behind everything with one colour."""

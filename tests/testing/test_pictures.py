@@ -1,0 +1,214 @@
+"""Pictures that are compared: what counts, what is masked, what a failure says and leaves."""
+
+from __future__ import annotations
+
+import dataclasses
+import resource
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+
+from webviz.browser import BrowserDied, NoBrowser
+from webviz.testing import TOLERANCE, Stage, share_of_difference
+from webviz.testing.comparing import load, masked, store
+from webviz.testing.darkroom import Darkroom
+from webviz.testing.pictures import Album
+from webviz.views import Orbit
+
+VIEW = Orbit(distance=7.0)
+
+
+def with_album(stage: Stage, folder: Path, *, update: bool = False) -> Album:
+    """Let a stage compare with pictures in a folder of the test."""
+    album = Album(folder / "pictures", folder / "output", folder, update)
+    stage._photographer = dataclasses.replace(stage._photographer, album=album, view=VIEW)
+    return album
+
+
+@pytest.fixture
+def album(filled: Stage, tmp_path: Path) -> Album:
+    """Holds the picture `scan` of `filled`."""
+    with_album(filled, tmp_path, update=True)
+    filled.check_picture("scan")
+    return with_album(filled, tmp_path)
+
+
+def test_the_same_input_gives_the_same_picture_to_the_bit(filled: Stage) -> None:
+    once = filled.picture()
+    filled.look(Orbit(distance=3.0))
+    other = filled.picture()
+    filled.look(Orbit())
+    assert (filled.picture() == once).all()
+    assert share_of_difference(other, once) > TOLERANCE
+
+
+def test_another_stage_with_the_same_input_gives_the_same_picture(
+    filled: Stage, request: pytest.FixtureRequest
+) -> None:
+    once = filled.picture()
+    filled.set("enabled", False, "Scan")
+    assert (filled.picture() != once).any()
+    filled.set("enabled", True, "Scan")
+    assert (filled.picture() == once).all()
+
+
+def test_another_browser_gives_the_same_picture(filled: Stage) -> None:
+    once = filled.picture()
+    other = Darkroom()
+    try:
+        again = other.capture(filled.scene, filled._photographer.view, (400, 300))
+    finally:
+        other.close()
+    assert (again == once).all()
+
+
+def test_a_transparent_picture_has_no_background(filled: Stage) -> None:
+    opaque, clear = filled.picture(), filled.picture(transparent=True)
+    assert clear.shape == (300, 400, 4)
+    assert clear[0, 0].tolist() == [0, 0, 0, 0]
+    scan = opaque.max(axis=2) > 150
+    assert (clear[..., 3][scan] == 255).mean() > 0.8
+    over = clear[..., :3] * (clear[..., 3:] / 255) + 48 * (1 - clear[..., 3:] / 255)
+    assert share_of_difference(over.round().astype(np.uint8), opaque) <= TOLERANCE
+
+
+def test_pictures_have_the_size_that_is_asked_for(filled: Stage) -> None:
+    filled.resize(320, 200)
+    assert filled.picture().shape == (200, 320, 3)
+
+
+def test_a_missing_picture_says_how_to_make_it(filled: Stage, tmp_path: Path) -> None:
+    with_album(filled, tmp_path)
+    with pytest.raises(
+        AssertionError, match=r"There is no pictures/scan\.png: run pytest with --up"
+    ):
+        filled.check_picture("scan")
+
+
+def test_a_wrong_picture_leaves_the_difference(filled: Stage, album: Album) -> None:
+    filled.check_picture("scan")
+    filled.set("size", 0.5, "Scan")
+    with pytest.raises(AssertionError, match=r"look at output/scan\.png and output/scan\.diff"):
+        filled.check_picture("scan")
+    red = load(album.output / "scan.difference.png") == (255, 0, 0)
+    assert 0.001 < red.all(axis=2).mean() < 0.4
+    assert load(album.output / "scan.png").shape == (300, 400, 3)
+
+
+def test_what_is_masked_does_not_matter(filled: Stage, album: Album) -> None:
+    reference = load(album.folder / "scan.png")
+    filled.set("size", 0.25, "Scan")
+    actual = filled.picture()
+    rows, columns = np.nonzero(np.abs(actual.astype(int) - reference).max(axis=2) > 12)
+    box = (columns.min() - 2, rows.min() - 2, columns.max() + 3, rows.max() + 3)
+    with pytest.raises(AssertionError, match="differ"):
+        filled.check_picture("scan")
+    filled.check_picture("scan", mask=[box])
+
+
+def test_a_mask_is_grey_and_may_reach_over_the_edge() -> None:
+    picture = np.zeros((20, 30, 3), np.uint8)
+    assert (masked(picture, [(-5, -5, 10, 100)])[:, :10] == 128).all()
+    assert (masked(picture, [(-5, -5, 10, 100)])[:, 10:] == 0).all()
+    assert (masked(picture, [(-5, -5, -1, -1)]) == 0).all()
+
+
+def test_a_picture_of_another_size_says_so(filled: Stage, album: Album) -> None:
+    filled._photographer.album = dataclasses.replace(album, size=(320, 240))
+    with pytest.raises(
+        AssertionError, match=r"has 320 x 240 pixels, pictures/scan.png has 400 x 3"
+    ):
+        filled.check_picture("scan")
+
+
+def test_an_update_leaves_what_still_passes(filled: Stage, tmp_path: Path, album: Album) -> None:
+    path = album.folder / "scan.png"
+    before = path.stat().st_ino
+    with_album(filled, tmp_path, update=True)
+    filled.check_picture("scan")
+    assert path.stat().st_ino == before
+    filled.set("size", 0.5, "Scan")
+    filled.check_picture("scan")
+    assert path.stat().st_ino != before
+    assert path.stat().st_size < 15_000
+
+
+def test_a_display_that_nobody_would_miss_is_named(filled: Stage, album: Album) -> None:
+    filled.check_picture("scan", each_display=True)
+    filled.set("style", "Points", "Scan")
+    filled.set("size_pixels", 1.0, "Scan")
+    with_album(filled, album.root, update=True)
+    with pytest.raises(AssertionError, match="The picture small would be the same without Scan:"):
+        filled.check_picture("small", each_display=True)
+
+
+def test_a_disk_that_is_full_leaves_the_old_picture(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    store(np.zeros((4, 4, 3), np.uint8), path)
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10, hard))
+    try:
+        with pytest.raises(OSError, match="File too large"):
+            store(np.ones((4, 4, 3), np.uint8), path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert (load(path) == 0).all()
+    assert [file.name for file in tmp_path.iterdir()] == ["a.png"]
+
+
+@pytest.fixture
+def darkroom() -> Iterator[Darkroom]:
+    """One of its own, for tests in which its browser dies."""
+    darkroom = Darkroom()
+    yield darkroom
+    darkroom.close()
+
+
+def browsers() -> list[psutil.Process]:
+    """The browsers that this process has started, without their helpers."""
+    return [
+        process
+        for process in psutil.Process().children(recursive=True)
+        if "--remote-debugging-pipe" in process.cmdline() and "--type" not in str(process.cmdline())
+    ]
+
+
+def test_a_browser_that_dies_is_told_and_replaced(
+    filled: Stage, darkroom: Darkroom, tmp_path: Path
+) -> None:
+    before = browsers()
+    filled._photographer.darkroom = darkroom
+    picture = filled.picture()
+    (ours,) = set(browsers()) - set(before)
+    helpers = ours.children(recursive=True)
+    ours.send_signal(signal.SIGKILL)
+    with_album(filled, tmp_path, update=True)
+    with pytest.raises(BrowserDied, match="The browser ended while it drew"):
+        filled.check_picture("scan")
+    assert list(tmp_path.rglob("*.png")) == []
+    _, alive = psutil.wait_procs(helpers, timeout=10)
+    assert alive == []
+    filled.look(Orbit())
+    assert (filled.picture() == picture).all()
+    darkroom.close()
+    assert set(browsers()) - set(before) == set()
+
+
+def test_without_a_browser_one_sentence_says_how_to_get_one(
+    filled: Stage, darkroom: Darkroom, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    filled._photographer.darkroom = darkroom
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path))
+    with pytest.raises(NoBrowser, match="There is no browser for pictures: install Chromium"):
+        filled.picture()
+    monkeypatch.setenv("WEBVIZ_BROWSER", "/nowhere/chromium")
+    with pytest.raises(NoBrowser, match="WEBVIZ_BROWSER is '/nowhere/chromium'"):
+        filled.picture()
+    monkeypatch.setenv("WEBVIZ_BROWSER", "/bin/false")
+    with pytest.raises(NoBrowser, match="The browser /bin/false does not start"):
+        filled.picture()

@@ -1,0 +1,129 @@
+"""What a stranger's package gets: pytest runs of their own, in a folder of their own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest_plugins = ["pytester"]
+
+CONFIG = """\
+version: 1
+view: {distance: 6}
+displays:
+- type: Grid
+- {type: Axes, length: 2.0, radius: 0.2}
+"""
+TESTS = """\
+def test_axes(webviz_stage):
+    stage = webviz_stage("robot.yaml")
+    assert stage.axes("Axes").tolist() == [[0, 0, 0]]
+    stage.check_picture("axes", each_display=True)
+
+def test_axes_that_are_masked(webviz_stage):
+    stage = webviz_stage("robot.yaml", size=(200, 150))
+    stage.check_picture("masked", mask=[(50, 0, 170, 150)])
+"""
+
+
+@pytest.fixture
+def package(pytester: pytest.Pytester) -> pytest.Pytester:
+    """A package with a config and two tests, without pictures."""
+    (pytester.path / "test").mkdir()
+    (pytester.path / "test/robot.yaml").write_text(CONFIG)
+    (pytester.path / "test/test_robot.py").write_text(TESTS)
+    return pytester
+
+
+def run(package: pytest.Pytester, *arguments: str) -> pytest.RunResult:
+    return package.runpytest_subprocess("-p", "no:cacheprovider", *arguments, timeout=120)
+
+
+def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) -> None:
+    result = run(package)
+    result.assert_outcomes(failed=2)
+    result.stdout.fnmatch_lines(
+        ["E *AssertionError: There is no test/pictures/axes.png: run pytest with --update-pic*"]
+    )
+    assert list(package.path.rglob("*.png")) == []
+
+    run(package, "--update-pictures").assert_outcomes(passed=2)
+    pictures = package.path / "test/pictures"
+    assert sorted(path.name for path in pictures.iterdir()) == ["axes.png", "masked.png"]
+
+    config = package.path / "test/robot.yaml"
+    config.write_text(CONFIG.replace("length: 2.0", "length: 1.0"))
+    result = run(package)
+    result.assert_outcomes(failed=1, passed=1)
+    result.stdout.fnmatch_lines(
+        [
+            "E *AssertionError: * % of the picture differ from test/pictures/axes.png: look at "
+            "picture_output/axes.png and picture_output/axes.difference.png.*"
+        ]
+    )
+    made = sorted(path.name for path in (package.path / "picture_output").iterdir())
+    assert made == ["axes.difference.png", "axes.png"]
+    # The message stands below the line of the test that asked, without the inside of webviz.
+    assert "webviz/testing" not in result.stdout.str()
+
+
+def test_the_folders_can_be_chosen(package: pytest.Pytester) -> None:
+    package.makeini("[pytest]\nwebviz_pictures = reference\nwebviz_output = out\n")
+    run(package, "--update-pictures", "-k", "masked").assert_outcomes(passed=1, deselected=1)
+    assert (package.path / "reference/masked.png").exists()
+
+
+def test_without_a_browser_the_failure_is_one_sentence(
+    package: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(package.path))
+    result = run(package, "-k", "masked")
+    result.assert_outcomes(failed=1, deselected=1)
+    result.stdout.fnmatch_lines(
+        ["E *NoBrowser: There is no browser for pictures: install Chromium or Google Chrome*"]
+    )
+
+
+def test_scenes_are_read_without_a_browser(
+    package: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", "")
+    package.makepyfile(
+        """
+        def test_grid(webviz_stage):
+            import sys
+            assert len(webviz_stage("test/robot.yaml").lines("Grid")) == 22
+            assert "playwright" not in sys.modules
+        """
+    )
+    run(package, "-k", "grid").assert_outcomes(passed=1, deselected=2)
+
+
+def test_a_config_that_is_missing_is_named(package: pytest.Pytester) -> None:
+    package.makepyfile('def test_it(webviz_stage):\n    webviz_stage("robt.yaml")\n')
+    result = run(package, "-k", "test_it")
+    result.stdout.fnmatch_lines(["E *Cannot read *robt.yaml: No such file or directory*"])
+
+
+def test_the_fixtures_are_listed_with_what_they_do(package: pytest.Pytester) -> None:
+    text = run(package, "--fixtures", "-v").stdout.str()
+    for name in ("webviz_stage", "webviz_viewer", "webviz_domain"):
+        assert name in text
+    assert "--update-pictures" in run(package, "--help").stdout.str()
+
+
+def test_who_does_not_use_it_does_not_pay_for_it(tmp_path: Path) -> None:
+    (tmp_path / "test_nothing.py").write_text(
+        "import sys\n"
+        "def test_nothing():\n"
+        "    heavy = {'viser', 'rclpy', 'playwright', 'PIL', 'rosbags', 'trimesh', 'ruamel'}\n"
+        "    assert 'webviz.pytest_plugin' in sys.modules\n"
+        "    assert heavy & sys.modules.keys() == set()\n"
+    )
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)]
+    finished = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert finished.returncode == 0, finished.stdout
