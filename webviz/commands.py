@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from webviz.display import Color
+from webviz.views import View
 
 
 @dataclass(frozen=True)
@@ -149,6 +150,106 @@ class Export:
 
 
 @dataclass(frozen=True)
+class ShowView:
+    """Look at the scene in another way.
+
+    Args:
+        view: or the name of a saved one.
+        browser: id of the browser whose camera moves, None for every one.
+    """
+
+    view: View | str
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class ChangeView:
+    """Change a property of what is seen, and keep what is looked at.
+
+    Args:
+        key: of the view: "type", "target_frame", "distance" and so on.
+        value: of the property; the name of a type for "type".
+        browser: id of the browser whose camera moves, None for every one.
+    """
+
+    key: str
+    value: Any
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class ResetView:
+    """Go back to where a view of this type begins, as RViz's Zero does."""
+
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class FocusDisplay:
+    """Look at all that a display, or what is in a group, draws.
+
+    Args:
+        display: id of the display or group.
+        browser: id of the browser whose camera moves, None for every one.
+    """
+
+    display: str
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class SaveView:
+    """Keep what a browser shows, under a name.
+
+    Args:
+        name: of the view; one that has it is replaced.
+        browser: id of the browser, None for the one that came last.
+    """
+
+    name: str
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class RenameView:
+    """Give a saved view another name."""
+
+    name: str
+    new_name: str
+
+
+@dataclass(frozen=True)
+class RemoveView:
+    """Forget a saved view."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class StartWithView:
+    """Let browsers and screenshots begin with what a browser shows.
+
+    Args:
+        browser: id of the browser, None for the one that came last.
+    """
+
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
+class SaveImage:
+    """Let a browser download what it shows as a PNG.
+
+    Args:
+        browser: id of the browser, None for every one.
+        name: of the file; "" is made of the date and the time.
+    """
+
+    browser: int | None = None
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class InspectTopic:
     """Follow a topic that need not be shown: its rate and its last message; "" is none."""
 
@@ -174,6 +275,19 @@ class ReloadPlugin:
     path: Path
 
 
+ViewCommand = (
+    ShowView
+    | ChangeView
+    | ResetView
+    | FocusDisplay
+    | SaveView
+    | RenameView
+    | RemoveView
+    | StartWithView
+    | SaveImage
+)
+"""What is about views."""
+
 Command = (
     SetProperty
     | AddDisplay
@@ -189,6 +303,7 @@ Command = (
     | Load
     | Save
     | Export
+    | ViewCommand
     | InspectTopic
     | InspectTransforms
     | Refresh

@@ -151,6 +151,11 @@ class DisplayList:
         """The entry of an id."""
         return next((entry for entry in self._entries if entry.id == id), None)
 
+    def within(self, id: str) -> list[str]:
+        """The ids of a display or group and of all that is in it."""
+        outer = self.find(id)
+        return [entry.id for entry in self._entries if outer and entry.is_within(outer)]
+
     def set(self, id: str, path: str, value: Any) -> None:
         """Change a property of a display or a group.
 

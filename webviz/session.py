@@ -97,11 +97,11 @@ class Session:
             case MoveDisplay(id, group, before):
                 self.displays.move(id, group, before)
             case SetFixedFrame(frame):
-                self._set("fixed_frame", frame)
+                self.set("fixed_frame", frame)
             case SetBackground(color):
-                self._set("background", color)
+                self.set("background", color)
             case SetFrameRate(hz):
-                self._set("frame_rate", hz)
+                self.set("frame_rate", hz)
             case Open(path):
                 return self._open(path)
             case Load(text, name):
@@ -150,7 +150,12 @@ class Session:
             names = []
         self._others = tuple(sorted(names)[:MAX_OTHERS])
 
-    def _set(self, key: str, value: Any) -> None:
+    def set(self, key: str, value: Any) -> None:
+        """Change a setting.
+
+        Raises:
+            msgspec.ValidationError: the value does not fit; nothing was changed.
+        """
         values = msgspec.to_builtins(self.settings) | {key: value}
         self.settings = msgspec.convert(values, Settings)
 

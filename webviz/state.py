@@ -9,6 +9,7 @@ from webviz.config import Settings
 from webviz.display import Display
 from webviz.sources import Offer
 from webviz.status import Level, Status, worst
+from webviz.views import View
 
 
 @dataclass(frozen=True)
@@ -128,6 +129,7 @@ class State:
         traffic: by topic name, of the topics that are subscribed to.
         inspected: a topic that somebody looks into.
         transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
+        views: what each browser shows, by its id.
     """
 
     rows: tuple[Row, ...]
@@ -143,3 +145,4 @@ class State:
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
     inspected: Inspected | None = None
     transforms: str = ""
+    views: Mapping[int, View] = field(default_factory=dict)

@@ -19,12 +19,16 @@ from webviz import config as config_file
 from webviz import plugins
 from webviz.commands import (
     Command,
+    FocusDisplay,
     InspectTopic,
     InspectTransforms,
+    Load,
+    Open,
     Pause,
     Refresh,
     ReloadPlugin,
     Reset,
+    ViewCommand,
 )
 from webviz.config import Config, ConfigError, Settings
 from webviz.display import Color
@@ -42,6 +46,7 @@ from webviz.sources import Offer, Source, Subscription
 from webviz.state import Answer, State
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer, tree_text
+from webviz.viewing import ViewedScene, Viewing
 
 log = logging.getLogger("webviz")
 
@@ -58,7 +63,7 @@ class Refused(Error):
     """A command that cannot be done; one sentence says why."""
 
 
-class Scene(DrawingScene, Protocol):
+class Scene(DrawingScene, ViewedScene, Protocol):
     """What the viewer needs of a scene besides drawing; see `webviz.scene.Scene`."""
 
     def flush(self) -> None:
@@ -117,6 +122,8 @@ class Viewer:
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
         self._session = Session(self._list, config, path, autosave)
+        self._viewing = Viewing(scene)
+        self._viewing.start_with(config.settings.view)
         self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
         self._statuses: dict[str, Status] = {}
         self._next_panel = self._next_folder = self._next_autosave = 0.0
@@ -219,6 +226,7 @@ class Viewer:
             self._monitor.traffic(),
             self._monitor.look(offers),
             tree_text(self.buffer, frames.now_ns) if self._inspects_transforms else "",
+            self._viewing.views(),
         )
 
     def config(self) -> Config:
@@ -270,9 +278,22 @@ class Viewer:
             case ReloadPlugin(path):
                 plugins.reload(path, self._list.runners())
                 self._list.read_again()
+            case Open() | Load():
+                text = self._session.do(command)
+                self._viewing.open(self.settings.view)
+                return text
+            case _ if isinstance(command, ViewCommand):
+                self._view(command)
             case _:
                 return self._session.do(command)
         return ""
+
+    def _view(self, command: ViewCommand) -> None:
+        ids = self._list.within(command.display) if isinstance(command, FocusDisplay) else []
+        new = self._viewing.do(command, self._frames, self.settings, ids)
+        for key, value in new.items():
+            self._session.set(key, value)
+        self._viewing.start_with(self.settings.view)
 
     def _reset(self) -> None:
         self._listener.reset()
@@ -299,9 +320,11 @@ class Viewer:
         if self.settings.background != self._background:
             self._background = self.settings.background
             self._scene.set_background(self._background)
-        frames.prepare(set().union(*(runner.followed() for runner in runners)))
+        followed = (runner.followed() for runner in runners)
+        frames.prepare(self._viewing.followed().union(*followed))
         for runner in runners:
             runner.draw(frames)
+        self._viewing.follow(frames)
         try:
             self._scene.flush()
         except Exception as error:  # a display made a malformed node; the scene has dropped it
@@ -328,6 +351,7 @@ class Viewer:
         time_status = self._time.status(offers)
         statuses = {"Time": time_status} if time_status else {}
         statuses |= self._listener.statuses(offers, frames.now_ns) | self._statuses
+        statuses |= self._viewing.statuses(frames)
         if report := self._session.report:
             text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
             statuses["Import"] = Status(Level.WARN, text)

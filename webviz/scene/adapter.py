@@ -101,13 +101,15 @@ class Adapter:
         self._listeners[subject] = listener
 
     def camera(self, client: viser.ClientHandle) -> tuple[NDArray[np.float64], ...]:
-        """Where a browser's camera is and where it looks at, of one and the same moment.
+        """A browser's camera, all of one and the same moment.
 
         Returns:
-            Two float64 (3,), in metres, in the coordinates of the scene.
+            float64 (3,) where it is, (4,) how it is turned, as a quaternion with w first (z looks
+            forward, y down), and (3,) what it turns about, or soon will: in metres, in the
+            coordinates of the scene.
         """
         state = client.camera._state
-        return state.position, state.look_at
+        return state.position, state.wxyz, state.look_at
 
     @property
     def watchers(self) -> int:

@@ -25,6 +25,7 @@ from webviz.views import (
     ThirdPersonFollower,
     View,
     camera_of,
+    target_group,
     type_of,
     view_of,
 )
@@ -116,6 +117,11 @@ class Cameras:
             if id_ in clients
         }
 
+    def target_frames(self) -> set[str]:
+        """The frames that views follow, or begin to when a browser joins."""
+        views = [self._start, *(known.view for known in tuple(self._browsers.values()))]
+        return {view.target_frame for view in views} - {FIXED_FRAME}
+
     def size(self, browser: int) -> tuple[float, float]:
         """Width and height of the picture in a browser, in pixels.
 
@@ -159,11 +165,6 @@ class Cameras:
             self._browsers[browser] = _Browser(view, report.number, report.number, size)
         else:
             known.obeyed, known.size = report.number, size
-
-
-def target_group(frame: str) -> str:
-    """The group of the scene whose pose the views of a target frame follow."""
-    return f"target frame/{frame}"
 
 
 def _json(view: View, number: int) -> str:

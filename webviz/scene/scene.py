@@ -8,6 +8,7 @@ from typing import Any
 
 import viser
 
+from webviz.bounds import Box, bounds, union
 from webviz.nodes import (
     Arrows,
     Axes,
@@ -117,6 +118,16 @@ class Scene:
         """Hides a group, or shows it again; its nodes may be changed meanwhile."""
         self._touch(group).visible = visible
 
+    def bounds(self, prefix: str) -> Box | None:
+        """The box, in the fixed frame, around all that is visible of the groups of a prefix."""
+        return union(
+            box.moved(pose).moved(group.pose)
+            for name, group in self._groups.items()
+            if name.startswith(prefix) and group.visible
+            for node, pose in group.nodes.values()
+            if (box := bounds(node)) is not None
+        )
+
     def clear(self) -> None:
         """Removes every group."""
         for group in tuple(self._groups):
@@ -176,6 +187,7 @@ class _Group:
         self._handle: viser.FrameHandle | None = None
         self._sent_position: Position | None = None
         self._sent_wxyz: tuple[float, float, float, float] | None = None
+        self._sent_visible = True
         self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
     def send(self, link: Adapter, origin: Position) -> None:
@@ -190,8 +202,8 @@ class _Group:
         if self.pose.wxyz != self._sent_wxyz:
             self._sent_wxyz = self.pose.wxyz
             link.set_orientation(path, self.pose.wxyz)
-        if self.visible != self._handle.visible:
-            self._handle.visible = self.visible
+        if self.visible != self._sent_visible:
+            self._handle.visible = self._sent_visible = self.visible
         for key in tuple(self.dirty):
             del self.dirty[key]
             try:

@@ -11,6 +11,7 @@ from webviz.views.types import (
     TopDownOrtho,
     View,
     XYOrbit,
+    target_group,
     type_of,
     with_type,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "focus",
     "mimic",
     "rig_of",
+    "target_group",
     "type_of",
     "view_of",
     "with_type",

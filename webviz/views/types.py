@@ -82,3 +82,8 @@ def with_type(values: Any) -> Any:
 def type_of(view: View) -> str:
     """The name of the type of a view."""
     return type(view).__name__
+
+
+def target_group(frame: str) -> str:
+    """The group of the scene whose pose the views of a target frame follow."""
+    return f"target frame/{frame}"
