@@ -48,10 +48,12 @@ class Frames:
         self._version = buffer.version
         self._poses: dict[tuple[str, int], Pose | None] = {}
         self._all: FramePoses | None = None
+        self._is_all_wanted = False
 
     def next(self, fixed_frame: str, now_ns: int) -> Frames:
         """The frames of the next tick; what no transform changed is not computed again."""
         frames = Frames(self.buffer, fixed_frame, now_ns)
+        frames._is_all_wanted = self._is_all_wanted
         if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
             frames._all = self._all
             frames._poses = {key: pose for key, pose in self._poses.items() if key[1] == 0}
@@ -62,16 +64,19 @@ class Frames:
         missing = [name for name in names if (name, 0) not in self._poses]
         if not missing:
             return
-        poses = self.buffer.poses_in(self.fixed_frame, missing)
-        rows = zip(
-            missing,
-            poses.translations.tolist(),
-            poses.rotations.tolist(),
-            poses.ok.tolist(),
-            strict=True,
-        )
-        for name, translation, (x, y, z, w), ok in rows:
-            self._poses[name, 0] = Pose(tuple(translation), (w, x, y, z)) if ok else None
+        if self._is_all_wanted:  # in the tick before, so that some of them cost nothing
+            self._is_all_wanted = False  # it is again when somebody else asks
+            poses = self._compute_all()
+            places = {name: place for place, name in enumerate(poses.names)}
+            known = [places[name] for name in missing if name in places]
+            positions, wxyzs, ok = poses.positions[known], poses.wxyzs[known], poses.ok[known]
+            missing = [name for name in missing if name in places]
+        else:
+            some = self.buffer.poses_in(self.fixed_frame, missing)
+            positions, wxyzs, ok = some.translations, np.roll(some.rotations, 1, axis=1), some.ok
+        rows = zip(missing, positions.tolist(), wxyzs.tolist(), ok.tolist(), strict=True)
+        for name, position, wxyz, is_ok in rows:
+            self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
         """Pose of a frame at a stamp (0: the latest common time), None if there is none."""
@@ -97,6 +102,10 @@ class Frames:
 
     def all(self) -> FramePoses:
         """Every frame that was ever mentioned."""
+        self._is_all_wanted = True
+        return self._compute_all()
+
+    def _compute_all(self) -> FramePoses:
         if self._all is None:
             poses = self.buffer.poses_in(self.fixed_frame)
             self._all = FramePoses(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 from urllib.parse import quote
 
 ROOT = "/webviz"
 
 
+@functools.lru_cache(maxsize=10_000)
 def segment(text: str) -> str:
     """Escapes `text` so that it is one segment of a node path, another one for every other text.
 

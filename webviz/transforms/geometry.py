@@ -66,9 +66,26 @@ def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
 
     A quaternion of length zero gives NaN, and so does one that holds NaN.
     """
-    if x * x + y * y + z * z + w * w == 0.0:
+    square = x * x + y * y + z * z + w * w
+    if square == 0.0:
         return nan, nan, nan, nan
-    return to_quaternion(to_matrix(x, y, z, w))
+    # `to_quaternion(to_matrix(...))` spelt out for most rotations: every transform comes this way.
+    s = 2.0 / square
+    xs, ys, zs = x * s, y * s, z * s
+    xx, yy, zz = x * xs, y * ys, z * zs
+    trace = (1.0 - (yy + zz)) + (1.0 - (xx + zz)) + (1.0 - (xx + yy))
+    if not trace > 0.0:
+        return to_quaternion(to_matrix(x, y, z, w))
+    wx, wy, wz = w * xs, w * ys, w * zs
+    xy, xz, yz = x * ys, x * zs, y * zs
+    root = sqrt(trace + 1.0)
+    s = 0.5 / root
+    return (
+        ((yz + wx) - (yz - wx)) * s,
+        ((xz + wy) - (xz - wy)) * s,
+        ((xy + wz) - (xy - wz)) * s,
+        root * 0.5,
+    )
 
 
 def compose_as_matrices(a: Pose, b: Pose) -> Pose:

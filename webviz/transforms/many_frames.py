@@ -146,8 +146,10 @@ def poses_in(
         if stamp is None or frame not in valid:
             continue
         at_stamp = known.setdefault(stamp, {})
-        number = links.chain(tree, frame, stamp, at_stamp)
-        base = links.chain(tree, target, stamp, at_stamp)
+        if (number := at_stamp.get(frame)) is None:
+            number = links.chain(tree, frame, stamp, at_stamp)
+        if (base := at_stamp.get(target)) is None:
+            base = links.chain(tree, target, stamp, at_stamp)
         if number < 0 or base < 0:
             odd.append(i)
         elif links.tops[number] == links.tops[base]:

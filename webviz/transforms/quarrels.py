@@ -31,10 +31,10 @@ def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
     contest = buffer.publishers[frame].contested(cache.newest_stamp, buffer.cache_time_ns)
     if contest:
         yield _in_words(frame, contest)
-    if not isinstance(cache, TimeCache):
+    if not isinstance(cache, TimeCache) or not cache.stamps:
         return
     samples, stamps = cache.samples[-RECENT:], cache.stamps[-RECENT:]
-    parents = [parent for _, parent in samples]
+    parents = [parent for _, parent in samples] if cache.mixed_ns >= stamps[0] else []
     changes = sum(a != b for a, b in pairwise(parents))
     if changes > 1:
         both = " and ".join(f'"{name}"' for name in sorted(set(parents)))
@@ -43,7 +43,7 @@ def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
             "different parents, stop one of them."
         )
         return
-    twins = sum(a == b for a, b in pairwise(stamps))
+    twins = len(stamps) - len(set(stamps))
     if twins > 1:
         yield (
             f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
