@@ -28,8 +28,8 @@ NO_SERVICES = (
     "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are left "
     "out, as the package std_srvs is missing: install ros-jazzy-std-srvs."
 )
-MAX_REQUESTS = 20
-"""Of one service at a time."""
+MAX_REQUESTS = 4
+"""Of one service at a time; rclpy itself holds ten."""
 
 
 class Steered(Protocol):
@@ -150,15 +150,17 @@ class Control:
             return []
 
         def load() -> str:
-            path = viewer.state.file.path
+            path = _absolute(viewer.state.file.path)
             if not path:
                 raise Error("There is no config file to load: set the parameter config_file.")
-            return viewer.do(Open(_absolute(path)))
+            viewer.do(Open(path))
+            return f"Opened {path}."
 
         def save() -> str:
             if not viewer.state.file.path:
                 raise Error("This config has no file yet: save it once on the page, under a name.")
-            return viewer.do(Save())
+            viewer.do(Save())
+            return f"Saved {_absolute(viewer.state.file.path)}."
 
         def reset() -> str:
             viewer.do(Reset())

@@ -1,0 +1,341 @@
+"""Parameters and services of a viewer, used by real clients over DDS."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.task import Future
+from std_msgs.msg import Int32
+from std_srvs.srv import Empty, Trigger
+
+import webviz
+from webviz.commands import Command
+from webviz.display import Topic
+from webviz.messages import decode
+from webviz.ros.node import RosSource
+from webviz.ros.types import message_class
+from webviz.sources import Subscription
+from webviz.state import File, State
+from webviz.testing import header, serialized
+
+TF = "tf2_msgs/msg/TFMessage"
+CONFIG = "fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]\n"
+
+
+class Client:
+    """Somebody else's node."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self.node = Node("client", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._parameters = AsyncParameterClient(self.node, "webviz")
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+    def wait(self, future: Future, seconds: float = 20.0) -> Any:
+        self._executor.spin_until_future_complete(future, timeout_sec=seconds)
+        assert future.done(), f"no answer within {seconds} s"
+        return future.result()
+
+    def until(self, condition: Callable[[], Any], what: str, seconds: float = 20.0) -> None:
+        """Wait for something that the viewer or DDS does in its own time."""
+        deadline = self.node.get_clock().now().nanoseconds + int(seconds * 1e9)
+        while not condition():
+            assert self.node.get_clock().now().nanoseconds < deadline, f"not in time: {what}"
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def get(self, name: str) -> str:
+        assert self._parameters.wait_for_services(20.0)
+        return self.wait(self._parameters.get_parameters([name])).values[0].string_value
+
+    def set(self, name: str, value: object) -> str:
+        """Set a parameter, and return why not, "" if it is set."""
+        assert self._parameters.wait_for_services(20.0)
+        answer = self._parameters.set_parameters([Parameter(name, value=value)])
+        result = self.wait(answer).results[0]
+        assert result.successful == (not result.reason)
+        return result.reason
+
+    def ask(self, service: str, type: Any = Trigger) -> Future:
+        client = self.node.create_client(type, service)
+        assert client.wait_for_service(20.0)
+        return client.call_async(type.Request())
+
+    def call(self, service: str, type: Any = Trigger) -> Any:
+        return self.wait(self.ask(service, type))
+
+    def publish_frames(self, *frames: str) -> None:
+        """Frames below `map`."""
+        qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        transforms = [
+            {
+                "header": header("map", 0),
+                "child_frame_id": frame,
+                "transform": {"rotation": {"w": 1.0}},
+            }
+            for frame in frames
+        ]
+        publisher = self.node.create_publisher(message_class(TF), "/tf_static", qos)
+        publisher.publish(serialized(TF, {"transforms": transforms}))
+
+
+@pytest.fixture
+def client(webviz_domain: int) -> Iterator[Client]:
+    client = Client(webviz_domain)
+    yield client
+    client.close()
+
+
+@pytest.fixture
+def open_viewer(webviz_domain: int) -> Iterator[Callable[..., webviz.Viewer]]:
+    """Begins a viewer on ROS; arguments by name are those of `webviz.Viewer`."""
+    viewers: list[webviz.Viewer] = []
+
+    def open_viewer(
+        config: Path | None = None, parameters: Sequence[str] = (), **options: Any
+    ) -> webviz.Viewer:
+        ros_args = ["--ros-args", *(word for given in parameters for word in ("-p", given))]
+        viewers.append(webviz.Viewer(config, port=0, ros_args=ros_args, **options))
+        return viewers[-1]
+
+    yield open_viewer
+    for viewer in viewers:
+        viewer.close()
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    path = tmp_path / "floor.yaml"
+    path.write_text(CONFIG)
+    return path
+
+
+def test_parameters_tell_what_is_shown_whoever_changed_it(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    viewer = open_viewer()
+    client.until(lambda: client.get("fixed_frame") == "map", "the frame is told")
+    assert client.get("config_file") == ""
+    viewer.fixed_frame = "base"
+    client.until(lambda: client.get("fixed_frame") == "base", "the new frame is told")
+    viewer.open(config)
+    client.until(lambda: client.get("config_file") == str(config), "the file is told")
+    assert client.get("fixed_frame") == "odom"
+
+
+def test_parameters_given_at_the_start_choose_file_and_frame(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    viewer = open_viewer(parameters=[f"config_file:={config}"])
+    assert (viewer.path, viewer.fixed_frame) == (str(config), "odom")
+    assert "Floor" in viewer
+    assert client.get("config_file") == str(config)
+
+
+def test_the_command_line_is_stronger_than_parameters_and_they_than_the_file(
+    open_viewer: Callable[..., webviz.Viewer], config: Path, tmp_path: Path
+) -> None:
+    other = tmp_path / "other.yaml"
+    other.write_text("displays: []")
+    parameters = ["fixed_frame:=base", f"config_file:={config}"]
+    viewer = open_viewer(parameters=parameters)
+    assert (viewer.path, viewer.fixed_frame) == (str(config), "base")
+    viewer = open_viewer(other, parameters, fixed_frame="odom")
+    assert (viewer.path, viewer.fixed_frame) == (str(other), "odom")
+
+
+def test_a_file_at_the_start_that_is_missing_is_refused(
+    open_viewer: Callable[..., webviz.Viewer],
+) -> None:
+    with pytest.raises(webviz.Error, match=r"^Cannot read /nowhere.yaml: No such file"):
+        open_viewer(parameters=["config_file:=/nowhere.yaml"])
+
+
+def test_the_fixed_frame_is_set_to_frames_that_exist_only(
+    open_viewer: Callable[..., webviz.Viewer], client: Client
+) -> None:
+    viewer = open_viewer()
+    client.publish_frames("base_link", "laser")
+    client.until(lambda: "laser" in viewer.frames, "the frames are known")
+    assert client.set("fixed_frame", "base_link") == ""
+    assert viewer.fixed_frame == "base_link"
+    reason = client.set("fixed_frame", "base_lnk")
+    assert reason == "Nobody publishes a frame named 'base_lnk': did you mean `base_link`?"
+    assert viewer.fixed_frame == client.get("fixed_frame") == "base_link"
+    assert "STRING" in client.set("fixed_frame", 5)
+
+
+def test_another_config_is_opened_by_a_parameter(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    viewer = open_viewer()
+    assert client.set("config_file", str(config)) == ""
+    assert [display.name for display in viewer] == ["Floor"]
+    reason = client.set("config_file", "/nowhere.yaml")
+    assert reason == "Cannot read /nowhere.yaml: No such file or directory."
+    assert client.get("config_file") == str(config)
+    assert client.set("config_file", "") != ""
+
+
+def test_parameters_of_ros_itself_go_on(
+    open_viewer: Callable[..., webviz.Viewer], client: Client
+) -> None:
+    open_viewer(parameters=["use_sim_time:=true"])
+    assert client.set("use_sim_time", False) == ""
+
+
+def test_a_config_is_loaded_again_and_saved_by_services(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    viewer = open_viewer(config)
+    viewer["Floor"].cell_size = 4.0
+    answer = client.call("/webviz/load_config")
+    assert (answer.success, answer.message) == (True, f"Opened {config}.")
+    assert viewer["Floor"].cell_size == 1.0
+    viewer["Floor"].cell_size = 5.0
+    answer = client.call("/webviz/save_config")
+    assert (answer.success, answer.message) == (True, f"Saved {config}.")
+    assert "cell_size: 5.0" in config.read_text()
+
+
+def test_without_a_file_the_services_say_what_to_do(
+    open_viewer: Callable[..., webviz.Viewer], client: Client
+) -> None:
+    open_viewer()
+    for name in ("load_config", "save_config"):
+        answer = client.call(f"/webviz/{name}")
+        assert not answer.success
+        assert "config_file" in answer.message or "save it once" in answer.message
+
+
+@pytest.mark.parametrize(("name", "type"), [("reset", Trigger), ("reset_time", Empty)])
+def test_a_reset_forgets_messages(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, name: str, type: Any
+) -> None:
+    viewer = open_viewer()
+    before = viewer.state.clock.wall_elapsed_s
+    client.until(lambda: viewer.state.clock.wall_elapsed_s > before + 1.0, "time goes by")
+    client.call(f"/webviz/{name}", type)
+    assert viewer.state.clock.wall_elapsed_s < before + 1.0
+
+
+def test_a_picture_is_written_beside_the_config(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    open_viewer(config)
+    answer = client.wait(client.ask("/webviz/screenshot"), 90.0)
+    assert answer.success, answer.message
+    (picture,) = config.parent.glob("webviz_screenshot_*.png")
+    assert answer.message == f"Saved {picture}."
+
+
+class SlowViewer:
+    """Takes a picture for as long as a test wants."""
+
+    def __init__(self) -> None:
+        self.state = replace(State((), "map", (), {}, {}), file=File("/somewhere.yaml"))
+        self.ready = threading.Event()
+
+    def do(self, command: Command) -> str:
+        return "Done."
+
+    def save_screenshot(self) -> Path:
+        assert self.ready.wait(20.0)
+        return Path("/picture.png")
+
+
+@pytest.fixture
+def slow(webviz_domain: int) -> Iterator[tuple[SlowViewer, RosSource]]:
+    source = RosSource(domain_id=webviz_domain)
+    viewer = SlowViewer()
+    source.control.open(viewer)
+    yield viewer, source
+    viewer.ready.set()
+    source.close()
+
+
+def test_messages_arrive_while_a_service_works(
+    slow: tuple[SlowViewer, RosSource], client: Client
+) -> None:
+    viewer, source = slow
+    picture = client.ask("/webviz/screenshot")
+    source.want({"/count": Subscription("std_msgs/msg/Int32", Topic("/count"))})
+    publisher = client.node.create_publisher(Int32, "/count", 5)
+    client.until(publisher.get_subscription_count, "the subscription")
+    publisher.publish(Int32(data=7))
+    heard: list[int] = []
+
+    def hears() -> list[int]:
+        raws = source.inbox.drain().get("/count", ())
+        heard.extend(decode("std_msgs/msg/Int32", raw.cdr).data for raw in raws)
+        return heard
+
+    client.until(hears, "the message arrives")
+    assert heard == [7]
+    assert client.get("fixed_frame") == "map"
+    assert not picture.done()
+    viewer.ready.set()
+    assert client.wait(picture).message == "Saved /picture.png."
+
+
+def test_too_many_requests_are_refused(slow: tuple[SlowViewer, RosSource], client: Client) -> None:
+    viewer, _ = slow
+    trigger = client.node.create_client(Trigger, "/webviz/screenshot")
+    assert trigger.wait_for_service(20.0)
+    answers = [trigger.call_async(Trigger.Request()) for _ in range(5)]
+    client.until(lambda: any(answer.done() for answer in answers), "one is refused")
+    viewer.ready.set()
+    messages = [client.wait(answer).message for answer in answers]
+    assert messages.count("Too many requests at once.") == 1
+    assert messages.count("Saved /picture.png.") == 4
+
+
+def test_before_there_is_a_viewer_parameters_cannot_be_set(
+    webviz_domain: int, client: Client
+) -> None:
+    source = RosSource(domain_id=webviz_domain)
+    try:
+        assert client.set("fixed_frame", "odom").startswith("The viewer is starting")
+    finally:
+        source.close()
+
+
+def test_without_std_srvs_the_rest_works(
+    webviz_domain: int,
+    client: Client,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    monkeypatch.setitem(sys.modules, "std_srvs.srv", None)
+    source = RosSource(domain_id=webviz_domain)
+    try:
+        with caplog.at_level(logging.WARNING, "webviz"):
+            source.control.open(SlowViewer())
+            assert client.get("fixed_frame") in ("", "map")
+            client.until(lambda: client.get("fixed_frame") == "map", "the frame is told")
+        assert "install ros-jazzy-std-srvs" in caplog.text
+    finally:
+        source.close()
