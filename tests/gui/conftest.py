@@ -184,12 +184,12 @@ def loop(server: viser.ViserServer) -> Loop:
 @pytest.fixture
 def open_tab(
     browser: playwright.Browser, server: viser.ViserServer, loop: Loop
-) -> Iterator[Callable[[], Tab]]:
+) -> Iterator[Callable[..., Tab]]:
     """Opens tabs, each in a browser session of its own; in the end none has seen an error."""
     tabs: list[Tab] = []
 
-    def open_tab() -> Tab:
-        context = browser.new_context(viewport={"width": 700, "height": 900})
+    def open_tab(width: int = 700, height: int = 900, **options: Any) -> Tab:
+        context = browser.new_context(viewport={"width": width, "height": height}, **options)
         tabs.append(Tab(context.new_page(), server, loop))
         return tabs[-1]
 
@@ -201,7 +201,7 @@ def open_tab(
 
 
 @pytest.fixture
-def tab(open_tab: Callable[[], Tab]) -> Tab:
+def tab(open_tab: Callable[..., Tab]) -> Tab:
     return open_tab()
 
 

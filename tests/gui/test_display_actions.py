@@ -7,14 +7,17 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+import viser
 
 from webviz.commands import (
     Command,
     DuplicateDisplay,
+    FocusDisplay,
     MoveDisplay,
     RemoveDisplay,
     Reset,
     Save,
+    SaveImage,
     SetBackground,
     SetFrameRate,
     SetProperty,
@@ -46,6 +49,18 @@ def test_of_a_copied_group_the_group_is_selected(loop: Any, tab: Any, make_row: 
     tab.click("Duplicate")
     loop.show(group("robot"), inner, group("robot 2"), replace(make_row("inner 2"), depth=1))
     tab.wait_for(lambda: loop.turn() or tab.field("Name").input_value() == "robot 2")
+
+
+def test_a_look_and_a_picture_are_for_the_browser_that_asks(
+    server: viser.ViserServer, loop: Any, tab: Any, open_tab: Callable[[], Any], make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"))
+    first = set(server.get_clients())
+    other = open_tab()
+    (second,) = set(server.get_clients()) - first
+    other.click("Focus")
+    other.click("Image")
+    assert loop.commands == [FocusDisplay("a", second), SaveImage(second)]
 
 
 def test_a_display_is_renamed_where_its_name_is_read(

@@ -6,7 +6,15 @@ from collections.abc import Callable
 
 import viser
 
-from webviz.commands import AddDisplay, Command, DuplicateDisplay, Refresh, RemoveDisplay, Reset
+from webviz.commands import (
+    AddDisplay,
+    Command,
+    DuplicateDisplay,
+    FocusDisplay,
+    Refresh,
+    RemoveDisplay,
+    Reset,
+)
 from webviz.gui.add_by_topic import AddByTopic
 from webviz.gui.dialogs import Dialogs
 from webviz.gui.display_list import DisplayList
@@ -44,7 +52,7 @@ class DisplaysTab:
         self._editor: Editor | None = None
         self._box = gui.add_folder(None)
         with self._box:
-            file_row, others, add_row = (6, 6, 6, 6), (WHOLE, WHOLE), (12, 5, 7)
+            file_row, others, add_row = (4, 6, 4, 5, 5), (WHOLE, WHOLE), (12, 5, 7)
             gui.add_html(row_style("displays", (*file_row, *others, *add_row)))
             self._add_file_row(files)
             self._options = GlobalOptions(gui, enqueue)
@@ -67,6 +75,11 @@ class DisplaysTab:
             client, lambda client: AddByTopic(client, self._enqueue, self.selection.expect_new)
         )
 
+    def focus(self, client: viser.ClientHandle | None) -> None:
+        """Let a browser look at the selected display."""
+        if self.selection.id is not None and client is not None:
+            self._enqueue(FocusDisplay(self.selection.id, client.client_id))
+
     def duplicate(self) -> None:
         """Add a copy of the selected display, and select it."""
         if self.selection.id is not None:
@@ -83,10 +96,12 @@ class DisplaysTab:
         save = gui.add_button("Save", color="gray", hint="Ctrl+S")
         save_as = gui.add_button("Save as", color="gray", hint="Or download: Ctrl+Shift+S")
         open_ = gui.add_button("Open", color="gray", hint="Or upload: Ctrl+O")
+        image = gui.add_button("Image", color="gray", hint="Download a picture of your view.")
         reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
         save.on_click(lambda event: files.save(event.client))
         save_as.on_click(lambda event: files.save_as(event.client))
         open_.on_click(lambda event: files.open(event.client))
+        image.on_click(lambda event: files.save_image(event.client))
         reset.on_click(lambda _: self._enqueue(Reset()))
 
     def _add_buttons(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import viser
 
-from webviz.commands import Command, Save
+from webviz.commands import Command, Save, SaveImage
 from webviz.gui.dialogs import Dialogs
 from webviz.gui.file_dialogs import OpenFile, SaveAs
 from webviz.state import File, State
@@ -43,3 +43,8 @@ class Files:
     def open(self, client: viser.ClientHandle | None) -> None:
         """Ask for a file, and open it."""
         self._dialogs.open(client, lambda client: OpenFile(client, self._enqueue, self._file))
+
+    def save_image(self, client: viser.ClientHandle | None) -> None:
+        """Let a browser download what it shows."""
+        if client is not None:
+            self._enqueue(SaveImage(client.client_id))

@@ -2,7 +2,8 @@
 
 RViz's own keys where a browser leaves them to a page. Not those of RViz that open a window, reload
 or close a tab in a browser (Ctrl+N, R, X), nor W, A, S, D, Q, E and arrows, which move the camera.
-viser does not call them while somebody types.
+F, which looks at what is under the mouse, is a script of the page. viser does not call commands
+while somebody types.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 
 import viser
 
-from webviz.commands import Command, Reset
+from webviz.commands import Command, Reset, ResetView
 from webviz.gui.displays_tab import DisplaysTab
 from webviz.gui.files import Files
 from webviz.gui.time_tab import TimeTab
@@ -44,8 +45,11 @@ def add_shortcuts(
     add("Save", files.save, hotkey="S", modifier=ctrl, icon=viser.Icon.DEVICE_FLOPPY)
     add("Save as", files.save_as, hotkey="S", modifier=ctrl_shift)
     add("Open", files.open, hotkey="O", modifier=ctrl, icon=viser.Icon.FOLDER_OPEN)
+    add("Save image", files.save_image, icon=viser.Icon.CAMERA)
     add("Reset", lambda _: enqueue(Reset()), hotkey="R", icon=viser.Icon.REFRESH)
+    add("Zero view", lambda client: enqueue(ResetView(client.client_id)), hotkey="Z")
     add("Pause or resume", lambda _: time.toggle(), icon=viser.Icon.PLAYER_PAUSE)
     add("Add displays by topic", displays.add_by_topic, hotkey="insert", icon=viser.Icon.PLUS)
+    add("Focus on display", displays.focus, icon=viser.Icon.FOCUS_2)
     add("Duplicate display", lambda _: displays.duplicate(), icon=viser.Icon.COPY)
     add("Remove display", lambda _: displays.remove(), hotkey="delete", icon=viser.Icon.TRASH)

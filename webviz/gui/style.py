@@ -45,8 +45,11 @@ def list_style(rows: Sequence[Look]) -> str:
 def row_style(name: str, spans: Sequence[int]) -> str:
     """The widgets that follow are beside each other, without labels.
 
+    It holds for the whole tab, dialog or folder with a label that it is the first widget of; a
+    folder without a label is no container of its own.
+
     Args:
-        name: of this style, in class names; every container with rows has its own.
+        name: of this style, without spaces, as part of a class; every container has its own.
         spans: how many of 24 columns each widget has, `WHOLE` for a line of its own as it is; so
             have those that come later.
     """
@@ -101,7 +104,7 @@ _LIST = f"""
 }}
 @media (pointer: coarse) {{
   {_LIST_BOX} {{ grid-template-columns: 2.6em minmax(0, 1fr); max-height: none; }}
-  {_LIST_BOX} button {{ height: 2.4em !important; }}
+  {_LIST_BOX} button {{ height: 2.6rem !important; }}
 }}
 """
 
@@ -114,7 +117,7 @@ _CELL = """
 CELL { padding: 0 0.25em 0.5em !important; }
 CELL > div > :first-child:not(:last-child) { display: none; }
 CELL button { height: 1.625rem !important; padding: 0 0.2em; font-size: 0.75rem; }
-@media (pointer: coarse) { CELL button { height: 2.2rem !important; } }
+@media (pointer: coarse) { CELL button { height: 2.6rem !important; } }
 """
 
 _PICKS_BOX = ":has(> div > .webviz-picks)"
@@ -143,7 +146,8 @@ _PANEL = """
   [style*="width: 20em"]:has(.webviz-panel) { width: 100vw !important; }
 }
 @media (pointer: coarse) {
-  input.mantine-Input-input { height: 2.2rem !important; min-height: 2.2rem !important; }
+  input.mantine-Input-input { height: 2.5rem !important; min-height: 2.5rem !important; }
   .mantine-Checkbox-root { --checkbox-size: 1.4rem !important; }
+  .mantine-Modal-body button { height: 2.6rem !important; }
 }
 """

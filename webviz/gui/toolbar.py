@@ -18,6 +18,10 @@ class Actions(Protocol):
 
     selection: Selection
 
+    def focus(self, client: viser.ClientHandle | None) -> None:
+        """Let a browser look at it."""
+        ...
+
     def duplicate(self) -> None:
         """Add a copy, and select it."""
         ...
@@ -28,7 +32,7 @@ class Actions(Protocol):
 
 
 class Toolbar:
-    """A row of buttons: duplicate, remove, and four ways in the list.
+    """Buttons: look at it, duplicate, remove, and four ways in the list.
 
     Args:
         gui: viser's GUI; the buttons go into the folder that is open.
@@ -41,13 +45,15 @@ class Toolbar:
     ) -> None:
         self._actions = actions
         self._enqueue = enqueue
-        gui.add_html(row_style("toolbar", (5, 5, 3, 4, 3, 4)))
+        gui.add_html(row_style("toolbar", (8, 8, 8, 6, 6, 6, 6)))
+        focus = gui.add_button("Focus", color="gray", hint="Bring all of it into your view.")
         duplicate = gui.add_button("Duplicate", color="gray", hint="Add a copy behind it.")
         remove = gui.add_button("Remove", color="gray", hint="Remove it: Delete")
         self._up = gui.add_button("Up", color="gray", hint="Move it up in the list.")
         self._down = gui.add_button("Down", color="gray", hint="Move it down in the list.")
         self._into = gui.add_button("In", color="gray", hint="Move it into the nearest group.")
         self._out = gui.add_button("Out", color="gray", hint="Move it out of its group.")
+        focus.on_click(lambda event: actions.focus(event.client))
         duplicate.on_click(lambda _: actions.duplicate())
         remove.on_click(lambda _: actions.remove())
         self._up.on_click(lambda _: self._move(actions.selection.moves.up))
