@@ -18,6 +18,7 @@ from webviz.gui.text import escape
 from webviz.gui.time_tab import TimeTab
 from webviz.gui.topics_tab import TopicsTab
 from webviz.gui.transforms_tab import TransformsTab
+from webviz.gui.views import ViewsTab
 from webviz.state import File, State
 
 WIDTH_PX = 360
@@ -46,6 +47,8 @@ class Panel:
         tabs = gui.add_tab_group()
         with tabs.add_tab("Displays"):
             self._displays = DisplaysTab(server, enqueue, self._dialogs, self._files)
+        with tabs.add_tab("Views"):
+            self._views = ViewsTab(server, enqueue)
         with tabs.add_tab("Time"):
             self._time = TimeTab(gui, enqueue)
         with tabs.add_tab("TF tree"):
@@ -63,6 +66,7 @@ class Panel:
         self._call(title_of(state.file, state.clock.is_paused))
         self._files.update(state)
         self._displays.update(state)
+        self._views.update(state)
         self._time.update(state)
         self._transforms.update(state)
         self._topics.update(state)
