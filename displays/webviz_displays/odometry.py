@@ -13,7 +13,7 @@ from webviz_displays import covariance
 from webviz_displays.arrows import along_x
 from webviz_displays.covariance_marks import add_orientations, add_positions
 from webviz_displays.geometry import origin_near
-from webviz_displays.odometry_poses import Trail, fault, has_moved, trail
+from webviz_displays.odometry_poses import Trail, Trails, fault, has_moved
 from webviz_displays.pose_properties import Covariance, PoseShape
 from webviz_displays.rods import add_transparent_arrows
 
@@ -56,7 +56,7 @@ class Odometry(Display):
         if not samples:
             return
         ctx.ok("Pose", f"Showing {len(samples)} pose{'s' if len(samples) != 1 else ''}.")
-        poses = trail(samples)
+        poses = ctx.state.setdefault("trails", Trails()).of(samples)
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)

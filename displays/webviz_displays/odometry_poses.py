@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import atan2, dist, isfinite, sqrt
 
 import numpy as np
@@ -65,6 +65,31 @@ def has_moved(
     if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
         return True
     return _angle(a.orientation, b.orientation) >= angle
+
+
+class Trails:
+    """Trails of a list of samples that grows at its end and is cut at its beginning."""
+
+    def __init__(self) -> None:
+        self._samples: list[Sample] = []
+        self._trail = trail([])
+
+    def of(self, samples: Sequence[Sample]) -> Trail:
+        """`trail` of these samples; those of the call before are not looked at again."""
+        first = next((i for i, old in enumerate(self._samples) if old is samples[0]), None)
+        known = 0 if first is None else len(self._samples) - first
+        if first is None or self._samples[first:] != list(samples[:known]):
+            self._trail = trail(samples)
+        elif first or known < len(samples):
+            new = trail(samples[known:])
+            self._trail = Trail(
+                *(
+                    np.concatenate((getattr(self._trail, f.name)[first:], getattr(new, f.name)))
+                    for f in fields(Trail)
+                )
+            )
+        self._samples = list(samples)
+        return self._trail
 
 
 def trail(samples: Sequence[Sample]) -> Trail:

@@ -129,6 +129,24 @@ def test_the_newest_poses_stay(shown: Benches) -> None:
     assert [y for _, y, _ in tails(bench)] == [5]
 
 
+def test_a_trail_that_grew_pose_by_pose_is_the_one_drawn_at_once(shown: Benches) -> None:
+    poses = [odometry(float(x), 0.5 * x, about_z(0.3 * x)) for x in range(9)]
+    grown = shown(keep=4)
+    for number, pose in enumerate(poses):
+        if number == 6:
+            grown.fixed_frame = "odom"
+        if number == 7:
+            grown.fixed_frame = "map"
+        grown.send(ODOMETRY, pose, frame="odom")
+        grown.turn()
+        at_once = shown(*poses[max(0, number - 3) : number + 1], keep=4)
+        at_once.fixed_frame = grown.fixed_frame
+        at_once.turn()
+        np.testing.assert_allclose(
+            grown.nodes()["poses"].segments, at_once.nodes()["poses"].segments, atol=1e-6
+        )
+
+
 def test_keep_0_keeps_all(shown: Benches) -> None:
     assert len(tails(shown(*map(odometry, range(150)), keep=0))) == 150
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from webviz.display import Keep
@@ -38,16 +39,21 @@ class History:
         self.version = 0
         """Another one whenever there is something else to draw."""
         self._free: list[int] = []
+        self._samples: list[Sample] | None = []
+        """What `samples` says, if that is known. Never changed in place, for others hold it."""
 
-    def samples(self) -> list[Sample]:
+    def samples(self) -> Sequence[Sample]:
         """What can be drawn, oldest first."""
-        return [held.sample for held in self.held if held.has_pose]
+        if self._samples is None:
+            self._samples = [held.sample for held in self.held if held.has_pose]
+        return self._samples
 
     def add(self, sample: Sample, keep: Keep) -> None:
         """Hold a sample. What `keep.count` then excludes goes first, so that its slot is free."""
         self._let_go(len(self.held) - _most(keep) + 1)
         slot = heapq.heappop(self._free) if self._free else len(self.held)
         self.held.append(Held(sample, slot))
+        self._samples = None if self._samples is None else [*self._samples, sample]
         self.version += 1
 
     def trim(self, keep: Keep, now_ns: int) -> None:
@@ -61,6 +67,8 @@ class History:
     def _let_go(self, count: int) -> None:
         """Forget the oldest samples; their slots are used again, the lowest first."""
         if count > 0:
+            is_whole = self._samples is not None and len(self._samples) == len(self.held)
+            self._samples = self._samples[count:] if self._samples and is_whole else None
             for held in self.held[:count]:
                 heapq.heappush(self._free, held.slot)
             del self.held[:count]
@@ -88,6 +96,7 @@ class History:
             held.has_pose = pose is not None
             if pose is not None:
                 held.sample = replace(sample, pose=pose)
+        self._samples = None
         self.version += 1
 
 
