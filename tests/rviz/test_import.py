@@ -259,6 +259,25 @@ def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     assert f"{at_line}: {what}" in said(report)
 
 
+def test_of_a_key_that_is_there_twice_the_last_one_counts() -> None:
+    assert one("Alpha: 0.5\nAlpha: 0.25").alpha == 0.25
+
+
+def test_panels_and_tools_of_ros_1_are_those_of_ros_2() -> None:
+    _, report = rviz.read(
+        "Panels: [{Class: rviz/Displays}, {Class: rviz/Views}]\n"
+        "Visualization Manager: {Tools: [{Class: rviz/MoveCamera}]}\n",
+        "x.rviz",
+    )
+    assert said(report) == ""
+    assert (report.carried["panels"], report.carried["tools"]) == (2, 1)
+
+
+def test_a_display_without_a_name_is_told_with_its_line() -> None:
+    _, report = opened("- Class: my_plugins/Laser\n- Class: my_plugins/Laser\n")
+    assert said(report).startswith("? (line 3), ? (line 4): my_plugins/Laser: there is no such")
+
+
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:
     _, report = opened('- {Class: x/Y, Name: "a\\e[2Jb\\nc"}\n')
     assert said(report).startswith("a [2Jb c: x/Y: ")
@@ -304,6 +323,8 @@ def test_panels_and_tools_are_told_once() -> None:
             Panels:
               - {Class: rviz_common/Displays, Name: Displays}
               - {Class: rviz_common/Time, Name: Time}
+              - {Class: rviz_common/Selection, Name: Selection}
+              - {Class: my_package/Lamp, Name: Lamp}
             Visualization Manager:
               Tools:
                 - Class: rviz_default_plugins/MoveCamera
@@ -314,8 +335,10 @@ def test_panels_and_tools_are_told_once() -> None:
         "x.rviz",
     )
     sentences = said(report)
-    assert "Panels: rviz_common/Time: not here yet" in sentences
-    assert "Tools: rviz_default_plugins/Measure, rviz_default_plugins/Select: not" in sentences
+    assert "Panels: rviz_common/Selection: nothing can be selected" in sentences
+    assert "Panels: my_package/Lamp: plug-ins of RViz do not run here" in sentences
+    assert "Tools: rviz_default_plugins/Measure, rviz_default_plugins/Select: nothing" in sentences
+    assert "rviz_common/Time" not in sentences
     assert "rviz_common/Displays" not in sentences
 
 

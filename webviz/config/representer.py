@@ -15,6 +15,7 @@ class Representer(SafeRepresenter):
     """ruamel's, but it quotes what would come back as something else."""
 
     def represent_str(self, data: Any) -> ScalarNode:
+        """Text, in quotes that hold ends of lines where it has any."""
         style = '"' if any(mark in data for mark in _BREAKS) else None
         return self.represent_scalar("tag:yaml.org,2002:str", data, style)
 

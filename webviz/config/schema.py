@@ -157,7 +157,9 @@ class _Schemas:
         if unit := known.get("unit"):
             words.append(f"In {unit}.")
         if when := known.get("when"):
-            words.append(f"Where {when[0]} is {msgspec.json.encode(when[1]).decode()}.")
+            values = when[1] if isinstance(when[1], tuple) else (when[1],)
+            told = [msgspec.json.encode(value).decode() for value in values]
+            words.append(f"Where {when[0]} is {' or '.join(told)}.")
         return {**made, "description": " ".join(words)} if words else made
 
 

@@ -13,6 +13,7 @@ from webviz.display import Color
 from webviz.rviz import values, views
 from webviz.rviz.displays import Kept, read_items, write_items
 from webviz.rviz.report import Report
+from webviz.rviz.rest import note_rest
 from webviz.rviz.tree import Tree, child, difference, parse, restored
 from webviz.rviz.tree import write as write_tree
 from webviz.rviz.values import Unfit
@@ -20,12 +21,6 @@ from webviz.rviz.values import Unfit
 MANAGER = "Visualization Manager"
 BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
 """RViz's defaults where a file says nothing."""
-
-SAME_HERE = {
-    "Tools": ("rviz_default_plugins/MoveCamera",),
-    "Panels": ("rviz_common/Displays", "rviz_common/Views"),
-}
-"""Classes that need no counterpart: the mouse always moves the camera, the panel is always there"""
 
 NEW_FILE: Tree = {
     "Panels": [
@@ -80,7 +75,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         report.note(MANAGER, "Displays", "it is no list, so there are no displays")
         entries = []
     items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
-    _note_the_rest(document, report)
+    note_rest(document, report)
     basis = _bare(settings)
     if views.kind_of(child(manager, "Views", "Current")) is None:
         del basis[MANAGER]["Views"]["Current"]  # it is kept whole
@@ -164,22 +159,3 @@ def _worth_keeping(entries: list[Tree]) -> list[Tree]:
     """Entries that hold something, and those needed to tell displays of one name apart."""
     alike = Counter((entry["Class"], entry["Name"]) for entry in entries)
     return [e for e in entries if len(e) > 2 or alike[e["Class"], e["Name"]] > 1]
-
-
-def _note_the_rest(document: Tree, report: Report) -> None:
-    """Tell of panels, tools and the window."""
-    manager = document[MANAGER]
-    for kind, entries in (("Panels", document.get("Panels")), ("Tools", manager.get("Tools"))):
-        for entry in entries if isinstance(entries, list) else []:
-            cls = values.text(entry.get("Class", "?")) if isinstance(entry, Mapping) else "?"
-            is_here = cls.replace("rviz/", "rviz_default_plugins/") in SAME_HERE[kind]
-            report.count(kind.lower(), is_here, 1)
-            if not is_here:
-                report.note(kind, cls, "not here yet, kept for export")
-    transformer = child(manager, "Transformation", "Current").get(
-        "Class", "rviz_default_plugins/TF"
-    )
-    if transformer != "rviz_default_plugins/TF":
-        report.note("Transformation", values.text(transformer), "here it is always tf2; it is kept")
-    if "Window Geometry" in document:
-        report.note("file", "Window Geometry", "a page has no docks; it is kept for export")

@@ -49,7 +49,7 @@ class Report:
     def table(self) -> str:
         """How many things of each kind were carried over, a line each."""
         lines = [
-            f"{kind:12} {self.carried[kind]:4} of {total:4}  {_percent(self.carried[kind], total)}"
+            f"{kind:12} {self.carried[kind]:4} of {total:4}  {percent(self.carried[kind], total)}"
             for kind, total in self.total.items()
         ]
         return "\n".join(lines)
@@ -82,5 +82,6 @@ def _listed(places: list[str]) -> str:
     return ", ".join([*places[:NAMED], *more])
 
 
-def _percent(part: int, whole: int) -> str:
+def percent(part: int, whole: int) -> str:
+    """A part as people say it."""
     return f"{100 * part / whole:3.0f} %" if whole else "-"
