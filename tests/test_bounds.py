@@ -1,0 +1,95 @@
+"""How far what is drawn reaches."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+
+from webviz.bounds import Box, bounds, union
+from webviz.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Node,
+    Points,
+    Pose,
+)
+
+Corners = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+SEGMENT = np.array([[(0, 0, 0), (1, 2, 3)]], np.float32)
+ORIGIN = np.zeros((1, 3), np.float32)
+UNTURNED = np.array([(1, 0, 0, 0)], np.float32)
+
+
+def box_of(node: Node) -> Corners:
+    box = bounds(node)
+    assert box is not None
+    low, high = ([round(part, 5) for part in corner.tolist()] for corner in (box.low, box.high))
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+@pytest.mark.parametrize(
+    ("node", "low", "high"),
+    [
+        (Points(SEGMENT[0], (0, 0, 0), 0.2), (-0.1, -0.1, -0.1), (1.1, 2.1, 3.1)),
+        (Lines(SEGMENT, (0, 0, 0), 4.0, "px"), (0, 0, 0), (1, 2, 3)),
+        (Lines(SEGMENT, (0, 0, 0), 1.0, "m"), (-0.5, -0.5, -0.5), (1.5, 2.5, 3.5)),
+        (Arrows(SEGMENT, (0, 0, 0), 0.1, 0.5, 0.2), (-0.5, -0.5, -0.5), (1.5, 2.5, 3.5)),
+        (Axes(ORIGIN, UNTURNED, 2.0, 0.1), (-2, -2, -2), (2, 2, 2)),
+        (Labels(ORIGIN, ("a",), 0.5), (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)),
+        (Mesh(SEGMENT[0], np.zeros((0, 3), np.uint32), (0, 0, 0)), (0, 0, 0), (1, 2, 3)),
+        (Instances(ORIGIN, SEGMENT[0][1:], (0, 0, 0)), (-0.5, -1, -1.5), (0.5, 1, 1.5)),
+        (Image(np.zeros((2, 2, 4), np.uint8), 3.0, 4.0), (0, 0, 0), (3, 4, 0)),
+    ],
+)
+def test_the_box_of_each_kind_of_node(
+    node: Node, low: tuple[float, ...], high: tuple[float, ...]
+) -> None:
+    assert box_of(node) == (low, high)
+
+
+def test_turned_solids_are_within_their_box() -> None:
+    turned = np.array([(0.8, 0.6, 0, 0)], np.float32)
+    low, high = box_of(Instances(ORIGIN, np.array([(3, 4, 0)], np.float32), (0, 0, 0), wxyzs=turned))
+    assert (low, high) == ((-2.5, -2.5, -2.5), (2.5, 2.5, 2.5))
+
+
+def test_a_binary_gltf_is_read_with_the_places_of_its_parts() -> None:
+    scene = trimesh.Scene()
+    turn = trimesh.transformations.rotation_matrix(math.pi / 2, (0, 0, 1), (0, 0, 0))
+    turn[:3, 3] = (10, 0, 0)
+    scene.add_geometry(trimesh.creation.box((2, 4, 6)), transform=turn)
+    data = scene.export(file_type="glb")
+    assert isinstance(data, bytes)
+    assert box_of(Glb(data)) == ((8, -1, -3), (12, 1, 3))
+
+
+def test_nothing_and_what_is_not_finite_has_no_box() -> None:
+    assert bounds(Points(np.zeros((0, 3), np.float32), (0, 0, 0), 1.0)) is None
+    lost = np.array([(math.nan, 0, 0), (math.inf, 0, 0)], np.float32)
+    assert bounds(Points(lost, (0, 0, 0), 1.0)) is None
+    assert union([]) is None
+
+
+def test_a_moved_box_is_around_all_that_was_in_it() -> None:
+    box = Box(np.zeros(3), np.array((2.0, 0.0, 0.0)))
+    half = math.pi / 8
+    moved = box.moved(Pose((1.0, 0.0, 0.0), (math.cos(half), 0.0, 0.0, math.sin(half))))
+    np.testing.assert_allclose(moved.low, (1, 0, 0), atol=1e-12)
+    np.testing.assert_allclose(moved.high, (1 + 2**0.5, 2**0.5, 0), atol=1e-12)
+
+
+def test_a_union_holds_all() -> None:
+    boxes = [Box(np.full(3, low), np.full(3, low + 1.0)) for low in (0.0, -3.0, 2.0)]
+    box = union(boxes)
+    assert box is not None
+    assert (box.low.tolist(), box.high.tolist()) == ([-3] * 3, [3] * 3)
