@@ -12,6 +12,8 @@ MODULES = sorted(path for package in PACKAGES for path in package.rglob("*.py"))
 
 EDGES = {"webviz.ros": "rclpy", "webviz.scene": "viser", "webviz.gui": "viser"}
 TOP = {
+    "webviz.adding",
+    "webviz.handles",
     "webviz.app",
     "webviz.capture_stage",
     "webviz.capturing",

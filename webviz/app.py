@@ -10,24 +10,29 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from webviz import config as config_file
+from webviz.adding import by_topic, check_properties
 from webviz.commands import (
     AddDisplay,
     Export,
     Load,
     Open,
     Pause,
+    RemoveView,
     Reset,
     Save,
+    SaveView,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
+    ShowView,
+    StartWithView,
 )
 from webviz.display import Color
 from webviz.errors import Error
-from webviz.handles import DisplayHandle, NoSuchDisplay, check_properties
-from webviz.registry import display_types
-from webviz.running import Running
+from webviz.handles import DisplayHandle, NoSuchDisplay
+from webviz.running import Running, checked_view
 from webviz.status import Status
+from webviz.views import View
 
 if TYPE_CHECKING:
     pass
@@ -154,7 +159,7 @@ class Viewer(Running):
             Error: there is no such type or property, or a value does not fit; one sentence.
         """
         if type is None:
-            type, properties = self._by_topic(properties)
+            type, properties = by_topic(properties, self.topics)
         check_properties(type, properties)
         made: list[str] = []
         self.do(AddDisplay(type, properties, self._group_id(group), made.append))
@@ -186,6 +191,38 @@ class Viewer(Running):
     @frame_rate.setter
     def frame_rate(self, hz: float) -> None:
         self.do(SetFrameRate(hz))
+
+    @property
+    def view(self) -> View:
+        """What browsers and pictures begin with.
+
+        Assign a view, its values as in a config file, or the name of a saved one: then every
+        browser looks so, now and when it joins.
+        """
+        return self.state.settings.view
+
+    @view.setter
+    def view(self, view: View | str | Mapping[str, Any]) -> None:
+        wanted = view if isinstance(view, str) else checked_view(view)
+        self.do(StartWithView(view=wanted))
+        self.do(ShowView(wanted))
+
+    @property
+    def views(self) -> dict[str, View]:
+        """The saved views by name."""
+        return dict(self.state.settings.views)
+
+    def save_view(self, name: str, view: View | Mapping[str, Any] | None = None) -> None:
+        """Keep a view under a name, by default what the newest browser shows.
+
+        Raises:
+            Error: no browser is open, or a value of the view does not fit.
+        """
+        self.do(SaveView(name, view=None if view is None else checked_view(view)))
+
+    def remove_view(self, name: str) -> None:
+        """Forget a saved view."""
+        self.do(RemoveView(name))
 
     def reset(self) -> None:
         """Forget transforms and messages, as RViz's Reset does."""
@@ -255,22 +292,3 @@ class Viewer(Running):
         if handle.type != "Group":
             raise Error(f"{handle.name} is no group, so nothing can be in it.")
         return handle.id
-
-    def _by_topic(self, properties: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-        """The display type that shows a topic, and the properties with the topic in its place."""
-        from webviz.gui.by_topic import picks
-
-        topic = properties.pop("topic", None)
-        if not isinstance(topic, str):
-            raise Error("Give the type of the display, or the name of a topic that is published.")
-        if topic not in self.topics:
-            hint = config_file.nearest(topic, self.topics) if self.topics else "nobody does any."
-            raise Error(f"Nobody publishes {topic}, so give the type of the display: {hint}")
-        fitting = [pick for pick in picks(self.topics, display_types()) if pick.topic == topic]
-        if not fitting:
-            types = ", ".join(self.topics[topic])
-            raise Error(f"No display shows {topic}, whose type is {types}.")
-        if len(fitting) > 1:
-            names = ", ".join(pick.display for pick in fitting)
-            raise Error(f"Several displays show {topic}, so say which: {names}.")
-        return fitting[0].display, {fitting[0].input: topic, **properties}

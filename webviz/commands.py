@@ -204,10 +204,12 @@ class SaveView:
     Args:
         name: of the view; one that has it is replaced.
         browser: id of the browser, None for the one that came last.
+        view: instead of what a browser shows.
     """
 
     name: str
     browser: int | None = None
+    view: View | None = None
 
 
 @dataclass(frozen=True)
@@ -231,9 +233,11 @@ class StartWithView:
 
     Args:
         browser: id of the browser, None for the one that came last.
+        view: instead of what a browser shows, or the name of a saved one.
     """
 
     browser: int | None = None
+    view: View | str | None = None
 
 
 @dataclass(frozen=True)

@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Protocol
 
+from webviz.adding import NoSuchProperty, no_property
 from webviz.commands import (
     Command,
     DuplicateDisplay,
+    FocusDisplay,
     MoveDisplay,
     RemoveDisplay,
     SetProperty,
 )
-from webviz.config import nearest
 from webviz.errors import Error
-from webviz.registry import display_types
 from webviz.state import Row, State
 from webviz.status import Level, Status
 
 
 class NoSuchDisplay(Error, LookupError):
     """There is no display of that name or number, or several, or it was removed."""
-
-
-class NoSuchProperty(Error, AttributeError):
-    """A display has no property of that name."""
 
 
 class Owner(Protocol):
@@ -103,6 +99,15 @@ class DisplayHandle:
         """Remove it, a group with all that is in it."""
         self._row()
         self._viewer.do(RemoveDisplay(self.id))
+
+    def focus(self) -> None:
+        """Let every browser look at all that it draws, or what is in a group.
+
+        Raises:
+            Error: no browser is open, or nothing of it is drawn.
+        """
+        self._row()
+        self._viewer.do(FocusDisplay(self.id))
 
     def duplicate(self) -> DisplayHandle:
         """Add a copy right behind it, of a group with all that is in it."""
@@ -195,7 +200,7 @@ class DisplayHandle:
             reason = " ".join(status.text for status in row.statuses.values())
             raise NoSuchProperty(f"{row.name} cannot be shown, so it has no properties: {reason}")
         if name not in self._properties():
-            raise NoSuchProperty(_no_property(row.type, name, self._properties()))
+            raise NoSuchProperty(no_property(row.type, name, self._properties()))
 
     def _parent(self) -> DisplayHandle | None:
         """The group it is in."""
@@ -206,19 +211,3 @@ class DisplayHandle:
     def _ancestors(self) -> list[DisplayHandle]:
         parent = self._parent()
         return [parent, *parent._ancestors()] if parent is not None else []
-
-
-def check_properties(type: str, properties: Mapping[str, Any]) -> None:
-    """Tell what a display type lacks; of a type that does not exist others tell.
-
-    Raises:
-        NoSuchProperty: one of these.
-    """
-    if cls := display_types().get(type):
-        for name in properties:
-            if name not in cls.__struct_fields__:
-                raise NoSuchProperty(_no_property(type, name, cls.__struct_fields__))
-
-
-def _no_property(type: str, name: str, valid: Iterable[str]) -> str:
-    return f"{type} has no property `{name}`, {nearest(name, valid)}"

@@ -10,7 +10,7 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,10 +21,11 @@ import PIL.Image
 from webviz import config as config_file
 from webviz import picture_files
 from webviz import plugins as plugin_files
-from webviz.commands import Command, Refresh
+from webviz.commands import Command, Refresh, StartWithView
 from webviz.config import Config
 from webviz.errors import Error
 from webviz.state import State
+from webviz.views import View, with_type
 
 if TYPE_CHECKING:
     from webviz.browser import Pixels
@@ -114,6 +115,8 @@ class Running:
             watcher.start(self._loop.enqueue)
             stack.callback(watcher.stop)
             self.do(Refresh())  # so that there is a state
+            if control is not None and (name := control.asked["view"]):
+                self.do(StartWithView(view=name))
             if control is not None:
                 control.open(self)
             self._stack = stack.pop_all()
@@ -164,7 +167,11 @@ class Running:
         raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
 
     def screenshot(
-        self, path: str | os.PathLike[str] | None = None, *, size: tuple[int, int] = (1280, 720)
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        view: View | str | Mapping[str, Any] | None = None,
     ) -> Pixels:
         """Make a picture of the scene, as a browser that joins now shows it.
 
@@ -173,6 +180,7 @@ class Running:
         Args:
             path: where to write it, by its ending as PNG, JPEG or WebP; None is nowhere.
             size: width and height in pixels.
+            view: instead of the one that browsers begin with; or the name of a saved one.
 
         Returns:
             uint8 (height, width, 3).
@@ -182,7 +190,13 @@ class Running:
         """
         if path is not None:
             picture_files.check(Path(path), is_animation=False, transparent=False)
-        pixels = self._snapshots.take(self.url, size)
+        if isinstance(view, str):
+            if view not in (saved := self.state.settings.views):
+                hint = config_file.nearest(view, saved) if saved else "none is saved."
+                raise Error(f"There is no saved view `{view}`: {hint}")
+            view = saved[view]
+        looked = None if view is None else checked_view(view)
+        pixels = self._snapshots.take(self.url, size, looked)
         if path is not None:
             picture_files.save(PIL.Image.fromarray(pixels), Path(path))
         return pixels
@@ -214,6 +228,18 @@ class Running:
     def _show(self, state: State) -> None:
         self._state = state
         self._panel.update(state)
+
+
+def checked_view(view: View | Mapping[str, Any]) -> View:
+    """A view whose values fit.
+
+    Raises:
+        Error: one does not; a sentence.
+    """
+    try:
+        return msgspec.convert(with_type(msgspec.to_builtins(view)), View)
+    except msgspec.ValidationError as error:
+        raise Error(f"That is no view: {config_file.describe(error)}.") from error
 
 
 def ros_source(ros_args: Sequence[str] = ()) -> RosSource:

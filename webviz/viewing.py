@@ -183,7 +183,7 @@ class Viewing:
         saved = settings.views
         match command:
             case ShowView(view, browser):
-                self._cameras.show(_found(view, saved) if isinstance(view, str) else view, browser)
+                self._cameras.show(_named(view, saved), browser)
             case ChangeView(key, value, browser):
                 for id_, view in self._seen(browser).items():
                     self._cameras.show(self._changed(view, key, value, frames, id_), id_)
@@ -192,10 +192,10 @@ class Viewing:
                     self._cameras.show(type(view)(target_frame=view.target_frame), id_)
             case FocusDisplay(_, browser):
                 self._focus(within, browser, frames)
-            case SaveView(name, browser):
+            case SaveView(name, browser, view):
                 if not name:
                     raise ConfigError("A saved view needs a name.")
-                return {"views": {**saved, name: self._one(browser)}}
+                return {"views": {**saved, name: view or self._one(browser)}}
             case RenameView(name, new_name):
                 view = _found(name, saved)
                 if new_name != name and new_name in saved:
@@ -205,8 +205,8 @@ class Viewing:
             case RemoveView(name):
                 _found(name, saved)
                 return {"views": {key: view for key, view in saved.items() if key != name}}
-            case StartWithView(browser):
-                return {"view": self._one(browser)}
+            case StartWithView(browser, view):
+                return {"view": self._one(browser) if view is None else _named(view, saved)}
             case SaveImage(browser, name):
                 self._cameras.save_image(name, browser)
         return {}
@@ -257,6 +257,10 @@ class Viewing:
 
 def _rig(cls: type[View], frame: str, frames: Frames) -> Rig:
     return Rig() if frame == FIXED_FRAME else rig_of(cls, frames.latest(frame))
+
+
+def _named(view: View | str, saved: Mapping[str, View]) -> View:
+    return _found(view, saved) if isinstance(view, str) else view
 
 
 def _found(name: str, saved: Mapping[str, View]) -> View:

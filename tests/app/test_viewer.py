@@ -16,6 +16,7 @@ import webviz
 from webviz.commands import Refresh
 from webviz.testing import header, serialized
 from webviz.testing.source import HandFedSource
+from webviz.views import Orbit, TopDownOrtho
 
 Refused = Callable[[Callable[[], object]], str]
 
@@ -179,3 +180,22 @@ def test_a_display_of_a_plug_in_can_be_added(source: HandFedSource, tmp_path: Pa
     plugin.write_text("import webviz\nclass Mine(webviz.Display):\n    size: float = 1.0\n")
     with webviz.Viewer(port=0, source=source, plugins=[plugin]) as viewer:
         assert viewer.add("Mine", size=2.0).size == 2.0
+
+
+def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused: Refused) -> None:
+    above = {"type": "TopDownOrtho", "scale": 50.0}
+    viewer.save_view("Above", above)
+    viewer.view = {"distance": 3.0}
+    assert viewer.view == Orbit(distance=3.0)
+    viewer.view = "Above"
+    assert viewer.view == viewer.views["Above"] == TopDownOrtho(scale=50.0)
+    assert viewer.config["view"].items() >= above.items()
+
+    def look(view: object) -> Callable[[], None]:
+        return lambda: setattr(viewer, "view", view)
+
+    assert "did you mean `Above`" in refused(look("Abve"))
+    assert refused(look({"type": "Orbit", "distance": -1})).startswith("That is no view: distance:")
+    viewer.remove_view("Above")
+    assert viewer.views == {}
+    assert refused(lambda: viewer.save_view("Here")).startswith("No browser is open")

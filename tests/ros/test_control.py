@@ -37,6 +37,13 @@ from webviz.testing import header, serialized
 
 TF = "tf2_msgs/msg/TFMessage"
 CONFIG = "fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]\n"
+VIEWS = """\
+view: {distance: 3.0}
+views:
+  Above: {type: TopDownOrtho, scale: 20.0}
+  Close: {distance: 1.0}
+displays: []
+"""
 
 
 class Client:
@@ -339,3 +346,27 @@ def test_without_std_srvs_the_rest_works(
         assert "install ros-jazzy-std-srvs" in caplog.text
     finally:
         source.close()
+
+
+def test_a_saved_view_is_chosen_by_a_parameter(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, tmp_path: Path
+) -> None:
+    path = tmp_path / "views.yaml"
+    path.write_text(VIEWS)
+    viewer = open_viewer(path, ["view:=Close"])
+    assert viewer.view == viewer.views["Close"]
+    client.until(lambda: client.get("view") == "Close", "the view is told")
+    assert client.set("view", "Above") == ""
+    assert viewer.view == viewer.views["Above"]
+    assert client.set("view", "Abve") == "There is no saved view `Abve`: did you mean `Above`?"
+    assert client.set("view", "") != ""
+    assert client.get("view") == "Above"
+    viewer.view = {"distance": 7.0}
+    client.until(lambda: client.get("view") == "", "that it is none of the saved ones is told")
+
+
+def test_a_view_at_the_start_that_is_not_saved_is_refused(
+    open_viewer: Callable[..., webviz.Viewer],
+) -> None:
+    with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: none is saved\.$"):
+        open_viewer(parameters=["view:=Above"])

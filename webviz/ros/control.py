@@ -12,17 +12,26 @@ from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from webviz.commands import Command, Open, Reset, Save, SetFixedFrame
+from webviz.commands import (
+    Command,
+    Open,
+    Reset,
+    Save,
+    SetFixedFrame,
+    ShowView,
+    StartWithView,
+)
 from webviz.config import nearest
 from webviz.errors import Error
 from webviz.state import State
 
 log = logging.getLogger("webviz")
 
-CONFIG_FILE, FIXED_FRAME = "config_file", "fixed_frame"
+CONFIG_FILE, FIXED_FRAME, VIEW = "config_file", "fixed_frame", "view"
 PARAMETERS = {
     CONFIG_FILE: "The file that the config came from; setting it opens another one.",
     FIXED_FRAME: "The frame that everything is drawn in.",
+    VIEW: "The saved view that browsers begin with; setting it moves every camera.",
 }
 NO_SERVICES = (
     "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are left "
@@ -96,7 +105,12 @@ class Control:
 
     def _tell(self, state: State) -> None:
         """Give parameters the values that are true now."""
-        values = {CONFIG_FILE: _absolute(state.file.path), FIXED_FRAME: state.fixed_frame}
+        begin, saved = state.settings.view, state.settings.views
+        values = {
+            CONFIG_FILE: _absolute(state.file.path),
+            FIXED_FRAME: state.fixed_frame,
+            VIEW: next((name for name, view in saved.items() if view == begin), ""),
+        }
         new = [
             Parameter(name, value=value)
             for name, value in values.items()
@@ -115,9 +129,10 @@ class Control:
             return SetParametersResult(successful=True)
         try:
             commands = [
-                self._command(parameter.name, str(parameter.value))
+                command
                 for parameter in parameters
                 if parameter.name in PARAMETERS
+                for command in self._commands(parameter.name, str(parameter.value))
             ]
             for command in commands:
                 self._steered().do(command)
@@ -125,15 +140,17 @@ class Control:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
-    def _command(self, name: str, value: str) -> Command:
+    def _commands(self, name: str, value: str) -> Sequence[Command]:
+        if name == VIEW:
+            return StartWithView(view=value), ShowView(value)
         if name == CONFIG_FILE:
             if not value:
                 raise Error("A config_file needs a name.")
-            return Open(_absolute(value))
+            return (Open(_absolute(value)),)
         frame, known = value.removeprefix("/"), self._steered().state.frames
         if known and frame not in known:
             raise Error(f"Nobody publishes a frame named {frame!r}: {nearest(frame, known)}")
-        return SetFixedFrame(frame)
+        return (SetFixedFrame(frame),)
 
     def _steered(self) -> Steered:
         if self._viewer is None:

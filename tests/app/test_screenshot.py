@@ -1,0 +1,58 @@
+"""Pictures of a viewer at work, by a real browser."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+
+import webviz
+from webviz.browser import VARIABLE
+
+SIZE = (320, 240)
+BEHIND = (10, 40, 80)
+
+
+def is_red(pixels: np.ndarray) -> float:
+    """The share of a picture that has the colour of the x axis, lit or not."""
+    red, green, blue = pixels.astype(int).transpose(2, 0, 1)
+    return float(((red > 120) & (green < 60) & (blue < 60)).mean())
+
+
+def test_a_picture_has_what_was_added_just_before(viewer: webviz.Viewer, tmp_path: Path) -> None:
+    viewer.background = BEHIND
+    viewer.view = {"type": "TopDownOrtho", "scale": 100.0}
+    before = viewer.screenshot(size=SIZE)
+    assert before.shape == (240, 320, 3)
+    assert np.array_equal(before, np.full_like(before, BEHIND))
+    viewer.add("Axes", length=1.0, radius=0.2)
+    path = tmp_path / "now.png"
+    after = viewer.screenshot(path, size=SIZE)
+    assert 0.03 < is_red(after) < 0.06
+    assert np.array_equal(np.asarray(PIL.Image.open(path)), after)
+    viewer.save_view("Far", {"type": "TopDownOrtho", "scale": 20.0})
+    far = viewer.screenshot(size=SIZE, view="Far")
+    assert 0.0 < is_red(far) < 0.3 * is_red(after)
+
+
+def test_a_notebook_can_make_a_picture(viewer: webviz.Viewer) -> None:
+    async def cell() -> np.ndarray:
+        return viewer.screenshot(size=SIZE)
+
+    assert asyncio.run(cell()).shape == (240, 320, 3)
+
+
+def test_what_cannot_be_made_is_refused(
+    viewer: webviz.Viewer,
+    refused: Callable[[Callable[[], object]], str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert "no ending of a picture" in refused(lambda: viewer.screenshot("now.txt"))
+    assert "pixels a side" in refused(lambda: viewer.screenshot(size=(1, 1)))
+    assert "There is no saved view `Top`" in refused(lambda: viewer.screenshot(view="Top"))
+    monkeypatch.setenv(VARIABLE, "/no/browser")
+    assert "/no/browser" in refused(viewer.screenshot)
