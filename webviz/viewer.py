@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import functools
 import logging
-import queue
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -12,8 +10,6 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
-
-import msgspec
 
 from webviz import config as config_file
 from webviz import plugins
@@ -30,10 +26,9 @@ from webviz.commands import (
     Reset,
     ViewCommand,
 )
-from webviz.config import Config, ConfigError, Settings
+from webviz.config import Config, Settings
 from webviz.display import Color
 from webviz.display_list import DisplayList
-from webviz.errors import Error
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
@@ -41,9 +36,10 @@ from webviz.pipeline.listener import TransformListener
 from webviz.pipeline.ros_time import RosTime
 from webviz.pipeline.stopwatch import Stopwatch
 from webviz.pipeline.topic_monitor import TopicMonitor
+from webviz.requests import Requests
 from webviz.session import Session
 from webviz.sources import Offer, Source, Subscription
-from webviz.state import Answer, State
+from webviz.state import State
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer, tree_text
 from webviz.viewing import ViewedScene, Viewing
@@ -56,11 +52,6 @@ PANEL_S = 0.2
 FOLDER_S = 2.0
 """How often to look for config files that others wrote."""
 AUTOSAVE_S = 2.0
-MAX_COMMANDS = 1000
-
-
-class Refused(Error):
-    """A command that cannot be done; one sentence says why."""
 
 
 class Scene(DrawingScene, ViewedScene, Protocol):
@@ -117,8 +108,7 @@ class Viewer:
         self._show = show
         self._workers = Workers(self._wake)
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
-        self._commands: queue.Queue[tuple[Command, Future[str]]] = queue.Queue(MAX_COMMANDS)
-        self._answer = Answer()
+        self._requests = Requests()
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
         self._session = Session(self._list, config, path, autosave)
@@ -138,15 +128,10 @@ class Viewer:
         """Ask for a change from any thread; it is done on the next turn of the loop.
 
         Returns:
-            What there is to tell of it, once it is done, drawn and shown; a `Refused` if it could
-            not be done.
+            What there is to tell of it, once it is done, drawn and shown; a
+            `webviz.requests.Refused` if it could not be done.
         """
-        answer: Future[str] = Future()
-        try:
-            self._commands.put_nowait((command, answer))
-        except queue.Full:
-            log.warning("Too many requests at once, ignored: %s", command)
-            answer.set_exception(Refused("Too many requests at once."))
+        answer = self._requests.put(command)
         self._wake()
         return answer
 
@@ -172,13 +157,14 @@ class Viewer:
 
     def close(self) -> None:
         """End the slow work beside the loop, and keep the last state if that is wanted."""
+        self._requests.end()
         self._workers.close()
         if keep := self._session.keep():
             keep()
 
     def turn(self) -> None:
         """One turn of the frame loop."""
-        answers = self._obey()
+        answers = self._requests.obey(self._do)
         now_ns, offers = self._source.now_ns(), self._source.offers()
         # While paused, messages wait in the inbox, which is bounded and counts what gives way.
         batches = self._source.inbox.drain() if self._paused_ns is None else {}
@@ -220,7 +206,7 @@ class Viewer:
             {"Fixed Frame": self._fixed_frame_status(), **self._global_statuses(offers, frames)},
             self.settings,
             self._session.file(),
-            self._answer,
+            self._requests.answer,
             self._stopwatch.clock(frames.now_ns, self._paused_ns is not None),
             offers,
             self._monitor.traffic(),
@@ -234,33 +220,6 @@ class Viewer:
         return self._session.config()
 
     # Commands
-
-    def _obey(self) -> list[Callable[[], None]]:
-        """Do what was asked for, and return what tells each of those who asked."""
-        answers: list[Callable[[], None]] = []
-        while not self._commands.empty():
-            command, answer = self._commands.get_nowait()
-            try:
-                text = self._do_or_say_why(command)
-            except Refused as error:
-                log.warning("%s", error)
-                self._answer = Answer(self._answer.number + 1, Level.ERROR, str(error))
-                answers.append(functools.partial(answer.set_exception, error))
-            else:
-                if text:
-                    self._answer = Answer(self._answer.number + 1, Level.OK, text)
-                answers.append(functools.partial(answer.set_result, text))
-        return answers
-
-    def _do_or_say_why(self, command: Command) -> str:
-        try:
-            return self._do(command)
-        except ConfigError as error:
-            raise Refused(str(error)) from error
-        except msgspec.ValidationError as error:
-            raise Refused(f"Not changed: {config_file.describe(error)}.") from error
-        except AttributeError as error:
-            raise Refused(f"Not changed: {error}.") from error
 
     def _do(self, command: Command) -> str:
         match command:
@@ -277,7 +236,7 @@ class Viewer:
                 pass  # every command is followed by a new state
             case ReloadPlugin(path):
                 plugins.reload(path, self._list.runners())
-                self._list.read_again()
+                self._session.settings = self._list.read_again(self.settings)
             case Open() | Load():
                 text = self._session.do(command)
                 self._viewing.open(self.settings.view)

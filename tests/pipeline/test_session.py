@@ -263,3 +263,18 @@ def test_what_is_refused_is_told_and_changes_nothing(
     assert str(future.exception(timeout=0)) == answer.text
     assert b.viewer.config().settings == before.settings
     assert names(b.states[-1]) == ["A"]
+
+
+def test_who_asks_after_the_end_is_refused(bench: Callable[..., Any]) -> None:
+    b = bench()
+    waiting = b.viewer.enqueue(SetFrameRate(10.0))
+    b.viewer.close()
+    for future in (waiting, b.viewer.enqueue(SetFrameRate(20.0))):
+        assert str(future.exception(timeout=0)) == "The viewer has ended."
+
+
+def test_what_nobody_waits_for_any_more_is_not_done(bench: Callable[..., Any]) -> None:
+    b = bench()
+    assert b.viewer.enqueue(SetFrameRate(10.0)).cancel()
+    b.turn()
+    assert b.viewer.settings.frame_rate == 60.0
