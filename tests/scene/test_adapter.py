@@ -17,7 +17,7 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
 from webviz.scene import Scene
-from webviz.scene.adapter import MAX_TOMBSTONES
+from webviz.scene.adapter import MAX_TOMBSTONES, _Orientation, _Position
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:
@@ -60,6 +60,23 @@ def test_messages_that_we_queue_have_the_fields_that_we_fill(
 )
 def test_nodes_have_the_properties_that_we_update(props: type[Any], names: set[str]) -> None:
     assert names <= set(inspect.signature(props).parameters)
+
+
+@pytest.mark.parametrize(
+    ("ours", "original"),
+    [
+        (_Position("/a", (1.0, 2.0, 3.0)), wire.SetPositionMessage("/a", (1.0, 2.0, 3.0))),
+        (
+            _Orientation("/a", (0.6, 0.8, 0.0, 0.0)),
+            wire.SetOrientationMessage("/a", (0.6, 0.8, 0.0, 0.0)),
+        ),
+    ],
+)
+def test_poses_are_packed_as_viser_packs_them(ours: Any, original: Any) -> None:
+    assert ours.as_serializable_dict([]) == original.as_serializable_dict([])
+    assert ours.redundancy_key() == original.redundancy_key()
+    assert ours.entity_state_key() == original.entity_state_key()
+    assert ours.lifecycle_phase == original.lifecycle_phase
 
 
 def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(

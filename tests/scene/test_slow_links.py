@@ -21,7 +21,7 @@ class Queue:
 
     def __init__(self) -> None:
         self.live: dict[int, Any] = {}
-        self.outbox = Outbox()
+        self.outbox = Outbox(wire.LocalStorageGetItemRequestMessage)
         self._count = 0
 
     def push(self, message: Any) -> None:

@@ -30,6 +30,28 @@ MAX_TOMBSTONES = 10_000
 _PRUNE_EVERY = 500
 
 
+class _Position(wire.SetPositionMessage, include_in_scene_serialization=True):
+    """viser's, packed for each browser at a tenth of the cost."""
+
+    def redundancy_key(self) -> str:
+        return f"scene:{self.name}:update:SetPositionMessage"
+
+    def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
+        whose = {"name": self.name, "owner": self.owner}
+        return {"type": "SetPositionMessage", "position": self.position, **whose}
+
+
+class _Orientation(wire.SetOrientationMessage, include_in_scene_serialization=True):
+    """viser's, packed for each browser at a tenth of the cost."""
+
+    def redundancy_key(self) -> str:
+        return f"scene:{self.name}:update:SetOrientationMessage"
+
+    def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
+        whose = {"name": self.name, "owner": self.owner}
+        return {"type": "SetOrientationMessage", "wxyz": self.wxyz, **whose}
+
+
 class Adapter:
     """Sends a scene's messages to every browser of one viser server.
 
@@ -55,11 +77,11 @@ class Adapter:
 
     def set_position(self, name: str, position: tuple[float, float, float]) -> None:
         """Places a node relative to its parent, however small the move."""
-        self._queue(wire.SetPositionMessage(name, position))
+        self._queue(_Position(name, position))
 
     def set_orientation(self, name: str, wxyz: tuple[float, float, float, float]) -> None:
         """Turns a node relative to its parent, however little."""
-        self._queue(wire.SetOrientationMessage(name, wxyz))
+        self._queue(_Orientation(name, wxyz))
 
     def update(self, name: str, props: dict[str, Any]) -> None:
         """Assigns several properties in one message; arrays must not change afterwards.
@@ -235,7 +257,8 @@ async def _windows(
     backlog_last_id: int,
     backlog_done_message: Message | None,
 ) -> AsyncGenerator[Sequence[Message], None]:
-    outbox = Outbox()
+    # What asks whether all has arrived comes last.
+    outbox = Outbox(wire.LocalStorageGetItemRequestMessage)
     end_of_backlog = backlog_done_message
     flushed = asyncio.ensure_future(buffer.flush_event.wait())
     buffer.generator_cursors[client_id] = outbox.cursor

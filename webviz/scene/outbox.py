@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
-from viser import _messages as wire
-from viser.infra._messages import Message
 
 BULK_BYTES = 1 << 15
 """What carries more waits for its turn: clouds, pictures, meshes."""
 
 WINDOW_BYTES = 1 << 19
 """Of large messages in one piece. At 1 MB/s, what comes next is half a second behind."""
+
+
+class Message(Protocol):
+    """What matters of viser's messages."""
+
+    def redundancy_key(self) -> str:
+        """What a newer message must have in common to replace it."""
+        ...
+
+
+M = TypeVar("M", bound=Message)
 
 
 class Outbox:
@@ -24,9 +33,13 @@ class Outbox:
     are there already, so they may come later than what was queued after them. They take turns: a
     newer version of one takes the place of the older in the line, and a slow browser sees all of
     them change, none in vain.
+
+    Args:
+        last: the type of messages that must not arrive before what was queued before them.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, last: type) -> None:
+        self._last = last
         self.cursor = -1
         """Number of the last message that was sent or is in the line."""
         self._line: dict[object, int] = {}
@@ -35,7 +48,7 @@ class Outbox:
         """Whether large messages are in the line."""
         return bool(self._line)
 
-    def small(self, live: Mapping[int, Message], newest: int, limit: int | None) -> list[Message]:
+    def small(self, live: Mapping[int, M], newest: int, limit: int | None) -> list[M]:
         """The small messages up to number `newest`, of at most `limit` numbers; others line up.
 
         Args:
@@ -56,15 +69,15 @@ class Outbox:
             message = live[number]
             if bulk(message) > BULK_BYTES:
                 self._line[message.redundancy_key()] = number
-            elif self._line and isinstance(message, wire.LocalStorageGetItemRequestMessage):
-                self._line[number] = number  # asks whether all before has arrived
+            elif self._line and isinstance(message, self._last):
+                self._line[number] = number
             else:
                 window.append(message)
         return window
 
-    def large(self, live: Mapping[int, Message]) -> list[Message]:
+    def large(self, live: Mapping[int, M]) -> list[M]:
         """The next messages of the line that still exist: as many as fit, at least one."""
-        window: list[Message] = []
+        window: list[M] = []
         room = WINDOW_BYTES
         for key, number in tuple(self._line.items()):
             message = live.get(number)
