@@ -129,7 +129,8 @@ def _write(options: argparse.Namespace, order: Order) -> int:
                 written.append(name)
     width, height = order.size
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
-    print(f"webviz: wrote {names} ({report.count} of {width} x {height}).")
+    pictures_of = "a picture" if report.count == 1 else f"{report.count} pictures"
+    print(f"webviz: wrote {names}, {pictures_of} of {width} x {height} pixels.")
     return report.tell(options.timeout)
 
 

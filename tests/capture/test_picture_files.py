@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import PIL.Image
+import PIL.ImageSequence
 import pytest
 
 from webviz.picture_files import (
@@ -57,10 +58,9 @@ def test_an_animation_shows_every_picture(tmp_path, ending):
     save_animation((plain(color) for color in (RED, BLUE, RED)), path, 5.0)
     with PIL.Image.open(path) as image:
         frames = []
-        for index in range(image.n_frames):
-            image.seek(index)
-            frames.append(np.asarray(image.convert("RGB"), int)[10, 10])
-            assert image.info["duration"] == 200
+        for frame in PIL.ImageSequence.Iterator(image):
+            frames.append(np.asarray(frame.convert("RGB"), int)[10, 10])
+            assert frame.info["duration"] == 200
         assert image.info["loop"] == 0
     assert np.abs(np.array(frames) - (RED, BLUE, RED)).max() < 5
 

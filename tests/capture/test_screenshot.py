@@ -1,0 +1,221 @@
+"""`webviz screenshot` as a user meets it: files, words, exit status, and nothing left behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import PIL.ImageSequence
+import psutil
+import pytest
+from bags import strings
+from program import Program
+
+from webviz.screenshot_options import parse_arguments
+
+CONFIG = Path(__file__).parent / "top.yaml"
+COMMAND = [sys.executable, "-m", "webviz", "screenshot", "-d", str(CONFIG)]
+SMALL = ["--size", "320x240"]
+MANY = ["--every", "0.02", *SMALL]
+"""Pictures for a minute, so that something can happen meanwhile."""
+PATIENCE_S = 60.0
+
+
+def run_in(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run the command to its end."""
+    result = subprocess.run(
+        [*COMMAND, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=folder
+    )
+    assert "Traceback" not in result.stderr, result.stderr
+    return result
+
+
+def refused(folder: Path, *arguments: str) -> str:
+    """The sentence with which the command refuses; nothing may be written."""
+    before = sorted(os.listdir(folder))
+    result = run_in(folder, *arguments)
+    assert result.returncode == 1, result.stderr
+    assert sorted(os.listdir(folder)) == before
+    (line,) = result.stderr.splitlines()
+    return line
+
+
+@pytest.fixture
+def start(tmp_path: Path):
+    """Start the command; it and the browser are ended at the end."""
+    programs: list[Program] = []
+
+    def start(*arguments: str) -> Program:
+        log = tmp_path.with_suffix(".log")
+        programs.append(Program([*COMMAND, *arguments], {**os.environ}, log))
+        return programs[-1]
+
+    yield start
+    for program in programs:
+        program.end(signal.SIGKILL)
+
+
+def browser_among(processes: list[psutil.Process]) -> psutil.Process:
+    """The browser, which is the parent of its tabs."""
+    return next(p for p in processes if "--remote-debugging" in " ".join(p.cmdline()[1:]))
+
+
+def wait_for_part(folder: Path) -> None:
+    """Wait until an animation is being written."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not any(folder.glob(".*.part")):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def left_of(family: list[psutil.Process]) -> list[psutil.Process]:
+    _, alive = psutil.wait_procs(family, timeout=10)
+    return alive
+
+
+def test_a_picture_of_a_bag(run, tmp_path):
+    result = run_in(tmp_path, "--bag", str(run), "--at", "2", "-o", "a.png", *SMALL)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout == "webviz: wrote a.png, a picture of 320 x 240 pixels.\n"
+    with PIL.Image.open(tmp_path / "a.png") as image:
+        pixels = np.asarray(image)
+    assert pixels.shape == (240, 320, 3)
+    assert (pixels == (255, 0, 255)).all(axis=2).sum() > 20
+    assert os.listdir(tmp_path) == ["a.png"]
+
+
+def test_several_times_and_views_are_files_of_their_own(run, tmp_path):
+    at = ["--at", "1", "--at", "end", "--view", "Far", "--transparent"]
+    result = run_in(tmp_path, "--bag", str(run), *at, "-o", "a.png", *SMALL)
+    assert result.stdout.startswith("webviz: wrote a-Far-0.png to a-Far-1.png, 2 pictures")
+    assert sorted(os.listdir(tmp_path)) == ["a-Far-0.png", "a-Far-1.png"]
+
+
+def test_several_times_with_the_ending_of_a_gif_are_an_animation(run, tmp_path):
+    times = ["--from", "1", "--to", "3", "--every", "0.5", "--fps", "4"]
+    result = run_in(tmp_path, "--bag", str(run), *times, "-o", "a.gif", *SMALL)
+    assert result.returncode == 0, result.stderr
+    with PIL.Image.open(tmp_path / "a.gif") as image:
+        durations = [frame.info["duration"] for frame in PIL.ImageSequence.Iterator(image)]
+    assert durations == [250] * 5
+
+
+def test_a_contact_sheet_is_one_picture(run, tmp_path):
+    times = ["--every", "2", "--contact-sheet"]
+    result = run_in(tmp_path, "--bag", str(run), *times, "-o", "a.png", "--size", "160x90")
+    assert "4 pictures of 160 x 90 pixels" in result.stdout
+    with PIL.Image.open(tmp_path / "a.png") as image:
+        assert 320 < image.width < 350
+
+
+def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path):
+    given = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
+    result = run_in(tmp_path, *given)
+    assert result.returncode == 3
+    assert (tmp_path / "a.png").exists()
+    first, *table = result.stderr.splitlines()
+    assert first == "webviz: not all displays are OK at 6 s of the bag:"
+    assert table[0].startswith("  WARN   Scan  Nobody publishes /scann; ")
+
+
+def test_help_tells_every_exit_status(capsys):
+    with pytest.raises(SystemExit):
+        parse_arguments(["--help"])
+    text = capsys.readouterr().out
+    for status in ("0  ", "1  ", "2  ", "3  ", "130"):
+        assert f"\n  {status}" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--bag", "nowhere.mcap"], "There is no bag nowhere.mcap"),
+        (["--bag", "RUN", "--at", "20"], "20 s is outside of RUN: give 0 to 6 s"),
+        (["--bag", "RUN", "-o", "nowhere/a.png"], "Cannot write nowhere/a.png"),
+        (["--bag", "RUN", "-o", "a.bmp"], "no ending of a picture"),
+        (["--bag", "RUN", "--wait-for", "Scam"], "did you mean `Scan`?"),
+    ],
+)
+def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, sentence):
+    given = [argument.replace("RUN", str(run)) for argument in arguments]
+    line = refused(tmp_path, "-o", "a.png", *given)
+    assert line.startswith("webviz: ")
+    assert sentence.replace("RUN", str(run)) in line
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ([], "required: -o"),
+        (["-o", "a.png", "--at", "3"], "--at is for a bag: give one with --bag"),
+        (["-o", "a.png", "--map", "m.yaml"], "--map is for a bag"),
+        (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is no time"),
+        (["-o", "a.png", "--bag", "x", "--size", "big"], "write it as 1280x720"),
+        (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
+        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for several times"),
+        (["-o", "a.png", "--timeout", "-1"], "no number above 0"),
+        (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "must be numbers, not c d e"),
+    ],
+)
+def test_wrong_arguments_are_status_2(capsys, arguments, sentence):
+    with pytest.raises(SystemExit) as caught:
+        parse_arguments(arguments)
+    assert caught.value.code == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_topic_of_an_unknown_type_is_skipped_and_listed(tmp_path):
+    bag = strings(0, 1)
+    bag.add("/odd", "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
+    bag.put(0, "/odd", b"\x00\x01\x00\x00")
+    folder = bag.write(tmp_path / "run")
+    (tmp_path / "grid.yaml").write_text("fixed_frame: map\ndisplays: [{type: Grid}]\n")
+    result = run_in(tmp_path, "-d", "grid.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
+    assert result.returncode == 0, result.stderr
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"webviz: {folder}: /odd is skipped: ")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk_is_one_sentence(run, tmp_path):
+    (tmp_path / "a.png").symlink_to("/dev/full")
+    line = refused(tmp_path, "--bag", str(run), "-o", "a.png", *SMALL)
+    assert line == "webviz: Cannot write a.png: No space left on device."
+
+
+@pytest.mark.parametrize(
+    ("number", "everybody"),
+    [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False)],
+    ids=["Ctrl-C in a terminal", "SIGINT", "SIGTERM"],
+)
+def test_an_interrupted_run_leaves_no_file_and_no_process(
+    run, tmp_path, start: Callable[..., Program], number, everybody
+):
+    program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
+    wait_for_part(tmp_path)
+    family = psutil.Process(program.process.pid).children(recursive=True)
+    for process in family if everybody else ():
+        process.send_signal(number)
+    assert program.end(number) == 130, program.output()
+    assert program.output() == "webviz: interrupted.\n"
+    assert os.listdir(tmp_path) == []
+    assert left_of(family) == []
+
+
+def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
+    program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
+    wait_for_part(tmp_path)
+    family = psutil.Process(program.process.pid).children(recursive=True)
+    browser_among(family).kill()
+    assert program.process.wait(PATIENCE_S) == 1
+    assert program.output().startswith("webviz: The browser ended while it drew")
+    assert program.output().count("\n") == 1
+    assert os.listdir(tmp_path) == []
+    assert left_of(family) == []
