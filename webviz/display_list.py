@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from webviz import config as config_file
-from webviz.config import Branch, Item, Place, Unreadable
+from webviz import rviz
+from webviz.config import Branch, Item, Place, Settings, Unreadable
 from webviz.display import Display, make, set_property, to_values
 from webviz.group import Group
 from webviz.pipeline import Runner, Services
@@ -184,16 +185,24 @@ class DisplayList:
             if isinstance(entry.content, Runner) and entry.is_enabled
         ]
 
-    def read_again(self) -> None:
-        """Show the entries that can be read now, since a plug-in has their type or property."""
+    def read_again(self, settings: Settings) -> Settings:
+        """Show the entries that can be read now, since a plug-in has their type or property.
+
+        Returns:
+            The settings, with what is kept of entries that came from RViz for writing them again.
+        """
         for index, entry in enumerate(self._entries):
             if isinstance(entry.content, Unreadable):
                 item = config_file.read_display(entry.content.values, Place(("displays", index)))
+                (item,), settings, report = rviz.revive([item], settings)
+                for sentence in report.sentences():
+                    log.warning("%s", sentence)
                 if isinstance(item, Unreadable):
                     entry.content = item
                 elif not isinstance(item, Branch):
                     entry.content = Runner(entry.id, item, self._services)
         self._number()
+        return settings
 
     def items(self, parent: Entry | None = None) -> list[Item]:
         """What to save of a group, or of the whole list."""

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+import rviz_trees
 
-from webviz import Topic
+from webviz import Topic, rviz
 from webviz.commands import AddDisplay, Reset, SetProperty
 from webviz.config import dump, parse
 from webviz.display import make
@@ -285,3 +286,19 @@ def test_a_reset_after_a_reload_forgets_as_ever(b: Any, plugin: Any) -> None:
     assert outlines(b) == []
     publish(b)
     assert outlines(b) == [(GREEN, 1.0)]
+
+
+def test_a_display_kept_of_rviz_comes_to_life_and_keeps_what_only_rviz_knows(
+    plugin: Any, bench: Callable[..., Any]
+) -> None:
+    plugin.load()
+    kept = "{Class: x/Outline, Name: Fence, Value: true, Topic: /polygon, Color: blue, Glow: 1}"
+    b = bench(*parse(f"displays: [{{type: x/Outline, rviz: {kept}}}]", "x.yaml").displays)
+    assert "has no counterpart here" in b.statuses()["Config"][1]
+    plugin.edit((COLOR, "    rviz = 'x/Outline'\n" + COLOR))
+    shown(b, plugin)
+    publish(b)
+    assert outlines(b) == [((0, 0, 255), 1.0)]
+    written = rviz_trees.texts(rviz.write(b.viewer.config())[0])
+    (tree,) = written["Visualization Manager"]["Displays"]
+    assert (tree["Class"], tree["Name"], tree["Glow"]) == ("x/Outline", "Fence", "1")
