@@ -122,7 +122,7 @@ class Page:
         self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
         self._alive(
             lambda: self.tab.wait_for_function(
-                "window.__viserMutable?.scene?.webviz", timeout=60_000
+                "window.__viserMutable?.scene?.webviz && window.webvizView?.type()", timeout=60_000
             )
         )
 
@@ -166,8 +166,16 @@ class Page:
             count,
         )
 
+    def hold(self) -> None:
+        """Draw nothing any more but in `settle` and `pixels`.
+
+        A renderer in software takes most of the time of a picture, and viser's page would draw for
+        a quarter of a second after each change.
+        """
+        self.evaluate(_HOLD)
+
     def settle(self, seconds: float = 60.0) -> None:
-        """Let the page draw until nothing that it was sent is still being unpacked.
+        """After `hold`: let the page work until nothing that it was sent is still being unpacked.
 
         Raises:
             TimeoutError: it still unpacks after `seconds`.
@@ -176,7 +184,7 @@ class Page:
             raise TimeoutError(f"The browser still unpacks pictures after {seconds:g} s.")
 
     def pixels(self, transparent: bool = False) -> Pixels:
-        """The scene as drawn last.
+        """The scene as drawn last, or after `hold` as it is now.
 
         Args:
             transparent: leave the background out.
@@ -249,36 +257,59 @@ _COUNT_UNPACKING = """
 })();
 """
 
+# All of a frame but the drawing: others read where nodes are, and change them before they are drawn.
+_HOLD = """
+() => {
+  const {canvas, messageQueue, scene} = window.__viserMutable;
+  const {advance, gl} = scene.__r3f.root.getState();
+  canvas.style.visibility = "hidden";  // nor does the browser draw its page anew
+  window.webvizRender = gl.render.bind(gl);
+  gl.render = (scene, camera) => {
+    scene.updateMatrixWorld();
+    camera.updateMatrixWorld();
+    scene.onBeforeRender(gl, scene, camera, null);
+  };
+  setInterval(() => messageQueue.length > 0 && advance(performance.now()), 4);
+}
+"""
+
 # What is unpacked makes React render, which makes effects, which may unpack more: so several quiet
-# frames in a row.
+# frames in a row, each with a task of its own for React.
 _SETTLE = """
 async (milliseconds) => {
-  const viewer = window.__viserMutable;
+  const {messageQueue, scene} = window.__viserMutable;
+  const {advance} = scene.__r3f.root.getState();
   const deadline = performance.now() + milliseconds;
-  for (let quiet = 0; quiet < 3; ) {
-    viewer.requestRender();
-    await new Promise(requestAnimationFrame);
-    const busy = viewer.messageQueue.length > 0 || window.webvizUnpacking.size > 0;
+  for (let quiet = 0; quiet < 4; ) {
+    advance(performance.now());
+    const busy = messageQueue.length > 0 || window.webvizUnpacking.size > 0;
     quiet = busy ? 0 : quiet + 1;
     if (performance.now() > deadline) return false;
+    await new Promise((resume) => setTimeout(resume, busy ? 5 : 0));
   }
   return true;
 }
 """
 
-_OPAQUE = "() => window.__viserMutable.canvas.toDataURL('image/png')"
+_OPAQUE = """
+() => {
+  const {scene, camera, canvas} = window.__viserMutable;
+  window.webvizRender?.(scene, camera);
+  return canvas.toDataURL("image/png");
+}
+"""
 
 _TRANSPARENT = """
 () => {
   const {scene, camera, canvas, backgroundMaterial, requestRender} = window.__viserMutable;
-  const gl = scene.__r3f.root.getState().gl;
+  const {gl} = scene.__r3f.root.getState();
   const alpha = gl.getClearAlpha();
   const {enabled} = backgroundMaterial.uniforms;
   const was = enabled.value;
   try {
     enabled.value = false;
     gl.setClearAlpha(0);
-    gl.render(scene, camera);
+    (window.webvizRender ?? gl.render)(scene, camera);
     return canvas.toDataURL("image/png");
   } finally {
     enabled.value = was;

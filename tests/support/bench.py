@@ -13,6 +13,7 @@ from webviz.testing.messages import header, serialized
 from webviz.testing.recording import RecordingScene
 from webviz.testing.source import HandFedSource
 from webviz.viewer import Viewer
+from webviz.viewing import Cameras, NoCameras
 
 
 class Bench:
@@ -24,9 +25,10 @@ class Bench:
         fixed_frame: str = "map",
         strict: bool = True,
         autosave: Path | None = None,
+        cameras: Cameras | None = None,
     ) -> None:
         self.source = HandFedSource()
-        self.scene = RecordingScene()
+        self.scene = RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0
         config = Config(Settings(fixed_frame=fixed_frame), list(displays))

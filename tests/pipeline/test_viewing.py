@@ -1,0 +1,209 @@
+"""What people ask of views, and how views follow frames."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import pytest
+from bench import Bench
+
+from webviz.commands import (
+    ChangeView,
+    Command,
+    FocusDisplay,
+    Load,
+    RemoveView,
+    RenameView,
+    ResetView,
+    SaveImage,
+    SaveView,
+    ShowView,
+    StartWithView,
+)
+from webviz.config import dump, parse
+from webviz.state import State
+from webviz.status import Level
+from webviz.views import (
+    FPS,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+    XYOrbit,
+    target_group,
+)
+from webviz_displays.axes import Axes
+
+ALICE, BOB = 3, 7
+
+
+class TwoBrowsers:
+    """Cameras that stay where they are put."""
+
+    def __init__(self) -> None:
+        self.start: View = Orbit()
+        self.shown: dict[int, View] = {ALICE: Orbit(), BOB: FPS()}
+        self.images: list[tuple[str, int | None]] = []
+
+    def start_with(self, view: View) -> None:
+        self.start = view
+
+    def show(self, view: View, browser: int | None = None) -> None:
+        for id_ in self.shown:
+            if browser in (None, id_):
+                self.shown[id_] = view
+
+    def views(self) -> Mapping[int, View]:
+        return dict(self.shown)
+
+    def target_frames(self) -> set[str]:
+        frames = {view.target_frame for view in (self.start, *self.shown.values())}
+        return frames - {"<Fixed Frame>"}
+
+    def size(self, browser: int) -> tuple[float, float]:
+        return 800.0, 600.0
+
+    def save_image(self, name: str, browser: int | None = None) -> None:
+        self.images.append((name, browser))
+
+
+class Looking:
+    """A viewer with two browsers."""
+
+    def __init__(self, b: Bench, cameras: TwoBrowsers) -> None:
+        self.bench, self.cameras = b, cameras
+
+    def do(self, command: Command) -> State:
+        """What the panel shows after a command."""
+        self.bench.viewer.enqueue(command)
+        self.bench.turn()
+        return self.bench.states[-1]
+
+    def refused(self, command: Command) -> str:
+        """Why a command is refused."""
+        before = dict(self.cameras.shown)
+        answer = self.do(command).answer
+        assert answer.level is Level.ERROR
+        assert self.cameras.shown == before
+        return answer.text
+
+
+@pytest.fixture
+def looking(bench: Callable[..., Bench]) -> Looking:
+    cameras = TwoBrowsers()
+    b = bench(Axes(name="A", length=2.0, reference_frame="map"), cameras=cameras)
+    b.transform("map", "base", 0, x=4.0, static=True)
+    b.turn()
+    return Looking(b, cameras)
+
+
+def test_a_view_is_shown_in_one_browser_or_in_all(looking: Looking) -> None:
+    looking.do(ShowView(TopDownOrtho(scale=50.0), BOB))
+    assert looking.cameras.shown == {ALICE: Orbit(), BOB: TopDownOrtho(scale=50.0)}
+    state = looking.do(ShowView(XYOrbit()))
+    assert looking.cameras.shown == state.views == {ALICE: XYOrbit(), BOB: XYOrbit()}
+
+
+def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
+    looking.do(ChangeView("distance", 3.0, ALICE))
+    assert looking.cameras.shown[ALICE] == Orbit(distance=3.0)
+    assert "distance: expected > 0" in looking.refused(ChangeView("distance", -3.0, ALICE))
+    assert "did you mean `distance`?" in looking.refused(ChangeView("distanc", 3.0, ALICE))
+    assert "`TopDownOrtho`" in looking.refused(ChangeView("type", "TopDownOrto", ALICE))
+
+
+def test_a_view_changes_its_type_and_keeps_what_is_looked_at(looking: Looking) -> None:
+    looking.do(ShowView(Orbit(focal_point=(3.0, 2.0, 0.0)), ALICE))
+    looking.do(ChangeView("type", "TopDownOrtho", ALICE))
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, TopDownOrtho)
+    assert (view.x, view.y) == pytest.approx((3.0, 2.0), abs=1e-5)
+
+
+def test_a_view_that_begins_to_follow_a_frame_stays_where_it_is(looking: Looking) -> None:
+    looking.do(ChangeView("target_frame", "base", ALICE))
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, Orbit)
+    assert view.focal_point == pytest.approx((-4.0, 0.0, 0.0), abs=1e-5)  # base is at x = 4
+    looking.do(ChangeView("target_frame", "<Fixed Frame>", ALICE))
+    assert looking.cameras.shown[ALICE] == Orbit()
+
+
+def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(looking: Looking) -> None:
+    scene = looking.bench.scene
+    looking.do(ShowView(Orbit(target_frame="base"), ALICE))
+    assert scene.poses[target_group("base")].position == (4.0, 0.0, 0.0)
+    looking.do(ShowView(Orbit(), ALICE))
+    assert target_group("base") not in scene.poses
+
+
+def test_a_target_frame_that_is_missing_is_told_until_it_comes(looking: Looking) -> None:
+    state = looking.do(ShowView(Orbit(target_frame="arm"), ALICE))
+    status = state.statuses["Target Frame"]
+    assert status.level is Level.WARN
+    assert status.text.startswith("The view cannot follow arm.")
+    looking.bench.transform("map", "arm", 0, static=True)
+    state = looking.do(ShowView(Orbit(target_frame="arm"), ALICE))
+    assert "Target Frame" not in state.statuses
+
+
+def test_reset_goes_back_to_where_a_view_of_the_type_begins(looking: Looking) -> None:
+    looking.do(ShowView(ThirdPersonFollower(distance=3.0, target_frame="base"), ALICE))
+    looking.do(ResetView(ALICE))
+    assert looking.cameras.shown[ALICE] == ThirdPersonFollower(target_frame="base")
+
+
+def test_a_display_comes_into_the_middle(looking: Looking) -> None:
+    looking.do(FocusDisplay("display1", ALICE))
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, Orbit)
+    assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
+    radius = 2.0 * 3**0.5  # of the cube around axes of 2 m
+    assert radius < view.distance < 4 * radius
+    assert "nothing to look at" in looking.refused(FocusDisplay("display9", ALICE))
+
+
+def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
+    looking.do(ShowView(TopDownOrtho(scale=50.0), ALICE))
+    state = looking.do(SaveView("Plan", ALICE))
+    assert state.settings.views == {"Plan": TopDownOrtho(scale=50.0)}
+    assert state.file.is_changed
+    looking.do(ShowView("Plan", BOB))
+    assert looking.cameras.shown[BOB] == TopDownOrtho(scale=50.0)
+    looking.do(SaveView("Other", BOB))
+    assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
+    assert "already" in looking.refused(RenameView("Map", "Other"))
+    assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
+    assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
+    assert "no saved view `Map`" in looking.refused(RemoveView("Map"))
+    assert "needs a name" in looking.refused(SaveView("", ALICE))
+
+
+def test_a_config_begins_with_the_view_that_somebody_chose(looking: Looking) -> None:
+    looking.do(ShowView(TopDownOrtho(x=3.0), ALICE))
+    looking.do(StartWithView(ALICE))
+    assert looking.cameras.start == TopDownOrtho(x=3.0)
+    looking.do(SaveView("Plan", ALICE))
+    text = dump(looking.bench.viewer.config())
+    assert parse(text, "x.yaml").settings == looking.bench.viewer.settings
+    assert "type: TopDownOrtho" in text
+
+
+def test_whoever_opens_a_config_sees_its_view(looking: Looking) -> None:
+    looking.do(Load("view: {distance: 4}\nviews: {Near: {distance: 1}}\n", "x.yaml"))
+    assert looking.cameras.start == Orbit(distance=4.0)
+    assert set(looking.cameras.shown.values()) == {Orbit(distance=4.0)}
+    looking.do(ShowView("Near"))
+    assert set(looking.cameras.shown.values()) == {Orbit(distance=1.0)}
+
+
+def test_a_picture_is_asked_of_one_browser(looking: Looking) -> None:
+    looking.do(SaveImage(BOB, "robot.png"))
+    assert looking.cameras.images == [("robot.png", BOB)]
+
+
+def test_without_browsers_there_is_nothing_to_change(bench: Callable[..., Bench]) -> None:
+    looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
+    cameras.shown.clear()
+    assert "No browser is open" in looking.refused(ResetView())
+    assert "No browser is open" in looking.refused(SaveView("A"))
