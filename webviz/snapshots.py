@@ -60,6 +60,7 @@ class Snapshots:
         try:
             with launched() as browser, contextlib.closing(Page(browser, url, *size)) as page:
                 self._fit(page, size)
+                page.pixels()  # the first picture of a tab has another smoothing
                 client = self._id_of(page)
                 if view is not None:
                     self._scene.cameras.show(view, client)

@@ -370,3 +370,27 @@ def test_a_view_at_the_start_that_is_not_saved_is_refused(
 ) -> None:
     with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: none is saved\.$"):
         open_viewer(parameters=["view:=Above"])
+
+
+def test_the_program_of_the_readme_does_what_it_says(
+    webviz_domain: int, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text()
+    section = readme.partition("## From Python and from ROS")[2]
+    program = section.partition("```python\n")[2].partition("```")[0]
+    for written, here in (
+        ('"lab.yaml"', '"lab.yaml", port=0'),
+        ("viewer.wait()", "values.update(viewer.config)"),
+    ):
+        assert written in program
+        program = program.replace(written, here)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "lab.yaml").write_text("displays: [{type: Map}]\n")
+    values: dict[str, Any] = {}
+    exec(program, {"values": values})
+    assert values["displays"] == [
+        {"type": "Map", "enabled": False},
+        {"type": "LaserScan", "topic": "/front/scan", "size": 0.1},
+    ]
+    assert (tmp_path / "now.png").exists()
+    assert "fixed_frame: odom" in (tmp_path / "lab2.yaml").read_text()
