@@ -57,9 +57,7 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     if found is None:
         report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
         report.count("properties", 0, len(_effective(tree)))
-        return read_display(
-            {"type": cls or "?", "name": name or cls, "rviz": entry}, Place((name or "?",))
-        )
+        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Place())
     display = _read(found, tree, name, report, place)
     if found.rviz != cls:
         report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
