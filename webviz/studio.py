@@ -50,6 +50,7 @@ class Studio:
             self.set_background(background)
             self._page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             self._page.wait_for(self.server.get_clients, "the page is connected")
+            self._page.hold()
             self.capture()  # the first picture of a tab has another smoothing
         except BaseException:
             self.close()

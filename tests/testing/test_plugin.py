@@ -25,7 +25,7 @@ def test_axes(webviz_stage):
 
 def test_axes_that_are_masked(webviz_stage):
     stage = webviz_stage("robot.yaml", size=(200, 150))
-    stage.check_picture("masked", mask=[(50, 0, 170, 150)])
+    stage.check_picture("masked", mask=[(0, 0, 200, 150)])
 """
 
 
