@@ -145,12 +145,16 @@ class Runner:
             arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
             if not arrivals:
                 continue
-            if self._every_message_counts or self._keep() != Keep():
+            # How long messages go on shows once one is decoded, and the next ones wait for that.
+            is_unknown = overrides(self.display, "duration_ns") and not intake.duration_ns
+            if self._every_message_counts or is_unknown or self._keep() != Keep():
                 counting += [(name, intake, arrival) for arrival in arrivals]
             elif name == primary:
                 self._newest = arrivals[-1]
         for name, intake, arrival in sorted(counting, key=lambda item: item[2].raw.received_ns):
             self._let_in(name, intake, arrival, frames)
+        if counting:
+            self._history.trim(self._keep(), frames.now_ns)  # also while nobody watches
 
     def draw(self, frames: Frames) -> None:
         """Bring the scene up to date."""
