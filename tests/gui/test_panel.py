@@ -114,6 +114,16 @@ def test_a_refused_value_is_set_back(loop: Any, tab: Any, make_row: MakeRow) -> 
     assert len(loop.commands) == 1
 
 
+def test_a_text_that_means_nothing_is_set_back_with_the_reason(
+    loop: Any, tab: Any, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a", shown={"base_link": True}))
+    tab.fill("Shown", "base_link: perhaps")
+    tab.wait_for(lambda: loop.turn() or "'perhaps' is no value" in tab.text())
+    tab.wait_for(lambda: loop.turn() or tab.field("Shown").input_value() == "base_link: true")
+    assert loop.commands == []
+
+
 def test_a_viewer_that_lags_behind_does_not_pull_a_value_back(
     loop: Any, tab: Any, make_row: MakeRow
 ) -> None:

@@ -14,6 +14,9 @@ from webviz.gui.text import plain
 SETTLE_S = 0.5
 """How long a widget keeps what somebody gave it before it shows what the display has."""
 
+REASON_S = 10.0
+"""How long somebody is told why what was entered means nothing."""
+
 TYPING_S = 0.6
 """A text is taken over when nobody has typed for so long."""
 
@@ -29,7 +32,7 @@ class Control:
         widget: an input of viser.
         edit: called with what a browser entered, in viser's event loop.
         encode: from the value to what the widget holds.
-        decode: the inverse; ValueError if the text means nothing.
+        decode: the inverse; ValueError with a sentence if the text means nothing.
         wait: seconds without a further edit after which an edit counts.
     """
 
@@ -55,7 +58,7 @@ class Control:
         @widget.on_update
         async def _(event: viser.GuiEvent[Any]) -> None:
             if event.client is not None:
-                self._entered()
+                self._entered(event.client)
 
     def show(self, value: Any) -> None:
         """Show the value the viewer has."""
@@ -73,19 +76,23 @@ class Control:
             self._visible = visible
             self.widget.visible = visible
 
-    def _entered(self) -> None:
+    def _entered(self, client: viser.ClientHandle) -> None:
         self._touched = time.monotonic()
         if self._timer is not None:
             self._timer.cancel()
         self._timer = asyncio.get_running_loop().call_later(
-            self._wait, self._commit, self.widget.value
+            self._wait, self._commit, self.widget.value, client
         )
 
-    def _commit(self, entered: Any) -> None:
+    def _commit(self, entered: Any, client: viser.ClientHandle) -> None:
         try:
             value = self.decode(entered)
-        except ValueError:
-            return  # means nothing: the widget is set back
+        except ValueError as error:
+            # The widget is set back, since the viewer never hears of it.
+            client.add_notification(
+                "Not changed", plain(str(error)), auto_close_seconds=REASON_S, color="red"
+            )
+            return
         self._edit(value)
 
 
@@ -128,7 +135,7 @@ class Choice(Control):
 
     def _chosen(self, option: str) -> str:
         if option not in self._values:
-            raise ValueError(f"{option} is no longer on offer")
+            raise ValueError(f"{option} is no longer on offer.")
         return self._values[option]
 
 

@@ -93,7 +93,7 @@ def _add_lines(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) ->
     """Lists, mappings and tuples: an entry per line, texts as they are, all else as JSON."""
     type_ = declared.type
     items = getattr(type_, "value_type", None) or getattr(type_, "item_type", None)
-    dump, load = (_line, str) if isinstance(items, inspect.StrType) else (_dump, json.loads)
+    dump, load = (_line, str) if isinstance(items, inspect.StrType) else (_dump, _load)
 
     def encode(value: Any) -> str:
         if isinstance(value, Mapping):
@@ -113,6 +113,13 @@ def _add_lines(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) ->
 
 def _dump(item: Any) -> str:
     return msgspec.json.encode(item).decode()
+
+
+def _load(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError:
+        raise ValueError(f'{text!r} is no value; write true, 0.5 or "text".') from None
 
 
 def _line(text: str) -> str:
