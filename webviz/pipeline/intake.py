@@ -52,7 +52,7 @@ class Intake:
         self._last: Raw | None = None
         self._times: deque[float] = deque(maxlen=50)
         self._fault = ""
-        self.duration_ns = 0
+        self._durations: deque[int] = deque(maxlen=10)
         self._placed_at = 0.0
         self._waiting_since: float | None = None
         self._asked = next(_ASKED)
@@ -112,6 +112,15 @@ class Intake:
         elif self._waiting_since is None and self._filter.is_stuck:
             self._waiting_since = clock
         return arrivals
+
+    @property
+    def duration_ns(self) -> int:
+        """How long messages go on after their stamp: the longest of the last ones."""
+        return max(self._durations, default=0)
+
+    def measure(self, duration_ns: int) -> None:
+        """Note how long a message goes on; lasers alternate by a tenth and more."""
+        self._durations.append(duration_ns)
 
     def refuse(self, reason: str) -> None:
         """Note that the newest message cannot be shown, and why."""

@@ -243,7 +243,7 @@ class Runner:
             return
         intake.accepted()
         duration_ns = self._guard("duration", self.display.duration_ns, message)
-        intake.duration_ns = duration_ns if isinstance(duration_ns, int) else 0
+        intake.measure(duration_ns if isinstance(duration_ns, int) else 0)
         sample = Sample(
             message, arrival.frame, arrival.stamp_ns, arrival.raw.received_ns, arrival.number, pose
         )
