@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -33,9 +33,6 @@ from webviz.handles import DisplayHandle, NoSuchDisplay
 from webviz.running import Running, checked_view
 from webviz.status import Status
 from webviz.views import View
-
-if TYPE_CHECKING:
-    pass
 
 
 class Viewer(Running):

@@ -17,9 +17,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from webviz import config as config_file
-from webviz import convert, plugins, schema, screenshot
+from webviz import convert, schema, screenshot
 from webviz.app import Viewer
-from webviz.config import Config, ConfigError
+from webviz.config import Config
 from webviz.errors import Error
 from webviz.overrides import override
 from webviz.running import NO_ROS
@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 _serve(options, ros)
         else:
             _serve(options, ros)
-    except (Error, ConfigError, plugins.PluginError) as error:
+    except Error as error:
         print(f"webviz: {error}", file=sys.stderr)
         return 1
     return 0

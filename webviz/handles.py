@@ -66,8 +66,7 @@ class DisplayHandle:
     @property
     def status(self) -> Status:
         """The worst of its statuses."""
-        none = Status(Level.OK, "")
-        return max(self.statuses.values(), key=lambda status: status.level, default=none)
+        return _worst(self._row())
 
     @property
     def statuses(self) -> dict[str, Status]:
@@ -92,7 +91,7 @@ class DisplayHandle:
         Raises:
             Error: there is no such property, or the value does not fit; nothing was changed.
         """
-        self._check(path.partition(".")[0])
+        _check(self._row(), path.partition(".")[0])
         self._viewer.do(SetProperty(self.id, path, value))
 
     def remove(self) -> None:
@@ -146,7 +145,7 @@ class DisplayHandle:
         row = self._row()
         if row.display is None and name == "name":
             return row.name
-        self._check(name)
+        _check(row, name)
         value = getattr(row.display, name)
         # A list that is changed in place would not be checked.
         return copy.deepcopy(value) if isinstance(value, list | dict) else value
@@ -157,7 +156,9 @@ class DisplayHandle:
         self.set(name, value)
 
     def __dir__(self) -> Iterable[str]:
-        return [*object.__dir__(self), *self._properties()]
+        row = self._find()
+        properties = row.display.__struct_fields__ if row and row.display else ()
+        return [*object.__dir__(self), *properties]
 
     def __eq__(self, other: object) -> bool:
         return (
@@ -173,7 +174,7 @@ class DisplayHandle:
         row = self._find()
         if row is None:
             return "<a display that was removed>"
-        status = self.status
+        status = _worst(row)
         return f"<{row.type or 'unreadable'} {row.name!r}: {status.level.name} {status.text}>"
 
     def _find(self) -> Row | None:
@@ -190,18 +191,6 @@ class DisplayHandle:
     def _row(self) -> Row:
         return self._around()[1][0]
 
-    def _properties(self) -> tuple[str, ...]:
-        row = self._find()
-        return row.display.__struct_fields__ if row and row.display else ()
-
-    def _check(self, name: str) -> None:
-        row = self._row()
-        if row.display is None:
-            reason = " ".join(status.text for status in row.statuses.values())
-            raise NoSuchProperty(f"{row.name} cannot be shown, so it has no properties: {reason}")
-        if name not in self._properties():
-            raise NoSuchProperty(no_property(row.type, name, self._properties()))
-
     def _parent(self) -> DisplayHandle | None:
         """The group it is in."""
         before, behind = self._around()
@@ -211,3 +200,16 @@ class DisplayHandle:
     def _ancestors(self) -> list[DisplayHandle]:
         parent = self._parent()
         return [parent, *parent._ancestors()] if parent is not None else []
+
+
+def _worst(row: Row) -> Status:
+    return max(row.statuses.values(), key=lambda status: status.level, default=Status(Level.OK, ""))
+
+
+def _check(row: Row, name: str) -> None:
+    """Refuse a property that a display has not."""
+    if row.display is None:
+        reason = " ".join(status.text for status in row.statuses.values())
+        raise NoSuchProperty(f"{row.name} cannot be shown, so it has no properties: {reason}")
+    if name not in row.display.__struct_fields__:
+        raise NoSuchProperty(no_property(row.type, name, row.display.__struct_fields__))

@@ -110,7 +110,7 @@ class Running:
             thread.start()
             stack.callback(thread.join)
             stack.callback(self._loop.stop)
-            self._snapshots = Snapshots(scene, lambda: self.do(Refresh()))
+            self._snapshots = Snapshots(scene, self._drawn)
             stack.callback(self._snapshots.close)
             watcher.start(self._loop.enqueue)
             stack.callback(watcher.stop)
@@ -212,6 +212,10 @@ class Running:
             path = folder / f"{stem}_{number}.png"
         self.screenshot(path)
         return path
+
+    def _drawn(self) -> State:
+        self.do(Refresh())
+        return self.state
 
     def _enqueue(self, command: Command) -> None:
         self._loop.enqueue(command)  # what comes of it stands in the state

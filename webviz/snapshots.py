@@ -8,9 +8,11 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 
 from webviz.browser import BrowserDied, NoBrowser, Page, Pixels, launched
+from webviz.capture_stage import LOADING
 from webviz.capturing import check_size
 from webviz.errors import Error
 from webviz.scene import Scene
+from webviz.state import State
 from webviz.views import View
 
 SUBJECT = "webviz snapshot"
@@ -23,10 +25,10 @@ class Snapshots:
 
     Args:
         scene: of the viewer.
-        draw: brings the scene up to date, once the browser looks; from any thread.
+        draw: brings the scene up to date, once the browser looks, and tells of it; from any thread.
     """
 
-    def __init__(self, scene: Scene, draw: Callable[[], object]) -> None:
+    def __init__(self, scene: Scene, draw: Callable[[], State]) -> None:
         self._scene = scene
         self._draw = draw
         self._joined: dict[str, Future[int]] = {}
@@ -64,12 +66,16 @@ class Snapshots:
                 client = self._id_of(page)
                 if view is not None:
                     self._scene.cameras.show(view, client)
-                self._draw()
+                page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
                 self._scene.link.acknowledge(PATIENCE_S, client)
                 page.settle(PATIENCE_S)
                 return page.pixels()
         except (NoBrowser, BrowserDied, TimeoutError) as error:
             raise Error(str(error)) from error
+
+    def _is_loaded(self) -> bool:
+        """Whether all is drawn; the meshes of a robot are read when somebody looks."""
+        return not any(LOADING in row.statuses for row in self._draw().rows)
 
     def _fit(self, page: Page, size: tuple[int, int]) -> None:
         """Make the page so large that the picture beside the panel has the size."""

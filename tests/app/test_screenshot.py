@@ -11,8 +11,10 @@ import PIL.Image
 import pytest
 
 import webviz
+import webviz_urdf
 from webviz.browser import VARIABLE
 
+ROBOT = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 SIZE = (320, 240)
 BEHIND = (10, 40, 80)
 
@@ -37,6 +39,21 @@ def test_a_picture_has_what_was_added_just_before(viewer: webviz.Viewer, tmp_pat
     viewer.save_view("Far", {"type": "TopDownOrtho", "scale": 20.0})
     far = viewer.screenshot(size=SIZE, view="Far")
     assert 0.0 < is_red(far) < 0.3 * is_red(after)
+
+
+def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> None:
+    viewer.fixed_frame = "base_link"
+    viewer.view = {"distance": 1.5}
+    packages = [str(ROBOT.parents[2])]
+    robot = viewer.add(
+        "RobotModel",
+        description_source="File",
+        description_file=str(ROBOT),
+        package_paths=packages,
+    )
+    pixels = viewer.screenshot(size=SIZE)
+    assert (pixels != np.array(viewer.background)).any(axis=2).mean() > 0.03
+    assert "visuals loaded" in robot.statuses["URDF"].text
 
 
 def test_a_notebook_can_make_a_picture(viewer: webviz.Viewer) -> None:
