@@ -63,7 +63,8 @@ MOUSE_SCRIPT = as_script("""
       if (thing.isMesh || thing.isPoints) things.push(thing);
     });
     const [hit] = ray.intersectObjects(things, false);
-    if (hit) return hit.point;
+    // Not its point, which is wrong for instanced meshes.
+    if (hit) return ray.ray.at(hit.distance, camera.position.clone());
     const { origin, direction } = ray.ray;
     const steps = -origin.y / direction.y;
     return steps > 0 && steps < 1e6 ? origin.addScaledVector(direction, steps) : null;

@@ -53,6 +53,8 @@ VIEW_SCRIPT = as_script("""
   let view = null;
   let rig = null;
   let height = canvas.clientHeight;
+  let place = null;
+  let isLost = false;
 
   const isFlat = () => view !== null && view.type === "TopDownOrtho";
   const controlled = () => mutable.cameraControl;
@@ -118,6 +120,22 @@ VIEW_SCRIPT = as_script("""
     { current: () => rig !== null && scene.updateMatrixWorld() }, -900, root,
   );
 
+  // When a lost connection is back, viser puts the camera where browsers begin: it goes back from
+  // there to where it was before the first messages came.
+  root.getState().internal.subscribe({ current: remember }, -1e6, root);
+  function remember() {
+    if (mutable.firstMessageBatch) isLost = true;
+    if (isLost || view === null) return;
+    const controls = controlled();
+    place = [controls.getPosition(vector([0, 0, 0])), controls.getTarget(vector([0, 0, 0]))];
+  }
+  function rejoin() {
+    const [position, target] = place;
+    controlled().setLookAt(...position.toArray(), ...target.toArray(), false);
+    mutable.sendCamera();
+    setTimeout(report, SENT_MS);
+  }
+
   // What viser keeps before the camera, and the cross where it turns about, without knowing rigs.
   const cross = scene.children.find((child) => {
     let found = false;
@@ -174,7 +192,7 @@ VIEW_SCRIPT = as_script("""
     if (view === null || tall === 0 || tall === height) return;
     if (isFlat()) controlled().dollyTo((controlled().distance * tall) / height, false);
     height = tall;
-    report();
+    setTimeout(report, SENT_MS);
   }).observe(canvas);
 
   function show(wanted) {
@@ -211,7 +229,11 @@ VIEW_SCRIPT = as_script("""
     rig: () => (rig === null ? matrix() : rig),
     show,
     report,
-    join: (start) => (view === null ? show(start) : report()),
+    join: (start) => {
+      isLost = false;
+      if (place === null) show(start);
+      else rejoin();
+    },
   };
 })();
 """)

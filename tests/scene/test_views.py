@@ -1,0 +1,392 @@
+"""Views in a real browser: what is where in the picture, and what the mouse does."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+import PIL.Image
+import playwright.sync_api as playwright
+import pytest
+from numpy.typing import NDArray
+
+from webviz.browser import Page
+from webviz.nodes import Instances, Labels, Lines, Pose
+from webviz.scene import Scene, open_server
+from webviz.views import (
+    FIELD_OF_VIEW,
+    FPS,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+    XYOrbit,
+    target_group,
+)
+
+WIDTH, HEIGHT = 900, 600
+RED, WHITE = (255, 0, 0), (255, 255, 255)
+HALF = math.tan(FIELD_OF_VIEW / 2)
+
+
+class Window(Page):
+    """One browser tab, in which the panel is on the right."""
+
+    def __init__(self, browser: playwright.Browser, scene: Scene) -> None:
+        self.scene = scene
+        self.server = scene.link.server
+        self.clicks: list[Any] = []
+        url = f"http://127.0.0.1:{self.server.get_port()}"
+        super().__init__(browser, url, WIDTH, HEIGHT)
+        self.wait_for(scene.cameras.views, "the page has told its view")
+        self.server.scene.on_click()(self.clicks.append)
+
+    @property
+    def view(self) -> View:
+        """What the server believes is shown."""
+        (view,) = self.scene.cameras.views().values()
+        return view
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Of the picture, as the server believes."""
+        (browser,) = self.scene.cameras.views()
+        return self.scene.cameras.size(browser)
+
+    def look(self, view: View) -> None:
+        """Show a view, and wait until the server is told so by the page."""
+        self.scene.cameras.show(view)
+        (browser,) = self.scene.cameras._browsers.values()
+        self.wait_for(lambda: browser.obeyed == browser.number, "the page has told")
+        self.settle_down()
+
+    def settle_down(self) -> None:
+        """Wait until all that was flushed is drawn."""
+        self.scene.flush()
+        self.wait_for(lambda: self.scene.link.acknowledge(30) or True, "it has all")
+        self.draw(4)
+
+    def tell(self, change: Any, what: str) -> View:
+        """Wait until the view the server believes in fulfils a condition, and return it."""
+        self.wait_for(lambda: change(self.view), what)
+        return self.view
+
+    def is_red(self) -> NDArray[np.bool_]:
+        """Which pixels are red."""
+        pixels = self.pixels().astype(int)
+        return (pixels[..., 0] > 90) & (pixels[..., 1] < 60) & (pixels[..., 2] < 60)
+
+    def red(self) -> tuple[float, float, float, float]:
+        """Left, top, right and bottom edge of all that is red."""
+        rows, columns = np.nonzero(self.is_red())
+        return columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
+
+    def drag(self, dx: int, dy: int, button: Any = "left", shift: bool = False) -> None:
+        """Drag the mouse from a place that is left of the panel."""
+        mouse, keyboard = self.tab.mouse, self.tab.keyboard
+        mouse.move(250, 350)
+        if shift:
+            keyboard.down("Shift")
+        mouse.down(button=button)
+        mouse.move(250 + dx / 2, 350 + dy / 2)
+        mouse.move(250 + dx, 350 + dy)
+        mouse.up(button=button)
+        if shift:
+            keyboard.up("Shift")
+
+
+@pytest.fixture(scope="module")
+def opened(browser: playwright.Browser) -> Iterator[Window]:
+    server = open_server(port=0)
+    window = Window(browser, Scene(server))
+    yield window
+    window.close()
+    server.stop()
+
+
+@pytest.fixture
+def window(opened: Window) -> Iterator[Window]:
+    """A tab with an empty scene."""
+    opened.scene.clear()
+    opened.clicks.clear()
+    yield opened
+    assert opened.errors == []
+
+
+def box(x: float, y: float, z: float, *size: float) -> Instances:
+    """A red box with its middle there."""
+    return Instances(np.array([(x, y, z)], np.float32), np.array([size], np.float32), RED)
+
+
+ANYTHING = [
+    Orbit(distance=6.0, yaw=-2.0, pitch=0.4, focal_point=(1.0, 2.0, -0.5)),
+    XYOrbit(distance=6.0, yaw=0.4, pitch=0.9, focal_point=(1.0, 2.0, 0.0)),
+    ThirdPersonFollower(distance=6.0, yaw=3.0, pitch=0.2, focal_point=(1.0, 2.0, 0.0)),
+    FPS(yaw=2.5, pitch=-0.3, position=(1.0, -2.0, 1.5)),
+    TopDownOrtho(scale=37.5, angle=2.0, x=-3.0, y=1.25),
+]
+
+
+@pytest.mark.parametrize("view", ANYTHING, ids=lambda view: type(view).__name__)
+def test_a_browser_tells_the_view_that_it_was_given(window: Window, view: View) -> None:
+    window.look(view)
+    assert window.view == view
+
+
+def test_points_are_where_a_view_with_perspective_has_them(window: Window) -> None:
+    # From the south at the height of the focal point: x is to the right, z is up.
+    window.look(Orbit(distance=10.0, yaw=-math.pi / 2, pitch=0.0, focal_point=(1.0, 0.0, 2.0)))
+    px = HEIGHT / 2 / HALF / 10.0
+    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((450 + px, 300 - px), abs=0.01)
+    # The same from where the camera is, which looks along y.
+    window.look(FPS(position=(1.0, -10.0, 2.0), yaw=math.pi / 2))
+    assert window.pixel_of(2.0, 0.0, 3.0) == pytest.approx((450 + px, 300 - px), abs=0.02)
+    # RViz raises the camera of XYOrbit by a fifth of the distance.
+    window.look(XYOrbit(distance=10.0, yaw=-math.pi / 2, pitch=0.0, focal_point=(1.0, 0.0, 0.0)))
+    assert window.pixel_of(1.0, 0.0, 0.0) == pytest.approx((450, 300 + 2 * px), abs=0.01)
+
+
+def test_from_above_a_meter_has_as_many_pixels_at_every_height(window: Window) -> None:
+    window.scene.upsert("tower", "t", box(1.0, 0.5, 4.0, 2.0, 1.0, 8.0))
+    window.look(TopDownOrtho(scale=40.0))
+    assert window.red() == (450, 300 - 40, 450 + 80, 300)
+    for z in (-20.0, 0.0, 50.0):
+        assert window.pixel_of(3.0, 2.0, z) == pytest.approx((450 + 120, 300 - 80), abs=0.05)
+
+
+def test_parallel_lines_stay_parallel_from_above(window: Window) -> None:
+    sloped = [[(x, -3.0, 0.0), (x + 1.0, 3.0, 10.0)] for x in (-4.0, 0.0, 4.0)]
+    window.scene.upsert("lines", "l", Lines(np.array(sloped, np.float32), RED, 2.0))
+    window.look(TopDownOrtho(scale=40.0, angle=0.3, x=0.5))
+    slopes = []
+    for start, end in sloped:
+        (x0, y0), (x1, y1) = window.pixel_of(*start), window.pixel_of(*end)
+        slopes.append(math.atan2(y1 - y0, x1 - x0))
+        middle = window.is_red()[int((y0 + y1) / 2) - 2 :, int((x0 + x1) / 2) - 2 :][:5, :5]
+        assert middle.any()  # the line is drawn where its ends say
+    assert slopes == pytest.approx([slopes[0]] * 3, abs=1e-4)
+
+
+def test_up_from_above_is_turned_by_the_angle_as_rviz_does(window: Window) -> None:
+    window.look(TopDownOrtho(scale=40.0, angle=math.pi / 2))
+    column, row = window.pixel_of(-1.0, 0.0, 0.0)  # up is (-sin, cos) of the angle
+    assert (column, row) == pytest.approx((450, 300 - 40), abs=0.05)
+
+
+def test_scale_is_kept_when_the_page_gets_another_size(window: Window) -> None:
+    window.look(TopDownOrtho(scale=40.0, x=1.0))
+    window.resize(WIDTH, 400)
+    view = window.tell(
+        lambda _: window.scene.cameras.size(max(window.scene.cameras.views()))[1] == 400, "size"
+    )
+    assert view == TopDownOrtho(scale=40.0, x=1.0)
+    window.draw(4)
+    assert window.pixel_of(2.0, 1.0) == pytest.approx((450 + 40, 200 - 40), abs=0.05)
+    window.resize(WIDTH, HEIGHT)
+    window.wait_for(lambda: window.size == (WIDTH, HEIGHT), "it is told")
+
+
+PICKED = [
+    TopDownOrtho(scale=50.0, angle=0.4),
+    TopDownOrtho(scale=50.0, angle=-1.0, x=1.0, target_frame="base"),
+    Orbit(distance=12.0, yaw=-1.9, pitch=0.8, target_frame="base"),
+]
+
+
+@pytest.mark.parametrize("view", PICKED, ids=["above", "above and following", "orbit"])
+def test_a_click_is_right_to_two_pixels(window: Window, view: View) -> None:
+    window.scene.set_pose(target_group("base"), Pose((1.0, -0.5, 0.0)))
+    window.look(view)
+    for point in ((-1.0, -0.8), (0.3, 0.2)):
+        column, row = window.pixel_of(*point)
+        window.clicks.clear()
+        window.tab.mouse.click(column, row)
+        window.wait_for(lambda: window.clicks, "the click arrives")
+        (click,) = window.clicks
+        origin, direction = np.array(click.ray_origin), np.array(click.ray_direction)
+        hit = origin - direction * origin[2] / direction[2]
+        assert math.dist(window.pixel_of(*hit.tolist()), (column, row)) < 2.0
+
+
+def robot_at(window: Window, x: float, y: float, yaw: float = 0.0) -> None:
+    pose = Pose((x, y, 0.0), (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
+    for group in ("robot", target_group("base")):
+        window.scene.set_pose(group, pose)
+
+
+FOLLOWING = [
+    (Orbit(distance=6.0, target_frame="base"), 0.0),
+    (XYOrbit(distance=6.0, target_frame="base"), 0.0),
+    (FPS(position=(-4.0, 0.0, 1.0), target_frame="base"), 0.0),
+    (TopDownOrtho(scale=80.0, target_frame="base"), 0.0),
+    (ThirdPersonFollower(distance=6.0, target_frame="base"), 1.1),
+]
+
+
+@pytest.mark.parametrize(("view", "yaw"), FOLLOWING, ids=lambda case: type(case).__name__)
+def test_a_followed_robot_stands_still_while_the_world_moves(
+    window: Window, view: View, yaw: float
+) -> None:
+    window.scene.upsert("robot", "r", box(0.0, 0.0, 0.3, 1.0, 0.6, 0.6))
+    window.scene.upsert("world", "w", Lines(np.array([[(0, -1, 0), (0, 1, 0)]], np.float32), WHITE))
+    robot_at(window, 0.0, 0.0)
+    window.look(view)
+    edges, world = window.red(), window.pixel_of(0.0, 0.0)
+    robot_at(window, 1.3, -0.7, yaw)
+    window.settle_down()
+    assert window.red() == pytest.approx(edges, abs=1)
+    assert math.dist(window.pixel_of(0.0, 0.0), world) > 50
+    assert window.view == view  # relative to the robot nothing has changed
+
+
+def test_robot_label_and_camera_move_in_the_same_picture(window: Window) -> None:
+    window.scene.upsert("robot", "r", box(0.0, 0.0, 0.3, 1.0, 0.6, 0.6))
+    window.scene.upsert("robot", "l", Labels(np.array([(0, 0, 1)], np.float32), ("base",), 0.3))
+    robot_at(window, 0.0, 0.0)
+    window.look(Orbit(distance=6.0, target_frame="base"))
+    window.evaluate(
+        """() => {
+          const {canvas, requestRender} = window.__viserMutable;
+          const copy = document.createElement("canvas");
+          copy.width = canvas.width; copy.height = canvas.height;
+          const image = copy.getContext("2d", {willReadFrequently: true});
+          window.middles = [];
+          window.watching = true;
+          (function watch() {
+            if (!window.watching) return;
+            image.drawImage(canvas, 0, 0);
+            const {data} = image.getImageData(0, 0, canvas.width, canvas.height);
+            const sums = [[0, 0], [0, 0]];  // of the robot, and of the label
+            for (let i = 0; i < data.length; i += 4) {
+              const [r, g] = [data[i], data[i + 1]];
+              const sum = r > 90 && g < 60 ? sums[0] : r > 200 && g > 200 ? sums[1] : null;
+              if (sum) { sum[0] += 1; sum[1] += (i / 4) % canvas.width; }
+            }
+            window.middles.push(sums.map(([count, sum]) => sum / count));
+            requestRender();
+            requestAnimationFrame(watch);
+          })();
+        }"""
+    )
+    steps = itertools.count(1)
+
+    def goes_on() -> bool:
+        step = next(steps)
+        robot_at(window, 0.05 * step, 0.02 * step)
+        window.scene.flush()
+        return window.evaluate("() => window.middles.length") > 10
+
+    window.wait_for(goes_on, "eleven pictures on the way", 60)
+    middles = np.array(window.evaluate("() => { window.watching = false; return window.middles; }"))
+    assert np.ptp(middles, axis=0) == pytest.approx((0.0, 0.0), abs=0.5)
+
+
+def test_a_view_whose_frame_is_not_there_stays_where_it_was(window: Window) -> None:
+    window.look(Orbit(distance=6.0, focal_point=(1.0, 0.0, 0.0)))
+    place = window.pixel_of(0.0, 0.0)
+    window.look(Orbit(distance=6.0, focal_point=(1.0, 0.0, 0.0), target_frame="nowhere"))
+    assert window.pixel_of(0.0, 0.0) == pytest.approx(place, abs=0.01)
+
+
+# The mouse
+
+
+def test_the_mouse_turns_moves_and_zooms_a_view_from_above(window: Window) -> None:
+    window.look(TopDownOrtho(scale=50.0))
+    window.drag(100, 0)
+    window.tell(lambda view: abs(view.angle + 0.5) < 1e-3, "RViz turns by 5 mrad/px")
+    window.look(TopDownOrtho(scale=50.0))
+    window.drag(100, 50, "middle")
+    window.tell(lambda view: math.dist((view.x, view.y), (-2.0, 1.0)) < 1e-3, "100 px are 2 m")
+    window.drag(-100, -50, shift=True)
+    window.tell(lambda view: math.hypot(view.x, view.y) < 1e-3, "moved back")
+    window.tab.mouse.wheel(0, -120)
+    window.tell(lambda view: view.scale > 52.0, "zoomed in")
+
+
+def test_the_mouse_looks_around_and_walks_in_fps(window: Window) -> None:
+    window.look(FPS(position=(0.0, 0.0, 2.0)))
+    window.drag(100, 40)
+    told = "5 mrad/px to the right and down"
+    view = window.tell(lambda view: math.dist((view.yaw, view.pitch), (-0.5, 0.2)) < 1e-3, told)
+    assert isinstance(view, FPS)
+    assert math.dist(view.position, (0.0, 0.0, 2.0)) < 0.01
+    window.look(FPS(position=(0.0, 0.0, 2.0)))
+    window.drag(0, -20, "right")
+    window.tell(lambda view: math.dist(view.position, (2.0, 0.0, 2.0)) < 1e-2, "walked 2 m")
+    window.drag(100, 0, "middle")
+    window.tell(lambda view: math.dist(view.position, (2.0, 1.0, 2.0)) < 1e-2, "1 m sideways")
+
+
+def test_moving_xy_orbit_keeps_its_focal_point_on_the_ground(window: Window) -> None:
+    window.look(XYOrbit())
+    window.drag(60, 40, "middle")
+    window.tab.mouse.wheel(0, -240)
+    view = window.tell(lambda view: view.distance < 9.5, "it came closer")
+    assert isinstance(view, XYOrbit)
+    window.tell(lambda view: abs(view.focal_point[2]) < 1e-5, "on the ground")
+    assert math.hypot(*view.focal_point[:2]) > 0.3
+
+
+@pytest.mark.parametrize(
+    "view",
+    [
+        Orbit(distance=8.0, yaw=-1.6),
+        TopDownOrtho(scale=50.0),
+        FPS(position=(0.0, -6.0, 3.0), yaw=1.6, pitch=0.4),
+    ],
+    ids=lambda view: type(view).__name__,
+)
+def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
+    window.scene.upsert("box", "b", box(-1.5, -0.5, 0.5, 1.0, 1.0, 1.0))
+    window.look(view)
+    left, top, right, bottom = window.red()
+    column, row = (left + right) / 2, (top + bottom) / 2
+    window.tab.mouse.move(column, row)
+    point = window.evaluate(
+        """(mouse) => {
+          const world = window.__viserMutable.nodeRefFromName["/webviz"].matrixWorld;
+          return window.webvizMouse.pick(mouse).applyMatrix4(world.clone().invert()).toArray();
+        }""",
+        [column, row],
+    )
+    assert -2.0 <= point[0] <= -1.0
+    assert point[2] > 0.01  # the box, not the ground below it
+    window.tab.keyboard.press("f")
+    window.wait_for(lambda: math.dist(window.pixel_of(*point), (450, 300)) < 2.0, "in the middle")
+
+
+# Pictures
+
+
+def test_a_picture_of_what_is_seen_is_downloaded(window: Window, tmp_path: Any) -> None:
+    window.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
+    window.look(Orbit(distance=5.0))
+    for name in ("robot.png", ""):
+        with window.tab.expect_download() as download:
+            window.scene.cameras.save_image(name)
+        file = download.value
+        file.save_as(tmp_path / "saved.png")
+        picture = np.asarray(PIL.Image.open(tmp_path / "saved.png").convert("RGB"))
+        np.testing.assert_array_equal(picture, window.pixels())
+        if name:
+            assert file.suggested_filename == name
+        else:
+            saved = datetime.strptime(file.suggested_filename, "webviz %Y-%m-%d %H.%M.%S.png")
+            assert abs((datetime.now() - saved).total_seconds()) < 60
+
+
+def test_a_page_that_lost_its_connection_keeps_its_view(window: Window) -> None:
+    view = TopDownOrtho(scale=33.0, x=2.0)
+    window.look(view)
+    before = set(window.server.get_clients())
+    for connection in tuple(window.scene.link._socket._live_connections.values()):
+        window.server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    window.wait_for(lambda: set(window.server.get_clients()) - before, "it is back")
+    window.wait_for(
+        lambda: list(window.scene.cameras.views().values()) == [view], "it told its view"
+    )
