@@ -211,7 +211,7 @@ class Viewer:
             offers,
             self._monitor.traffic(),
             self._monitor.look(offers),
-            tree_text(self.buffer, frames.now_ns) if self._inspects_transforms else "",
+            self._tree(frames),
             self._viewing.views(),
         )
 
@@ -301,6 +301,8 @@ class Viewer:
             for name, subscription in runner.subscriptions().items():
                 first = wanted.setdefault(name, subscription)
                 wanted[name] = replace(first, asked=max(first.asked, subscription.asked))
+        if not self._scene.has_watchers():
+            return wanted
         return self._monitor.subscription(offers) | wanted
 
     def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
@@ -326,6 +328,10 @@ class Viewer:
             )
         hint = config_file.nearest(fixed_frame, known)
         return Status(Level.ERROR, f"Nobody publishes a frame named {fixed_frame}: {hint}")
+
+    def _tree(self, frames: Frames) -> str:
+        wanted = self._inspects_transforms and self._scene.has_watchers()
+        return tree_text(self.buffer, frames.now_ns) if wanted else ""
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()

@@ -100,6 +100,12 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., A
     inspected = do(b).inspected
     assert inspected is not None
     assert inspected.age_s == 2.0
+    b.scene.watched = False
+    b.turn()
+    assert "/text" not in b.source.wanted
+    b.scene.watched = True
+    b.turn()
+    assert "/text" in b.source.wanted
     assert do(b, InspectTopic("")).inspected is None
     assert "/text" not in b.source.wanted
 
@@ -136,4 +142,7 @@ def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(
     b.transform("map", "odom", 0, static=True)
     assert do(b).transforms == ""
     assert do(b, InspectTransforms()).transforms.splitlines()[1].startswith("└─ odom  [static")
+    b.scene.watched = False
+    assert do(b).transforms == ""
+    b.scene.watched = True
     assert do(b, InspectTransforms(False)).transforms == ""
