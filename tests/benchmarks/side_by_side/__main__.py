@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import itertools
 import json
 import sys
 import tempfile
 import time
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from side_by_side import table
 from side_by_side.case import CaseFailed, CaseResult, Load, run
@@ -21,48 +24,51 @@ THE_CALLBACK = [Load(1)]
 """The floor has no clients but itself."""
 
 
+Report = dict[str, Any]
+
+
 def main() -> int:
-    """Measure, print a table and write JSON."""
+    """Measure, print a table and write JSON; Ctrl-C ends it with what there is."""
     options = _options()
     cases: list[tuple[str, str, CaseResult]] = []
     failures: list[tuple[str, str, str]] = []
-    for number in range(options.rounds):
-        for scene in options.scenes:
-            for system in options.systems:
+    with contextlib.suppress(KeyboardInterrupt):
+        for number in range(options.rounds):
+            for scene, system in itertools.product(options.scenes, options.systems):
                 print(f"round {number + 1}: {scene}, {system}", file=sys.stderr, flush=True)
-                loads = [LOADS[name] for name in options.clients]
-                if not SYSTEMS[system].is_served:
-                    loads = THE_CALLBACK
                 try:
-                    with tempfile.TemporaryDirectory() as folder:
-                        result = run(
-                            SYSTEMS[system],
-                            SCENES[scene],
-                            loads,
-                            options.seconds,
-                            Path(folder),
-                            options.patience,
-                        )
+                    cases.append((scene, system, _case(scene, system, options)))
                 except (CaseFailed, OSError) as error:
                     reason = " ".join(str(error).split())
                     print(f"  failed: {reason}", file=sys.stderr)
                     failures.append((scene, system, reason))
-                else:
-                    cases.append((scene, system, result))
-    measured = rows(cases)
-    facts = {
-        "machine": table.machine(),
+                if options.json:
+                    report = {**_facts(options), "rows": rows(cases), "failures": failures}
+                    text = json.dumps(report, indent=1, default=asdict)
+                    options.json.write_text(f"{text}\n")
+    print("\n".join(f"- {name}: {fact}" for name, fact in _facts(options).items()))
+    print("\n".join(table.markdown(rows(cases), failures)))
+    return 0 if cases else 1
+
+
+def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
+    loads = [LOADS[name] for name in options.clients]
+    if not SYSTEMS[system].is_served:
+        loads = THE_CALLBACK
+    with tempfile.TemporaryDirectory() as folder:
+        return run(
+            SYSTEMS[system], SCENES[scene], loads, options.seconds, Path(folder), options.patience
+        )
+
+
+def _facts(options: argparse.Namespace) -> Report:
+    return {
+        **table.machine(),
         "versions": table.versions(options.systems),
         "date": time.strftime("%Y-%m-%d"),
-        "seconds": options.seconds,
+        "seconds of each load": options.seconds,
         "rounds": options.rounds,
     }
-    print("\n".join(table.markdown(measured, failures)))
-    if options.json:
-        figures = [asdict(row) for row in measured]
-        report = {**facts, "rows": figures, "failures": failures}
-        options.json.write_text(json.dumps(report, indent=1) + "\n")
-    return 0 if cases else 1
 
 
 def _options() -> argparse.Namespace:

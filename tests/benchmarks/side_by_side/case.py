@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import os
-import random
 import re
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from side_by_side.log import Log
 from side_by_side.scenes import Scene
 from side_by_side.systems.registry import System
 from side_by_side.watchers import Watcher
+from webviz.testing.domain import isolated_domain
 
 SETTLE_S = 1.5
 """From the last change of the load to the first second that counts."""
@@ -59,6 +59,8 @@ class Result:
     rss: float
     rss_slope: float
     """MB per minute."""
+    join_s: float | None = None
+    """From the connection of the first client to the first publication it sees."""
     bytes: float = 0.0
     """To one client, per second."""
     published: dict[int, float] = field(default_factory=dict)
@@ -90,9 +92,10 @@ class Case:
         self._log = folder / "publications.bin"
         self._log.touch()
         self._stack = contextlib.ExitStack()
-        self.env = environment()
 
     def __enter__(self) -> Case:
+        self._stack.enter_context(isolated_domain())
+        self.env = environment()
         python = [sys.executable, "-m", "side_by_side.publisher"]
         try:
             self._publisher = self._start([*python, self.scene.name, str(self._log)], "publisher")
@@ -145,14 +148,18 @@ class Case:
     def measure(self, load: Load, seconds: float, patience: float = 0.0) -> Result:
         """Figures with so many clients, after up to `patience` seconds for a quiet machine."""
         with contextlib.ExitStack() as stack:
+            start = time.monotonic()
             watchers = [self.watch(recognise=i == 0) for i in range(load.clients)]
             for watcher in watchers:
                 stack.callback(watcher.close)
+            if watchers:
+                wait_for(lambda: watchers[0].sightings, "a client that joined saw none", GIVE_UP_S)
+            join_s = time.monotonic() - start if watchers else None
             for _ in range(load.stalled):
                 stack.callback(self.watch(recognise=False, stalls=True).close)
             time.sleep(SETTLE_S)
             self._wait_until_quiet(patience)
-            return self._figures(watchers, seconds)
+            return replace(self._figures(watchers, seconds), join_s=join_s)
 
     def _figures(self, watchers: Sequence[Watcher], seconds: float) -> Result:
         start, start_ns, cpu = time.monotonic(), time.time_ns(), self.cpu()
@@ -238,15 +245,13 @@ def wait_for(condition: Callable[[], object], otherwise: str, seconds: float) ->
         time.sleep(0.005)
 
 
-def environment() -> Mapping[str, str]:
-    """For processes that meet only each other."""
+def environment() -> dict[str, str]:
+    """Of the processes of a case, on the ROS domain of this one."""
     here = Path(__file__).parents[1]
     path = [str(here), os.environ.get("PYTHONPATH", "")]
     return {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(filter(None, path)),
-        "ROS_DOMAIN_ID": str(random.SystemRandom().randrange(100, 230)),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "PYTHONUNBUFFERED": "1",
     }
 

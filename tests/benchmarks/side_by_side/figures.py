@@ -73,6 +73,7 @@ def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
         "megabytes_per_s": result.bytes / 1e6 if is_watched else None,
         "resident_mb": result.rss,
         "resident_mb_per_min": result.rss_slope,
+        "join_s": result.join_s,
         "start_s": case.start_s,
         "start_cpu_s": case.start_cpu if case.start_s is not None else None,
         "others_percent": 100 * result.others,

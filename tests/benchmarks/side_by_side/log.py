@@ -60,6 +60,17 @@ class Log:
             late[lane].append((seen - published) / 1e6)
         return late
 
+    def gaps(self, sightings: Iterable[Sighting], until_ns: int) -> dict[int, float]:
+        """Seconds of the longest time without a new publication, up to `until_ns`, by lane."""
+        seen: dict[int, dict[int, int]] = defaultdict(dict)
+        for sighting in sightings:
+            if (found := self._find(sighting)) is not None:
+                seen[int(found[0])].setdefault(int(found[1]), sighting.time_ns)
+        return {
+            lane: max(np.diff([*sorted(times.values()), until_ns])) / 1e9
+            for lane, times in seen.items()
+        }
+
     def _between(self, lane: int, since_ns: int, until_ns: int) -> NDArray[np.int64]:
         rows = self._of_lane.get(lane, self._rows[:0])
         return rows[(rows[:, 3] >= since_ns) & (rows[:, 3] < until_ns)]

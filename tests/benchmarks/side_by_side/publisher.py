@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import rclpy
+import rclpy.utilities
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -104,7 +105,7 @@ def main(scene: str, log: str) -> None:
     print("publishing", flush=True)
     Publications(node, streams, Path(log)).run(stop)
     node.destroy_node()
-    rclpy.try_shutdown()
+    rclpy.utilities.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def cells(lane: int, publication: int) -> NDArray[np.int8]:
 
 def read(picture: bytes) -> list[tuple[int, int]]:
     """Lane and publication (modulo CYCLE) of every strip in a PNG or JPEG."""
-    red = np.asarray(PIL.Image.open(io.BytesIO(picture)).convert("RGB"))[:, :, 0]
+    red = np.asarray(PIL.Image.open(io.BytesIO(picture)).convert("RGBA"))[:, :, 0]
     is_set = red[BLOCK // 2 :: BLOCK, BLOCK // 2 :: BLOCK] < 128
     last = is_set.shape[1] - LENGTH + 1
     if last < 1:

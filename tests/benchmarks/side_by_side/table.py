@@ -22,7 +22,9 @@ COLUMNS = {
     "cpu_percent": "CPU %",
     "megabytes_per_s": "MB/s",
     "resident_mb": "RSS MB",
+    "join_s": "join s",
     "start_s": "start s",
+    "start_cpu_s": "start CPU s",
     "others_percent": "others %",
 }
 

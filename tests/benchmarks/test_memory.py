@@ -1,0 +1,30 @@
+"""Memory stands still under load, also while a client has stopped reading."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+from side_by_side.memory import soak
+from side_by_side.scenes import SCENES
+from side_by_side.systems.registry import SYSTEMS
+
+SECONDS = 90.0
+MOST_MB_PER_MIN = 15.0
+"""A leak of one message of each scan would be 30 MB a minute, one of what is sent to a client
+300 MB. Allocators settling down after the warm-up were seen to add up to 3 MB a minute (README)."""
+LONGEST_GAP_S = 15.0
+"""Every stream comes at least twice a second; the rest is for a machine that is busy otherwise."""
+
+
+def test_everything_at_once_with_a_stalled_client_takes_no_more_memory_and_the_other_sees_it_all(
+    tmp_path: Path,
+) -> None:
+    scene = SCENES["G"]
+    result = soak(SYSTEMS["webviz"], scene, SECONDS, tmp_path)
+    assert result.slope < MOST_MB_PER_MIN
+    assert result.gaps.keys() == {lane.number for lane in scene.lanes}
+    assert max(result.gaps.values()) < LONGEST_GAP_S
