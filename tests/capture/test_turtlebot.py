@@ -1,0 +1,48 @@
+"""A real robot: the picture of the README."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+
+import webviz
+from webviz.sources.bag_extras import map_of_file, static_transform
+from webviz.testing.comparing import share_of_difference
+
+ROOT = Path(__file__).parents[2]
+DATA = ROOT.parent / "shared/data"
+BAG = DATA / "bags/macfirst_floor_take_2"
+DIFFERENT = 0.01
+"""Share of pixels that may differ: the picture was made by one version of one browser."""
+
+
+@pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
+def test_a_turtlebot_its_map_and_its_config_are_one_picture(studio):
+    shot = webviz.capture(
+        DATA / "rviz/turtlebot_bag_files.rviz",
+        bag=BAG,
+        at=24.0,
+        size=(800, 450),
+        focus="base_link",
+        extras=[
+            map_of_file(DATA / "maps/mac_1st_floor_final.yaml"),
+            static_transform("map", "odom", -0.32, 0.04, 0.077),
+        ],
+        studio=studio,
+    )
+    assert shot.is_ok, shot.statuses
+    with PIL.Image.open(ROOT / "tests/pictures/turtlebot.png") as image:
+        expected = np.asarray(image.convert("RGB"))
+    assert share_of_difference(shot.pixels, expected) < DIFFERENT
+
+
+@pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
+def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(studio):
+    shot = webviz.capture(DATA / "rviz/turtlebot_bag_files.rviz", bag=BAG, studio=studio)
+    assert not shot.is_ok
+    assert (
+        "Nobody publishes a frame named map" in shot.pictures[0].shown.general["Fixed Frame"].text
+    )
