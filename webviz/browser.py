@@ -16,6 +16,8 @@ import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
+from webviz.browser_scripts import COUNT_UNPACKING, HOLD, OPAQUE, SETTLE, TRANSPARENT
+
 if TYPE_CHECKING:
     import playwright.sync_api as playwright
 
@@ -118,7 +120,7 @@ class Page:
         self.tab: playwright.Page = self._alive(self._context.new_page)
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.on("crash", lambda _: setattr(self, "_crashed", True))
-        self._alive(lambda: self.tab.add_init_script(_COUNT_UNPACKING))
+        self._alive(lambda: self.tab.add_init_script(COUNT_UNPACKING))
         self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
         self._alive(
             lambda: self.tab.wait_for_function(
@@ -167,12 +169,12 @@ class Page:
         )
 
     def hold(self) -> None:
-        """Draw nothing any more but in `settle` and `pixels`.
+        """Draw nothing any more but in `pixels`.
 
         A renderer in software takes most of the time of a picture, and viser's page would draw for
         a quarter of a second after each change.
         """
-        self.evaluate(_HOLD)
+        self.evaluate(HOLD)
 
     def settle(self, seconds: float = 60.0) -> None:
         """After `hold`: let the page work until nothing that it was sent is still being unpacked.
@@ -180,7 +182,7 @@ class Page:
         Raises:
             TimeoutError: it still unpacks after `seconds`.
         """
-        if not self.evaluate(_SETTLE, 1000.0 * seconds):
+        if not self.evaluate(SETTLE, 1000.0 * seconds):
             raise TimeoutError(f"The browser still unpacks pictures after {seconds:g} s.")
 
     def pixels(self, transparent: bool = False) -> Pixels:
@@ -193,7 +195,7 @@ class Page:
             uint8 (height, width, 3), or (height, width, 4) with alpha that is not multiplied into
             the colours.
         """
-        url = self.evaluate(_TRANSPARENT if transparent else _OPAQUE)
+        url = self.evaluate(TRANSPARENT if transparent else OPAQUE)
         png = base64.b64decode(url.split(",")[1])
         return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGBA" if transparent else "RGB"))
 
@@ -237,84 +239,3 @@ class Page:
 
 def _size(width: int, height: int) -> playwright.ViewportSize:
     return {"width": width, "height": height}
-
-
-# three.js decodes every texture, also those within GLB files, from an object URL that it revokes
-# when the texture is there.
-_COUNT_UNPACKING = """
-(() => {
-  const under_way = (window.webvizUnpacking = new Set());
-  const { createObjectURL, revokeObjectURL } = URL;
-  URL.createObjectURL = (object) => {
-    const url = createObjectURL.call(URL, object);
-    if (object.type?.startsWith("image/")) under_way.add(url);
-    return url;
-  };
-  URL.revokeObjectURL = (url) => {
-    under_way.delete(url);
-    revokeObjectURL.call(URL, url);
-  };
-})();
-"""
-
-# All of a frame but the drawing: others read where nodes are, and change them before they are drawn.
-_HOLD = """
-() => {
-  const {canvas, messageQueue, scene} = window.__viserMutable;
-  const {advance, gl} = scene.__r3f.root.getState();
-  canvas.style.visibility = "hidden";  // nor does the browser draw its page anew
-  window.webvizRender = gl.render.bind(gl);
-  gl.render = (scene, camera) => {
-    scene.updateMatrixWorld();
-    camera.updateMatrixWorld();
-    scene.onBeforeRender(gl, scene, camera, null);
-  };
-  setInterval(() => messageQueue.length > 0 && advance(performance.now()), 4);
-}
-"""
-
-# What is unpacked makes React render, which makes effects, which may unpack more: so several quiet
-# frames in a row, each with a task of its own for React.
-_SETTLE = """
-async (milliseconds) => {
-  const {messageQueue, scene} = window.__viserMutable;
-  const {advance} = scene.__r3f.root.getState();
-  const deadline = performance.now() + milliseconds;
-  for (let quiet = 0; quiet < 4; ) {
-    advance(performance.now());
-    const busy = messageQueue.length > 0 || window.webvizUnpacking.size > 0;
-    quiet = busy ? 0 : quiet + 1;
-    if (performance.now() > deadline) return false;
-    await new Promise((resume) => setTimeout(resume, busy ? 5 : 0));
-  }
-  return true;
-}
-"""
-
-_OPAQUE = """
-() => {
-  const {scene, camera, canvas} = window.__viserMutable;
-  window.webvizRender?.(scene, camera);
-  return canvas.toDataURL("image/png");
-}
-"""
-
-_TRANSPARENT = """
-() => {
-  const {scene, camera, canvas, backgroundMaterial, requestRender} = window.__viserMutable;
-  const {gl} = scene.__r3f.root.getState();
-  const alpha = gl.getClearAlpha();
-  const {enabled} = backgroundMaterial.uniforms;
-  const was = enabled.value;
-  try {
-    enabled.value = false;
-    gl.setClearAlpha(0);
-    (window.webvizRender ?? gl.render)(scene, camera);
-    return canvas.toDataURL("image/png");
-  } finally {
-    enabled.value = was;
-    gl.setClearAlpha(alpha);
-    requestRender();
-  }
-}
-"""

@@ -25,7 +25,7 @@ def test_axes(webviz_stage):
 
 def test_axes_that_are_masked(webviz_stage):
     stage = webviz_stage("robot.yaml", size=(200, 150))
-    stage.check_picture("masked", mask=[(0, 0, 200, 150)])
+    stage.check_picture("masked", mask=[(20, 0, 190, 150)])
 """
 
 
@@ -81,7 +81,7 @@ def test_without_a_browser_the_failure_is_one_sentence(
 ) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(package.path))
-    result = run(package, "-k", "masked")
+    result = run(package, "-k", "masked", "--update-pictures")
     result.assert_outcomes(failed=1, deselected=1)
     result.stdout.fnmatch_lines(
         ["E *NoBrowser: There is no browser for pictures: install Chromium or Google Chrome*"]

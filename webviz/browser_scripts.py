@@ -1,0 +1,83 @@
+"""What the page of a headless browser is told to do."""
+
+from __future__ import annotations
+
+# three.js decodes every texture, also those within GLB files, from an object URL that it revokes
+# when the texture is there.
+COUNT_UNPACKING = """
+(() => {
+  const under_way = (window.webvizUnpacking = new Set());
+  const { createObjectURL, revokeObjectURL } = URL;
+  URL.createObjectURL = (object) => {
+    const url = createObjectURL.call(URL, object);
+    if (object.type?.startsWith("image/")) under_way.add(url);
+    return url;
+  };
+  URL.revokeObjectURL = (url) => {
+    under_way.delete(url);
+    revokeObjectURL.call(URL, url);
+  };
+})();
+"""
+
+# All of a frame but the drawing: others read where nodes are, or change what is about to be drawn.
+HOLD = """
+() => {
+  const {canvas, messageQueue, scene} = window.__viserMutable;
+  const {advance, gl} = scene.__r3f.root.getState();
+  canvas.style.visibility = "hidden";  // nor does the browser draw its page anew
+  window.webvizRender = gl.render.bind(gl);
+  gl.render = (scene, camera) => {
+    scene.updateMatrixWorld();
+    camera.updateMatrixWorld();
+    scene.onBeforeRender(gl, scene, camera, null);
+  };
+  setInterval(() => messageQueue.length > 0 && advance(performance.now()), 4);
+}
+"""
+
+# What is unpacked makes React render, which makes effects, which may unpack more: so several quiet
+# frames in a row, each with a task of its own for React.
+SETTLE = """
+async (milliseconds) => {
+  const {messageQueue, scene} = window.__viserMutable;
+  const {advance} = scene.__r3f.root.getState();
+  const deadline = performance.now() + milliseconds;
+  for (let quiet = 0; quiet < 4; ) {
+    advance(performance.now());
+    const busy = messageQueue.length > 0 || window.webvizUnpacking.size > 0;
+    quiet = busy ? 0 : quiet + 1;
+    if (performance.now() > deadline) return false;
+    await new Promise((resume) => setTimeout(resume, busy ? 5 : 0));
+  }
+  return true;
+}
+"""
+
+OPAQUE = """
+() => {
+  const {scene, camera, canvas} = window.__viserMutable;
+  window.webvizRender?.(scene, camera);
+  return canvas.toDataURL("image/png");
+}
+"""
+
+TRANSPARENT = """
+() => {
+  const {scene, camera, canvas, backgroundMaterial, requestRender} = window.__viserMutable;
+  const {gl} = scene.__r3f.root.getState();
+  const alpha = gl.getClearAlpha();
+  const {enabled} = backgroundMaterial.uniforms;
+  const was = enabled.value;
+  try {
+    enabled.value = false;
+    gl.setClearAlpha(0);
+    (window.webvizRender ?? gl.render)(scene, camera);
+    return canvas.toDataURL("image/png");
+  } finally {
+    enabled.value = was;
+    gl.setClearAlpha(alpha);
+    requestRender();
+  }
+}
+"""
