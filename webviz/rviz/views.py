@@ -129,11 +129,10 @@ def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
             continue
         name = free_name(_name(tree), names)
         names[name] = None
-        if name in saved:
-            same = saved[name] == view
-            trees.append(
-                tree if same else {**_others(tree, saved[name]), **write(saved[name], name)}
-            )
+        if name in saved and saved[name] == view:
+            trees.append(tree)
+        elif name in saved:
+            trees.append({**write(saved[name], name), **_others(tree, saved[name])})
     trees += [write(view, name) for name, view in saved.items() if name not in names]
     return trees or None
 
