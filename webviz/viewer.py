@@ -306,7 +306,8 @@ class Viewer:
         return self._monitor.subscription(offers) | wanted
 
     def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
-        return runner.statuses(self._source.offers(), frames, self._source.inbox.dropped)
+        offers, dropped = self._source.offers(), self._source.inbox.dropped
+        return runner.statuses(offers, frames, dropped, self._scene.has_watchers())
 
     def _global_statuses(self, offers: Mapping[str, Offer], frames: Frames) -> Mapping[str, Status]:
         time_status = self._time.status(offers)

@@ -146,3 +146,16 @@ def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(
     assert do(b).transforms == ""
     b.scene.watched = True
     assert do(b, InspectTransforms(False)).transforms == ""
+
+
+def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Path(name="P", topic=Topic("/path")))
+    b.scene.watched = False
+    publish(b, 1.0)
+    b.turn()
+    assert b.statuses()["Display"] == ("OK", "Nothing is drawn until somebody opens the page.")
+    b.scene.watched = True
+    b.turn()
+    assert "Display" not in b.statuses()

@@ -81,7 +81,8 @@ def test_a_display_that_does_not_load_says_why_and_harms_no_other(
         "    print(type(display).__name__, getattr(display, 'reason', ''))"
     ).splitlines()
     assert fence.split() == ["Polygon"]
-    assert "displays[1]: acme_displays.gone:Gone does not load: ModuleNotFoundError" in gone
+    place = "x.yaml:4: displays[1].type"
+    assert f"{place}: acme_displays.gone:Gone does not load: ModuleNotFoundError" in gone
     assert "no display type `Fenc` here, did you mean `Fence`?" in typo
 
 

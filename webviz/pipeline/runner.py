@@ -21,6 +21,9 @@ from webviz.sample import Sample
 from webviz.sources import Offer, Raw, Subscription
 from webviz.status import Level, Status, worst
 
+NOTHING_TO_DRAW = Status(Level.WARN, "There is nothing to draw.")
+NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until somebody opens the page.")
+
 
 @dataclass(frozen=True)
 class Services:
@@ -190,6 +193,7 @@ class Runner:
         offers: Mapping[str, Offer],
         frames: Frames,
         dropped: Callable[[str], int],
+        is_watched: bool,
     ) -> dict[str, Status]:
         """Everything the display and the framework have to say, by key."""
         if not self.display.enabled:
@@ -207,7 +211,7 @@ class Runner:
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
         if worst(result.values()) is Level.OK and self._painter.is_empty():
-            result["Display"] = Status(Level.WARN, "There is nothing to draw.")
+            result["Display"] = NOTHING_TO_DRAW if is_watched else NOBODY_WATCHES
         return result
 
     # Inside
