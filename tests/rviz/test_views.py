@@ -6,7 +6,7 @@ import textwrap
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
@@ -160,10 +160,11 @@ def test_a_view_without_counterpart_is_kept_until_another_is_chosen() -> None:
     assert exported(config)["Current"]["Class"] == "rviz_default_plugins/Orbit"
 
 
+@settings(deadline=None)
 @given(VIEWS, st.dictionaries(st.sampled_from(["A", "View", "b c"]), VIEWS, max_size=3))
 def test_views_that_were_exported_are_imported_as_they_were(
     view: View, saved: dict[str, View]
 ) -> None:
     config = Config(Settings(view=view, views=saved))
-    settings = rviz.read(rviz.write(config)[0], "x.rviz")[0].settings
-    assert (settings.view, settings.views) == (view, saved)
+    again = rviz.read(rviz.write(config)[0], "x.rviz")[0].settings
+    assert (again.view, again.views) == (view, saved)
