@@ -90,13 +90,7 @@ def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int)
         OutputError: it would be too large.
     """
     width, height = pictures[0][1].size
-    rows = math.ceil(len(pictures) / columns)
-    total = (columns * (width + GAP) + GAP, rows * (height + CAPTION) + GAP)
-    if max(total) > MAX_EDGE:
-        raise OutputError(
-            f"The contact sheet would have {total[0]} x {total[1]} pixels, at most {MAX_EDGE} a "
-            "side go: make fewer or smaller pictures."
-        )
+    total = sheet_size((width, height), len(pictures), columns)
     mode = pictures[0][1].mode
     sheet = PIL.Image.new(mode, total, PAPER)
     draw = PIL.ImageDraw.Draw(sheet)
@@ -107,6 +101,22 @@ def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int)
         sheet.paste(picture, (x, y))
         draw.text((x + 2, y + height + 2), caption, INK, font)
     return sheet
+
+
+def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, int]:
+    """Width and height of a contact sheet of some pictures of a size.
+
+    Raises:
+        OutputError: it would be too large.
+    """
+    rows = math.ceil(count / columns)
+    total = (columns * (size[0] + GAP) + GAP, rows * (size[1] + CAPTION) + GAP)
+    if max(total) > MAX_EDGE:
+        raise OutputError(
+            f"The contact sheet would have {total[0]} x {total[1]} pixels, at most {MAX_EDGE} a "
+            "side go: make fewer or smaller pictures."
+        )
+    return total
 
 
 def numbered(path: Path, view: str, index: int | None, count: int) -> Path:

@@ -109,11 +109,13 @@ def _write(options: argparse.Namespace, order: Order) -> int:
     report = _Report()
     if options.is_animation and views > 1:
         raise OutputError("An animation shows one view: give one --view, or another ending.")
+    columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
+    if options.contact_sheet:
+        picture_files.sheet_size(order.size, times * views, columns)
     with contextlib.closing(pictures(order)) as made:
         told = report.follow(made)
         if options.contact_sheet:
             captioned = [(_caption(picture), _image(picture)) for picture in told]
-            columns = views if min(times, views) > 1 else math.ceil(math.sqrt(len(captioned)))
             picture_files.save(picture_files.contact_sheet(captioned, columns), path)
             written = [path]
         elif options.is_animation:
@@ -139,23 +141,25 @@ class _Report:
 
     def __init__(self) -> None:
         self.count = 0
-        self._bad: list[Picture] = []
+        self._bad = 0
+        self._first: Picture | None = None
 
     def follow(self, pictures: Iterator[Picture]) -> Iterator[Picture]:
         """The pictures, of which the bad ones are noted."""
         for picture in pictures:
             self.count += 1
             if not picture.shown.is_ok:
-                self._bad.append(picture)
+                self._bad += 1
+                self._first = self._first or picture
             yield picture
 
     def tell(self, timeout: float) -> int:
         """Print the statuses of the first bad picture; the exit status."""
-        if not self._bad:
+        first = self._first
+        if first is None:
             return 0
-        first = self._bad[0]
         when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
-        more = f", and so in {len(self._bad) - 1} more pictures" if len(self._bad) > 1 else ""
+        more = f", nor in {self._bad - 1} more pictures" if self._bad > 1 else ""
         print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
         # What was not imported was told when the config was read.
         general = {
