@@ -22,7 +22,7 @@ CLEAR = 36
 """Steps by which it counts as `CLEAR_WEIGHT` pixels: edges that another version of a browser draws
 differ by less, and a small thing that is missing by more."""
 CLEAR_WEIGHT = 3
-TOLERANCE = 0.0016
+TOLERANCE = 0.001
 """Share of pixels that may differ."""
 GREY = 128
 """What is masked in a stored picture."""
