@@ -59,8 +59,8 @@ def test_the_box_of_each_kind_of_node(
 
 def test_turned_solids_are_within_their_box() -> None:
     turned = np.array([(0.8, 0.6, 0, 0)], np.float32)
-    low, high = box_of(Instances(ORIGIN, np.array([(3, 4, 0)], np.float32), (0, 0, 0), wxyzs=turned))
-    assert (low, high) == ((-2.5, -2.5, -2.5), (2.5, 2.5, 2.5))
+    solid = Instances(ORIGIN, np.array([(3, 4, 0)], np.float32), (0, 0, 0), wxyzs=turned)
+    assert box_of(solid) == ((-2.5, -2.5, -2.5), (2.5, 2.5, 2.5))
 
 
 def test_a_binary_gltf_is_read_with_the_places_of_its_parts() -> None:
