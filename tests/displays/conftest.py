@@ -122,7 +122,7 @@ class Bench:
 
     def _statuses(self) -> dict[str, Status]:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
-        return self.runner.statuses(self._offers, frames, lambda topic: 0)
+        return self.runner.statuses(self._offers, frames, lambda topic: 0, is_watched=True)
 
 
 @pytest.fixture
