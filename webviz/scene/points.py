@@ -60,7 +60,8 @@ class _Part(SingleNode[Points]):
                 "points": np.ascontiguousarray(node.xyz, dtype=np.float32),
                 "colors": rgb_array(node.colors, len(node.xyz)),
             },
-            {"point_size": float(node.size), "point_shape": node.shape},
+            # viser's size is half an edge: it draws a point twice as wide (measured).
+            {"point_size": node.size / 2.0, "point_shape": node.shape},
         )
 
 
