@@ -248,7 +248,7 @@ def wait_for(condition: Callable[[], object], otherwise: str, seconds: float) ->
 def environment() -> dict[str, str]:
     """Of the processes of a case, on the ROS domain of this one."""
     here = Path(__file__).parents[1]
-    path = [str(here), os.environ.get("PYTHONPATH", "")]
+    path = [str(here), str(here.parent / "support"), os.environ.get("PYTHONPATH", "")]
     return {
         **os.environ,
         "PYTHONPATH": os.pathsep.join(filter(None, path)),

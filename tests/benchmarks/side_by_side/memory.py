@@ -21,7 +21,7 @@ from side_by_side.case import SAMPLES_PER_S, Case, CaseFailed
 from side_by_side.scenes import SCENES, Scene
 from side_by_side.systems.registry import SYSTEMS, System
 
-WARM_UP_S = 20.0
+WARM_UP_S = 30.0
 """Buffers of every size have been needed once by then."""
 
 

@@ -1,9 +1,9 @@
 """A client of Rerun's gRPC server, which recognises publications by a timeline.
 
-A logger sets the timeline "publication" to `timeline_value(stamp)`: the stamp, in a disguise,
-behind three bytes that are looked for in what arrives. LZ4, by which Rerun compresses, shortens
-repetitions of four bytes and more; three it leaves, and the disguise makes the stamp differ from
-the one in the timeline of time.
+A logger sets the timeline "publication" to `timeline_value(stamp)`: the stamp, scrambled, behind
+three bytes that are looked for in what arrives. LZ4, by which Rerun compresses, shortens
+repetitions of four bytes and more; three it leaves, and all bytes of a scrambled stamp differ from
+one to the next.
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ METHOD = "/rerun.sdk_comms.v1alpha1.MessageProxyService/ReadMessages"
 SIGN = bytes([0xA7, 0x3C, 0xE9])
 STAMP_BYTES = 5
 CYCLE = 1 << 39
-DISGUISE = 0x5A_C396_E1D7
+SCRAMBLE = 0x5A_C396_E1D7
+UNSCRAMBLE = pow(SCRAMBLE, -1, CYCLE)
 UNLIMITED = -1
 
 
 def timeline_value(stamp_ns: int) -> int:
     """What a logger sets the timeline to."""
-    return (stamp_ns % CYCLE ^ DISGUISE) << 8 * len(SIGN) | int.from_bytes(SIGN, "little")
+    return stamp_ns * SCRAMBLE % CYCLE << 8 * len(SIGN) | int.from_bytes(SIGN, "little")
 
 
 class RerunWatcher:
@@ -80,6 +81,7 @@ class RerunWatcher:
         at = data.find(SIGN)
         while at >= 0:
             start = at + len(SIGN)
-            key = int.from_bytes(data[start : start + STAMP_BYTES], "little") ^ DISGUISE
-            self.sightings.append(Sighting(now_ns, None, key, CYCLE))
+            key = int.from_bytes(data[start : start + STAMP_BYTES], "little")
+            stamp = key * UNSCRAMBLE % CYCLE
+            self.sightings.append(Sighting(now_ns, None, stamp, CYCLE))
             at = data.find(SIGN, start)

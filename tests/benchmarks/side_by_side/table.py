@@ -5,13 +5,14 @@ from __future__ import annotations
 import importlib.metadata
 import os
 import platform
+import timeit
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import psutil
 
 from side_by_side.figures import Figure, Row, ratio
-from side_by_side.scenes import SCENES
+from side_by_side.scenes import SCENES, Scene
 from side_by_side.systems.registry import SYSTEMS
 
 COLUMNS = {
@@ -49,10 +50,24 @@ def versions(systems: Sequence[str]) -> dict[str, str]:
     return {package: importlib.metadata.version(package) for package in dict.fromkeys(packages)}
 
 
+def copied(scene: Scene) -> tuple[float, float]:
+    """Bytes published per second, and percent of a core that a copy of them takes."""
+    size = seconds = 0.0
+    for stream in scene.streams:
+        message = stream.publication(0, 0)
+        size += stream.hz * len(message)
+        seconds += stream.hz * min(
+            timeit.repeat(lambda m=message: bytearray(m), number=1, repeat=20)
+        )
+    return size, 100 * seconds
+
+
 def markdown(rows: Sequence[Row], failures: Sequence[tuple[str, str, str]]) -> Iterator[str]:
     """The lines of a table for each scene."""
     for name in dict.fromkeys(row.scene for row in rows):
         yield f"\n### {name}: {SCENES[name].title}\n"
+        size, share = copied(SCENES[name])
+        yield f"{size / 1e6:.2f} MB/s are published; to copy them takes {share:.2g} % of a core.\n"
         yield "| clients | system | " + " | ".join(COLUMNS.values()) + " | CPU / webviz's |"
         yield "| --- | --- |" + " ---: |" * (len(COLUMNS) + 1)
         mine = [row for row in rows if row.scene == name]
