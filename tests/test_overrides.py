@@ -8,7 +8,7 @@ import pytest
 
 from webviz import rviz
 from webviz.config import Branch, Config, ConfigError, Unreadable, document, dump, parse, standard
-from webviz.overrides import override
+from webviz.config.overrides import override
 from webviz.registry import display_types
 
 TEXT = """\

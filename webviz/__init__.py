@@ -31,8 +31,8 @@ from webviz.sample import Sample
 from webviz.status import Level, Status
 
 if TYPE_CHECKING:
-    from webviz.app import Viewer
-    from webviz.capturing import capture
+    from webviz.app.viewer import Viewer
+    from webviz.pictures.capture import capture
 
 __all__ = [
     "Arrows",
@@ -68,7 +68,7 @@ __all__ = [
     "compose",
 ]
 
-_LAZY = {"Viewer": "webviz.app", "capture": "webviz.capturing"}
+_LAZY = {"Viewer": "webviz.app.viewer", "capture": "webviz.pictures.capture"}
 """Where lies what takes long to import, and displays have no use for."""
 
 

@@ -2,6 +2,6 @@
 
 import sys
 
-from webviz.cli import main
+from webviz.cli.main import main
 
 sys.exit(main())

@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import webviz
+from webviz.app.handles import DisplayHandle
 from webviz.commands import Refresh
-from webviz.handles import DisplayHandle
 from webviz.registry import display_types
 from webviz.testing.source import HandFedSource
 

@@ -16,9 +16,9 @@ from collections.abc import Callable
 
 import playwright.sync_api as playwright
 
-from webviz.browser import launched
 from webviz.display import make
 from webviz.gui import Panel
+from webviz.pictures.browser import launched
 from webviz.registry import display_types
 from webviz.scene import open_server
 from webviz.state import Row, State

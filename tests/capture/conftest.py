@@ -10,7 +10,7 @@ import pytest
 from bags import START_NS, Bag, ns
 from ros_messages import header
 
-from webviz.studio import Studio
+from webviz.pictures.studio import Studio
 
 SIZE = (320, 240)
 SECONDS = 6

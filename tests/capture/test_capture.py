@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 import webviz
 from webviz import Level
-from webviz.capturing import Capture
 from webviz.config import parse
+from webviz.pictures.capture import Capture
 from webviz.views import Orbit
 
 SIZE = (320, 240)

@@ -11,7 +11,7 @@ import PIL.Image
 import PIL.ImageSequence
 import pytest
 
-from webviz.picture_files import (
+from webviz.pictures.files import (
     OutputError,
     check,
     contact_sheet,

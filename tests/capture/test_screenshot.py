@@ -18,7 +18,7 @@ import pytest
 from bags import strings
 from program import Program
 
-from webviz.screenshot_options import parse_arguments
+from webviz.cli.screenshot_options import parse_arguments
 
 CONFIG = Path(__file__).parent / "top.yaml"
 COMMAND = [sys.executable, "-m", "webviz", "screenshot", "-d", str(CONFIG)]

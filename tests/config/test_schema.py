@@ -13,16 +13,17 @@ from jsonschema import Draft7Validator
 from ruamel.yaml import YAML
 from rviz_files import FILES
 
-from webviz import cli, registry, rviz
+from webviz import registry, rviz
+from webviz.cli import main as cli
+from webviz.cli.main import DEMO
+from webviz.cli.schema import COMMAND, SHIPPED, text
 from webviz.config import Config, ConfigError, Unreadable, dump, parse, standard
 from webviz.config.schema import schema
 from webviz.display import make
 from webviz.registry import display_types
-from webviz.schema import COMMAND, SHIPPED, text
 
 INSTALLED = display_types()
 CHECK = Draft7Validator(schema(INSTALLED))
-DEMO = Path(cli.__file__).parent / "demo.yaml"
 
 
 def faults(written: str) -> list[str]:
@@ -142,13 +143,13 @@ def test_the_command_writes_it_with_displays_of_a_plugin(
         'class Beacon(Display):\n    """A light."""\n\n    height: float = 2.0\n'
     )
     try:
-        assert cli.main(["schema", "--plugin", str(plugin), "-o", str(written)]) == 0
+        assert cli(["schema", "--plugin", str(plugin), "-o", str(written)]) == 0
         assert capsys.readouterr().out == f"webviz: wrote {written}\n"
         made = json.loads(written.read_text())
         assert made["definitions"]["Beacon"]["properties"]["height"]["default"] == 2.0
     finally:
         registry.register(str(plugin), {})
-    assert cli.main(["schema"]) == 0
+    assert cli(["schema"]) == 0
     assert capsys.readouterr().out == text(INSTALLED)
-    assert cli.main(["schema", "-o", str(tmp_path / "no folder" / "x")]) == 1
+    assert cli(["schema", "-o", str(tmp_path / "no folder" / "x")]) == 1
     assert "Cannot write" in capsys.readouterr().err

@@ -12,7 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 from program import Program
 
-from webviz.browser import Page
+from webviz.pictures.browser import Page
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import pytest
 from robots import DEMO, place_links
 
 from webviz import Display
-from webviz.browser import Pixels
+from webviz.pictures.browser import Pixels
 from webviz.testing import TOLERANCE, Stage, share_of_difference, turned
 from webviz.testing.comparing import load
 from webviz.views import Orbit

@@ -14,7 +14,7 @@ import playwright.sync_api as playwright
 import pytest
 from program import Program
 
-from webviz.browser import Page
+from webviz.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

@@ -8,11 +8,11 @@ import pytest
 from bench import HandFedSource
 from rviz_trees import lost, texts
 
-from webviz import cli
 from webviz import config as config_file
+from webviz.cli import main as cli
+from webviz.frame_loop.loop import FrameLoop
 from webviz.state import State
 from webviz.testing.recording import RecordingScene
-from webviz.viewer import Viewer
 
 SMALL = """\
 Visualization Manager:
@@ -36,7 +36,7 @@ def small(tmp_path: Path) -> Path:
 
 
 def convert(*arguments: object) -> int:
-    return cli.main(["convert", *map(str, arguments)])
+    return cli(["convert", *map(str, arguments)])
 
 
 def test_a_file_goes_to_yaml_and_back(
@@ -87,7 +87,7 @@ def test_a_command_without_a_target_says_what_is_missing(
 def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
     states: list[State] = []
     source, scene = HandFedSource(), RecordingScene()
-    viewer = Viewer(config_file.load(small), source, scene, states.append)
+    viewer = FrameLoop(config_file.load(small), source, scene, states.append)
     viewer.turn()
     status = states[-1].statuses["Import"]
     assert (status.level.name, "my_plugins/Laser" in status.text) == ("WARN", True)

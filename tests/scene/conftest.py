@@ -13,7 +13,7 @@ import viser
 import websockets.sync.client
 import zstandard
 
-from webviz.browser import Page
+from webviz.pictures.browser import Page
 from webviz.scene import Scene, open_server
 
 Point = tuple[float, float, float]

@@ -9,7 +9,7 @@ import playwright.sync_api as playwright
 import pytest
 
 from webviz.nodes import Points
-from webviz.studio import Studio
+from webviz.pictures.studio import Studio
 from webviz.views import Orbit
 
 

@@ -14,8 +14,8 @@ import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
 
-from webviz.browser import Page
 from webviz.nodes import Instances, Labels, Lines, Pose
+from webviz.pictures.browser import Page
 from webviz.scene import Scene, open_server
 from webviz.views import (
     FIELD_OF_VIEW,

@@ -10,10 +10,10 @@ from bags import START_NS, Bag, ns
 from ros_messages import header
 
 from webviz.config import parse
+from webviz.frame_loop.loop import FrameLoop
 from webviz.frames import Frames
 from webviz.sources.bag import BagSource
 from webviz.testing.recording import RecordingScene
-from webviz.viewer import Viewer
 
 CONFIG = """\
 fixed_frame: map
@@ -65,7 +65,7 @@ def show(run: Path, to_s: float, step_s: float, watched: bool) -> tuple[list[Any
     """Poses and nodes, and the rows of the panel in the end, if one plays in steps."""
     source, scene = BagSource(run), RecordingScene()
     config = parse(CONFIG, "the config")
-    viewer = Viewer(config, source, scene, strict=True, clock=lambda: source.position_ns / 1e9)
+    viewer = FrameLoop(config, source, scene, strict=True, clock=lambda: source.position_ns / 1e9)
     scene.watched = watched
     viewer.turn()
     while source.position_ns < source.start_ns + ns(to_s):

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from webviz.config import Config, Item, Settings
+from webviz.frame_loop.loop import FrameLoop
+from webviz.frame_loop.viewing import Cameras, NoCameras
 from webviz.state import State
 from webviz.testing.messages import header, serialized
 from webviz.testing.recording import RecordingScene
 from webviz.testing.source import HandFedSource
-from webviz.viewer import Viewer
-from webviz.viewing import Cameras, NoCameras
 
 
 class Bench:
@@ -32,7 +32,7 @@ class Bench:
         self.states: list[State] = []
         self.clock = 1000.0
         config = Config(Settings(fixed_frame=fixed_frame), list(displays))
-        self.viewer = Viewer(
+        self.viewer = FrameLoop(
             config,
             self.source,
             self.scene,

@@ -13,7 +13,7 @@ import numpy as np
 import PIL.Image
 from program import Program
 
-from webviz.browser import Page, launched
+from webviz.pictures.browser import Page, launched
 from webviz.testing.comparing import store
 
 PATH = Path(__file__).parents[1] / "pictures/demo.png"

@@ -12,7 +12,7 @@ import numpy as np
 import psutil
 import pytest
 
-from webviz.browser import BrowserDied, NoBrowser
+from webviz.pictures.browser import BrowserDied, NoBrowser
 from webviz.testing import TOLERANCE, Stage, share_of_difference
 from webviz.testing.comparing import load, masked, store
 from webviz.testing.darkroom import Darkroom

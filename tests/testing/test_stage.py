@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from webviz import Level
-from webviz.requests import Refused
+from webviz.frame_loop.requests import Refused
 from webviz.testing import SECOND, Stage
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan

@@ -12,7 +12,7 @@ import PIL.Image
 import PIL.ImageFilter
 from numpy.typing import NDArray
 
-from webviz.browser import Pixels
+from webviz.pictures.browser import Pixels
 
 COLORS = 256
 """Of a stored picture: few enough for some kilobytes, and no person sees the difference."""

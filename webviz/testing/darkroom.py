@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
-from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
-from webviz.studio import Studio
+from webviz.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.pictures.studio import Studio
 from webviz.testing.recording import RecordingScene
 from webviz.views import View
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from webviz.browser import Pixels
+from webviz.pictures.browser import Pixels
 from webviz.testing.comparing import (
     TOLERANCE,
     Box,

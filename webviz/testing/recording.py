@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from webviz.bounds import Box, bounds, union
+from webviz.frame_loop.loop import Scene
+from webviz.frame_loop.viewing import Cameras, NoCameras
 from webviz.frames import compose
 from webviz.nodes import Node, Pose, Rgb
-from webviz.viewer import Scene
-from webviz.viewing import Cameras, NoCameras
 
 
 class Target(Scene, Protocol):

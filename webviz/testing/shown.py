@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from webviz.browser import Pixels
 from webviz.commands import SetFixedFrame, SetProperty
+from webviz.pictures.browser import Pixels
 from webviz.testing.comparing import TOLERANCE, Box
 from webviz.testing.messages import header, serialized
 from webviz.testing.pictures import Photographer

@@ -6,20 +6,20 @@ import threading
 from collections.abc import Mapping
 
 from webviz.config import Config
+from webviz.frame_loop.loop import FrameLoop
 from webviz.sources import Source, Subscription
 from webviz.state import State
 from webviz.testing.recording import RecordingScene
-from webviz.viewer import Viewer
 
 
-class WatchedViewer(Viewer):
+class WatchedViewer(FrameLoop):
     """A viewer whose displays raise what is wrong with them.
 
     Args:
         config: what to show.
         source: where messages come from.
         scene: where to draw; its lock is held during each turn.
-        options: for `Viewer`.
+        options: for `FrameLoop`.
     """
 
     def __init__(

@@ -16,7 +16,7 @@ import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
-from webviz.browser_scripts import COUNT_UNPACKING, HOLD, OPAQUE, SETTLE, TRANSPARENT
+from webviz.pictures.browser_scripts import COUNT_UNPACKING, HOLD, OPAQUE, SETTLE, TRANSPARENT
 
 if TYPE_CHECKING:
     import playwright.sync_api as playwright

@@ -17,12 +17,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from webviz import config as config_file
-from webviz import convert, schema, screenshot
-from webviz.app import Viewer
+from webviz.app.running import NO_ROS
+from webviz.app.viewer import Viewer
+from webviz.cli import convert, schema, screenshot
 from webviz.config import Config
+from webviz.config.overrides import override
 from webviz.errors import Error
-from webviz.overrides import override
-from webviz.running import NO_ROS
 
 DEMO = Path(__file__).parent / "demo.yaml"
 EPILOG = """\

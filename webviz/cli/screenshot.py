@@ -14,15 +14,17 @@ from typing import TYPE_CHECKING
 import PIL.Image
 
 from webviz import config as config_file
-from webviz import convert, picture_files, plugins
-from webviz.capture_times import At, every
-from webviz.overrides import override
-from webviz.picture_files import OutputError
-from webviz.screenshot_options import parse_arguments
+from webviz import plugins
+from webviz.cli import convert
+from webviz.cli.screenshot_options import parse_arguments
+from webviz.config.overrides import override
+from webviz.pictures import files as picture_files
+from webviz.pictures.files import OutputError
+from webviz.pictures.times import At, every
 from webviz.status import Level, Status
 
 if TYPE_CHECKING:
-    from webviz.capturing import Order, Picture
+    from webviz.pictures.capture import Order, Picture
     from webviz.sources.bag import BagSource
 
 SHEET_SIZE = (480, 270)
@@ -43,7 +45,7 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
     # viser takes a while to import; --help comes before.
-    from webviz.capturing import one_sentence
+    from webviz.pictures.capture import one_sentence
 
     try:
         with one_sentence():
@@ -54,7 +56,7 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
 
 
 def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
-    from webviz.capturing import SIZE, Order, opened, set_fixed_frame
+    from webviz.pictures.capture import SIZE, Order, opened, set_fixed_frame
     from webviz.sources.bag import BagSource
     from webviz.sources.bag_extras import map_of_file, static_transform
 
@@ -102,7 +104,7 @@ def _times(options: argparse.Namespace, source: BagSource) -> Sequence[At]:
 
 def _write(options: argparse.Namespace, order: Order) -> int:
     """Make the pictures of an order; the exit status."""
-    from webviz.capturing import pictures
+    from webviz.pictures.capture import pictures
 
     path: Path = options.output
     times, views = len(order.positions()), len(order.looks())

@@ -8,8 +8,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from webviz import picture_files
-from webviz.capture_times import TimeError, read_at
+from webviz.pictures import files as picture_files
+from webviz.pictures.times import TimeError, read_at
 
 EPILOG = """\
 examples:

@@ -7,10 +7,10 @@ import itertools
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from webviz.browser import BrowserDied, NoBrowser, Page, Pixels, launched
-from webviz.capture_stage import LOADING
-from webviz.capturing import check_size
 from webviz.errors import Error
+from webviz.pictures.browser import BrowserDied, NoBrowser, Page, Pixels, launched
+from webviz.pictures.capture import check_size
+from webviz.pictures.stage import LOADING
 from webviz.scene import Scene
 from webviz.state import State
 from webviz.views import View

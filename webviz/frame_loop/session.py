@@ -28,7 +28,7 @@ from webviz.commands import (
 )
 from webviz.config import Config, ConfigError, Settings
 from webviz.display import Display, make
-from webviz.display_list import DisplayList
+from webviz.frame_loop.display_list import DisplayList
 from webviz.registry import display_types
 from webviz.state import File
 

@@ -12,18 +12,18 @@ from pathlib import Path
 import msgspec
 
 from webviz import plugins
-from webviz.browser import BrowserDied, NoBrowser, Pixels, launched
-from webviz.capture_stage import Shown, Stage
-from webviz.capture_times import At, position_ns, seconds_from_start
+from webviz.app.running import ros_source
 from webviz.config import Config, load, nearest, parse
 from webviz.errors import Error
-from webviz.running import ros_source
+from webviz.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.pictures.stage import Shown, Stage
+from webviz.pictures.studio import Studio
+from webviz.pictures.times import At, position_ns, seconds_from_start
 from webviz.scene import CannotListen
 from webviz.sources import Source
 from webviz.sources.bag import BagSource
 from webviz.sources.bag_extras import Extra
 from webviz.status import Status
-from webviz.studio import Studio
 from webviz.views import View
 
 SIZE = (1280, 720)

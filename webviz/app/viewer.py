@@ -10,7 +10,9 @@ from typing import Any
 import msgspec
 
 from webviz import config as config_file
-from webviz.adding import by_topic, check_properties
+from webviz.app.adding import by_topic, check_properties
+from webviz.app.handles import DisplayHandle, NoSuchDisplay
+from webviz.app.running import Running, checked_view
 from webviz.commands import (
     AddDisplay,
     Export,
@@ -29,8 +31,6 @@ from webviz.commands import (
 )
 from webviz.display import Color
 from webviz.errors import Error
-from webviz.handles import DisplayHandle, NoSuchDisplay
-from webviz.running import Running, checked_view
 from webviz.status import Status
 from webviz.views import View
 

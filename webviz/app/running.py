@@ -19,16 +19,16 @@ import msgspec
 import PIL.Image
 
 from webviz import config as config_file
-from webviz import picture_files
 from webviz import plugins as plugin_files
 from webviz.commands import Command, Refresh, StartWithView
 from webviz.config import Config
 from webviz.errors import Error
+from webviz.pictures import files as picture_files
 from webviz.state import State
 from webviz.views import View, with_type
 
 if TYPE_CHECKING:
-    from webviz.browser import Pixels
+    from webviz.pictures.browser import Pixels
     from webviz.ros.node import RosSource
     from webviz.sources import Source
 
@@ -78,10 +78,10 @@ class Running:
             path = Path(config) if config is not None else None
             # viser takes a while to import; mistakes in files are told before.
             shown = read(path) if path is not None else None
+            from webviz.frame_loop.loop import FrameLoop
             from webviz.gui import Panel
+            from webviz.pictures.snapshots import Snapshots
             from webviz.scene import CannotListen, Scene, open_server
-            from webviz.snapshots import Snapshots
-            from webviz.viewer import Viewer as FrameLoop
 
             try:
                 server = open_server(host, port, allow_hosts)

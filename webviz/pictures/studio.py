@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from webviz.browser import Page, Pixels
 from webviz.nodes import Rgb
+from webviz.pictures.browser import Page, Pixels
 from webviz.scene import Scene, open_server, set_background
 from webviz.scene.server import BACKGROUND
 from webviz.views import View
@@ -35,7 +35,7 @@ class Studio:
     launched the browser.
 
     Args:
-        browser: from `webviz.browser.launched`.
+        browser: from `webviz.pictures.browser.launched`.
         width, height: of pictures in pixels.
         background: what lies behind the scene.
     """

@@ -37,7 +37,7 @@ class Requests:
         self._has_ended = False
 
     def put(self, command: Command) -> Future[str]:
-        """Ask for something; see `Viewer.enqueue`."""
+        """Ask for something; see `FrameLoop.enqueue`."""
         answer: Future[str] = Future()
         try:
             self._waiting.put_nowait((command, answer))

@@ -11,14 +11,14 @@ import msgspec
 
 from webviz.config import Branch, Config, Item, Unreadable, nearest
 from webviz.errors import Error
+from webviz.frame_loop.loop import FrameLoop
 from webviz.frames import Frames
 from webviz.group import Group
+from webviz.pictures.studio import Studio
 from webviz.sources import Source
 from webviz.sources.bag import BagSource
 from webviz.state import Row, State
 from webviz.status import Level, Status
-from webviz.studio import Studio
-from webviz.viewer import Viewer
 from webviz.views import FIXED_FRAME, FPS, TopDownOrtho, View
 
 STEP_NS = 100_000_000
@@ -67,7 +67,7 @@ class Stage:
         self._source = source
         self._studio = studio
         self._kept = set(_kept(config.displays))
-        self._viewer = Viewer(config, source, studio.scene, clock=self._clock)
+        self._viewer = FrameLoop(config, source, studio.scene, clock=self._clock)
         self._viewer.turn()
 
     def close(self) -> None:

@@ -28,7 +28,10 @@ from webviz.commands import (
 )
 from webviz.config import Config, Settings
 from webviz.display import Color
-from webviz.display_list import DisplayList
+from webviz.frame_loop.display_list import DisplayList
+from webviz.frame_loop.requests import Requests
+from webviz.frame_loop.session import Session
+from webviz.frame_loop.viewing import ViewedScene, Viewing
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
 from webviz.pipeline.drawing import Scene as DrawingScene
@@ -36,13 +39,10 @@ from webviz.pipeline.listener import TransformListener
 from webviz.pipeline.ros_time import RosTime
 from webviz.pipeline.stopwatch import Stopwatch
 from webviz.pipeline.topic_monitor import TopicMonitor
-from webviz.requests import Requests
-from webviz.session import Session
 from webviz.sources import Offer, Source, Subscription
 from webviz.state import State
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer, tree_text
-from webviz.viewing import ViewedScene, Viewing
 
 log = logging.getLogger("webviz")
 
@@ -70,7 +70,7 @@ class Scene(DrawingScene, ViewedScene, Protocol):
         ...
 
 
-class Viewer:
+class FrameLoop:
     """Keeps a scene true to a source, as a config says.
 
     Args:
@@ -129,7 +129,7 @@ class Viewer:
 
         Returns:
             What there is to tell of it, once it is done, drawn and shown; a
-            `webviz.requests.Refused` if it could not be done.
+            `webviz.frame_loop.requests.Refused` if it could not be done.
         """
         answer = self._requests.put(command)
         self._wake()

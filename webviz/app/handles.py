@@ -6,7 +6,7 @@ import copy
 from collections.abc import Iterable, Sequence
 from typing import Any, Protocol
 
-from webviz.adding import NoSuchProperty, no_property
+from webviz.app.adding import NoSuchProperty, no_property
 from webviz.commands import (
     Command,
     DuplicateDisplay,

@@ -1,0 +1,1 @@
+"""A viewer put together and at work, and how Python programs steer it: `webviz.Viewer`."""

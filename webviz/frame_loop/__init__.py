@@ -1,0 +1,1 @@
+"""The one thread that changes displays, transforms, scene and panel, and what it keeps."""
