@@ -13,7 +13,7 @@ from webviz.config.schema import schema
 from webviz.display import Display
 from webviz.registry import display_types
 
-SHIPPED = Path(__file__).parent / "config" / "webviz.schema.json"
+SHIPPED = Path(__file__).parents[1] / "config" / "webviz.schema.json"
 """That of the displays that come with webviz."""
 COMMAND = "`webviz schema -o webviz/config/webviz.schema.json`"
 
