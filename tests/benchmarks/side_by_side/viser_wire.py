@@ -19,6 +19,8 @@ from side_by_side.log import Sighting
 from side_by_side.marks import CYCLE, FRAME_Z, LINK_Z, Lane, Place
 
 _zstd = zstandard.ZstdDecompressor()
+EXACT_M = 1e-4
+"""What composing transforms may add to a mark."""
 _SIZES = struct.Struct("<QQ")
 
 
@@ -63,16 +65,16 @@ def _candidates(message: dict[str, Any]) -> Iterable[tuple[Place, Any]]:
     """Where a mark may lie in a message, and what is there."""
     if message["type"] == "SetPositionMessage":
         x, _, z = message["position"]
-        if z == FRAME_Z:
+        if abs(z - FRAME_Z) < EXACT_M:
             yield Place.FRAME, x
-        elif z == LINK_Z:
+        elif abs(z - LINK_Z) < EXACT_M:
             yield Place.LINK, x
         return
     props = message.get("updates") or message.get("props") or {}
     positions = props.get("batched_positions")
     if isinstance(positions, np.ndarray):
         rows = positions.reshape(-1, 3)
-        for x in rows[rows[:, 2] == FRAME_Z, 0]:
+        for x in rows[np.abs(rows[:, 2] - FRAME_Z) < EXACT_M, 0]:
             yield Place.FRAME, float(x)
     points = props.get("points")
     if isinstance(points, np.ndarray) and len(points) >= 6:
