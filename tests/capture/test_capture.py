@@ -63,7 +63,7 @@ def test_the_same_bag_makes_the_same_picture_and_the_same_words(capture):
 
 
 def test_what_displays_keep_is_there_as_if_one_had_watched_from_the_start(capture):
-    decaying = CONFIG.replace("size: 0.3,", "size: 0.3, decay_time: 2.5,")
+    decaying = CONFIG.replace("size: 0.6,", "size: 0.6, decay_time: 2.5,")
     shot: Capture = capture(decaying, at=5.0)
     columns = scan(shot.pixels)[:, 0]
     assert columns.min() == pytest.approx(column(2.5), abs=2 * MARGIN_PX)
