@@ -186,6 +186,38 @@ def test_many_frames_at_once_agree_with_one_at_a_time(
                 assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
 
 
+def test_a_tree_that_goes_on_growing_and_changing_is_answered_as_one_at_a_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(many_frames, "ARRAYS_PAY_FROM", 0)
+    buffer, dice = TransformBuffer(), random.Random(7)
+    answered = 0
+    for tick in range(150):
+        child = dice.randrange(1, 9)
+        parent, stamp = dice.randrange(child), 10**9 + tick * 10**7 - dice.choice([0, 5 * 10**6])
+        buffer.set_transform(
+            f"f{parent}",
+            f"f{child}",
+            dice.choice([stamp, 0]) if child == 8 else stamp,
+            (dice.random(), dice.random(), 0.0),
+            (0.0, 0.0, dice.random(), 1.0),
+            is_static=child in (3, 4),
+        )
+        if tick == 100:
+            buffer.clear()
+        for target in ("f0", "f5"):
+            found = buffer.poses_in(target)
+            for i, frame in enumerate(found.frames):
+                assert found.ok[i] == buffer.can_transform(target, frame, 0) or frame == target
+                if found.ok[i]:
+                    one = buffer.lookup(target, frame, 0)
+                    assert found.stamps_ns[i] == one.stamp_ns
+                    assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
+                    assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+                    answered += 1
+    assert answered > 1000
+
+
 def test_frames_in_a_loop_are_answered_as_one_at_a_time() -> None:
     buffer = TransformBuffer()
     unit = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)

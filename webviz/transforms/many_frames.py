@@ -1,4 +1,4 @@
-"""All frames in one: every pose of a tick in one pass."""
+"""All frames in one: every pose of a tick in one pass, link by link."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose, inter
 from webviz.transforms.tree import FrameTree
 
 ARRAYS_PAY_FROM = 75
-"""Links to evaluate from which numpy is faster than floats (measured: see the benchmark)."""
+"""Links, or frames, from which numpy is faster than floats (measured: see the benchmark)."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,11 @@ class FramesIn:
     rotations: F64
     stamps_ns: NDArray[np.int64]
     ok: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, frames: list[str], rows: F64, stamps_ns: NDArray[np.int64]) -> FramesIn:
+        """From the poses as rows (7, N), NaN where there is none."""
+        return cls(frames, rows[:3].T.copy(), rows[3:].T.copy(), stamps_ns, ~np.isnan(rows[6]))
 
 
 @dataclass
@@ -171,13 +176,7 @@ def poses_in(
         with suppress(TransformException):
             pose, _ = tree.resolve(target, frames[i], stamps[i] or 0)
             out[:, i] = (*pose[:3], *canonical(*pose[3:]))
-    return FramesIn(
-        frames,
-        out[:3].T.copy(),
-        out[3:].T.copy(),
-        np.array([stamp or 0 for stamp in stamps], np.int64),
-        ~np.isnan(out[6]),
-    )
+    return FramesIn.of(frames, out, np.array([stamp or 0 for stamp in stamps], np.int64))
 
 
 def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> Sequence[int | None]:
