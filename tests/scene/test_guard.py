@@ -84,6 +84,12 @@ def test_a_taken_port_is_an_error_and_not_another_port(server: viser.ViserServer
         open_server(port=server.get_port())
 
 
+@pytest.mark.parametrize("port", [-1, 65536, 99999])
+def test_a_port_that_there_is_not_is_refused(port: int) -> None:
+    with pytest.raises(CannotListen, match=rf"^{port} is no port: "):
+        open_server(port=port)
+
+
 def test_an_address_of_another_machine_is_an_error_in_words() -> None:
     with pytest.raises(CannotListen, match=r"^Cannot listen on port 0 of 192\.0\.2\.1: "):
         open_server("192.0.2.1", 0)

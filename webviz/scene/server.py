@@ -22,6 +22,8 @@ from webviz.scene.gui_values import accepts_update
 BACKGROUND: Rgb = (48, 48, 48)
 """RViz's default."""
 
+MAX_PORT = 65535
+
 SEND_BUFFER_BYTES = 1 << 19
 """Of a connection, sent and not yet acknowledged: 5 MB/s at a round trip of 100 ms."""
 
@@ -88,6 +90,8 @@ class _Server(viser.ViserServer):
 
 
 def _listen(host: str, port: int) -> socket.socket:
+    if not 0 <= port <= MAX_PORT:  # the system would take what is left of 16 bits
+        raise CannotListen(f"{port} is no port: give one from 1 to {MAX_PORT}, or 0 for any.")
     try:
         family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
