@@ -12,7 +12,7 @@ import contextlib
 import threading
 import time
 import uuid
-from collections.abc import AsyncGenerator, Callable, Sequence
+from collections.abc import AsyncGenerator, Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -29,12 +29,18 @@ from webviz.scene.outbox import Outbox
 MAX_TOMBSTONES = 10_000
 _PRUNE_EVERY = 500
 
+Position = tuple[float, float, float]
+Wxyz = tuple[float, float, float, float]
+
 
 class _Position(wire.SetPositionMessage, include_in_scene_serialization=True):
     """viser's, packed for each browser at a tenth of the cost."""
 
     def redundancy_key(self) -> str:
         return f"scene:{self.name}:update:SetPositionMessage"
+
+    def entity_state_key(self) -> tuple[str, str]:
+        return "scene", self.name
 
     def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
         whose = {"name": self.name, "owner": self.owner}
@@ -46,6 +52,9 @@ class _Orientation(wire.SetOrientationMessage, include_in_scene_serialization=Tr
 
     def redundancy_key(self) -> str:
         return f"scene:{self.name}:update:SetOrientationMessage"
+
+    def entity_state_key(self) -> tuple[str, str]:
+        return "scene", self.name
 
     def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
         whose = {"name": self.name, "owner": self.owner}
@@ -75,13 +84,42 @@ class Adapter:
             wire.LocalStorageGetItemResponseMessage, self._on_acknowledgement
         )
 
-    def set_position(self, name: str, position: tuple[float, float, float]) -> None:
+    def set_position(self, name: str, position: Position) -> None:
         """Places a node relative to its parent, however small the move."""
         self._queue(_Position(name, position))
 
-    def set_orientation(self, name: str, wxyz: tuple[float, float, float, float]) -> None:
+    def set_orientation(self, name: str, wxyz: Wxyz) -> None:
         """Turns a node relative to its parent, however little."""
         self._queue(_Orientation(name, wxyz))
+
+    def place(self, moves: Iterable[tuple[str, Position | None, Wxyz | None]]) -> None:
+        """Places and turns many nodes at once; None leaves one of the two as it is.
+
+        That is `set_position` and `set_orientation` with one lock for all: `push` of viser, less
+        what is nothing to poses, takes a third of the time.
+        """
+        buffer = self._buffer
+        live, newest = buffer.message_from_id, buffer.id_from_redundancy_key
+        states = buffer.ids_from_entity_state_key
+        with self.atomic(), buffer.buffer_lock:
+            for name, position, wxyz in moves:
+                messages: list[_Position | _Orientation] = []
+                if position is not None:
+                    messages.append(_Position(name, position))
+                if wxyz is not None:
+                    messages.append(_Orientation(name, wxyz))
+                ids = states.setdefault(("scene", name), set())
+                for message in messages:
+                    key, number = message.redundancy_key(), buffer.message_counter
+                    buffer.message_counter += 1
+                    old = newest.get(key)
+                    if old is not None:
+                        del live[old]
+                        ids.discard(old)
+                    live[number] = message
+                    newest[key] = number
+                    ids.add(number)
+            buffer.message_event.set()
 
     def update(self, name: str, props: dict[str, Any]) -> None:
         """Assigns several properties in one message; arrays must not change afterwards.

@@ -23,7 +23,7 @@ from webviz.nodes import (
     Pose,
     Rgb,
 )
-from webviz.scene.adapter import Adapter
+from webviz.scene.adapter import Adapter, Position, Wxyz
 from webviz.scene.axes import AxesDrawn
 from webviz.scene.cameras import Cameras
 from webviz.scene.drawn import Drawn
@@ -49,7 +49,9 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Image: ImageDrawn,
 }
 
-Position = tuple[float, float, float]
+Move = tuple[str, Position | None, Wxyz | None]
+"""Of a node by its name: where it is now, and how it is turned, if that changed."""
+
 _IDENTITY = Pose()
 
 
@@ -159,12 +161,16 @@ class Scene:
         """
         if not self._dirty and not self._gone:
             return
+        moves: list[Move] = []
         with self.link.atomic():
             while self._gone:
                 self._gone.pop().remove(self.link)
-            for name, group in tuple(self._dirty.items()):
-                group.send(self.link, self._origin)
-                del self._dirty[name]
+            try:
+                for name, group in tuple(self._dirty.items()):
+                    group.send(self.link, self._origin, moves)
+                    del self._dirty[name]
+            finally:
+                self.link.place(moves)
         self.link.flush()
 
     def _touch(self, name: str) -> _Group:
@@ -184,24 +190,24 @@ class _Group:
         self.nodes: dict[str, tuple[Node, Pose]] = {}
         self.dirty: dict[str, None] = {}
         self._name = name
+        self._path = node_path(name)
         self._handle: viser.FrameHandle | None = None
         self._sent_position: Position | None = None
-        self._sent_wxyz: tuple[float, float, float, float] | None = None
+        self._sent_wxyz: Wxyz | None = None
         self._sent_visible = True
         self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
-    def send(self, link: Adapter, origin: Position) -> None:
-        path = node_path(self._name)
+    def send(self, link: Adapter, origin: Position, moves: list[Move]) -> None:
+        """Send what differs, except for the move of the whole group, which is added to `moves`."""
         if self._handle is None:
-            self._handle = link.server.scene.add_frame(path, show_axes=False)
+            self._handle = link.server.scene.add_frame(self._path, show_axes=False)
         x, y, z = self.pose.position
         position = (x - origin[0], y - origin[1], z - origin[2])
-        if position != self._sent_position:
-            self._sent_position = position
-            link.set_position(path, position)
-        if self.pose.wxyz != self._sent_wxyz:
-            self._sent_wxyz = self.pose.wxyz
-            link.set_orientation(path, self.pose.wxyz)
+        is_moved, is_turned = position != self._sent_position, self.pose.wxyz != self._sent_wxyz
+        if is_moved or is_turned:
+            self._sent_position, self._sent_wxyz = position, self.pose.wxyz
+            wxyz = self.pose.wxyz if is_turned else None
+            moves.append((self._path, position if is_moved else None, wxyz))
         if self.visible != self._sent_visible:
             self._handle.visible = self._sent_visible = self.visible
         for key in tuple(self.dirty):
@@ -234,7 +240,7 @@ class _Group:
         self._drawn[key] = (node, pose, drawn)
 
     def remove(self, link: Adapter) -> None:
-        link.late.drop(node_path(self._name))
+        link.late.drop(self._path)
         if self._handle is not None:
             self._handle.remove()
             link.count_removals(1 + len(self._drawn))
