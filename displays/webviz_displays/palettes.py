@@ -46,13 +46,6 @@ def lookup_table(
     return table
 
 
-def colorize(cells: NDArray[np.int8], table: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Cells int8 (H, W) as a picture uint8 (H, W, 4)."""
-    # One 32-bit word per cell is looked up several times faster than four bytes.
-    words = table.view(np.uint32)[:, 0]
-    return words[cells.view(np.uint8)].view(np.uint8).reshape(*cells.shape, 4)
-
-
 _BINARY = {
     "map": ((255, 255, 255), (0, 0, 0)),
     "costmap": ((0, 0, 255), (255, 0, 0)),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from webviz import config as config_file
 from webviz import plugins, rviz
+from webviz.cli.options import add_plugin, new_parser
 from webviz.config import ConfigError
 
 EPILOG = """\
@@ -64,23 +65,14 @@ def tell(path: Path, sentences: Sequence[str]) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="webviz convert",
-        description="Converts config files: a name that ends with .rviz is RViz's, others are "
-        "webviz's YAML.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = new_parser(
+        "webviz convert",
+        "Converts config files: a name that ends with .rviz is RViz's, others are webviz's YAML.",
+        EPILOG,
     )
     add = parser.add_argument
     add("source", type=Path, metavar="SOURCE", help="file to read")
     add("target", type=Path, nargs="?", metavar="TARGET", help="file to write, overwritten")
     add("--report", action="store_true", help="count what of a .rviz file is carried over")
-    add(
-        "--plugin",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="FILE",
-        help="Python file with displays (repeatable)",
-    )
+    add_plugin(parser)
     return parser

@@ -20,6 +20,7 @@ from webviz import config as config_file
 from webviz.app.running import NO_ROS
 from webviz.app.viewer import Viewer
 from webviz.cli import convert, schema, screenshot
+from webviz.cli.options import add_config, add_plugin, add_ros_args, new_parser
 from webviz.config import Config
 from webviz.config.overrides import override
 from webviz.errors import Error
@@ -82,31 +83,13 @@ def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="webviz",
-        description="RViz2 in a browser tab: shows a ROS 2 robot on a web page.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = new_parser(
+        "webviz", "RViz2 in a browser tab: shows a ROS 2 robot on a web page.", EPILOG
     )
     add = parser.add_argument
     add("command", nargs="?", choices=["demo"], help="demo: start a simulated robot as well")
-    add("-d", "--display-config", type=Path, metavar="FILE", help="config to open (YAML or .rviz)")
-    add(
-        "--plugin",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="FILE",
-        help="Python file with displays, loaded again whenever it is saved (repeatable)",
-    )
-    add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
-    add(
-        "--set",
-        action="append",
-        default=[],
-        metavar="PATH=VALUE",
-        help="another value than the config's, such as displays.Scan.size=0.1 (repeatable)",
-    )
+    add_config(parser)
+    add_plugin(parser, ", loaded again whenever it is saved")
     add("--port", type=int, default=8080, help="port of the page (default: 8080; 0: any free one)")
     add(
         "--host",
@@ -127,7 +110,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     version = importlib.metadata.version("webviz")
     add("--version", action="version", version=f"webviz {version}")
-    add("--ros-args", action="store_true", help="arguments for ROS follow, up to `--`")
+    add_ros_args(parser)
     return parser
 
 

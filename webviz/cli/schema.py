@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from webviz import plugins
+from webviz.cli.options import add_plugin, new_parser
 from webviz.config import write_text
 from webviz.config.schema import schema
 from webviz.display import Display
@@ -51,20 +52,10 @@ def text(types: Mapping[str, type[Display]]) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="webviz schema",
-        description="Writes the JSON Schema of config files, for editors.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = new_parser(
+        "webviz schema", "Writes the JSON Schema of config files, for editors.", EPILOG
     )
     add = parser.add_argument
     add("-o", "--output", type=Path, metavar="FILE", help="file to write, instead of the terminal")
-    add(
-        "--plugin",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="FILE",
-        help="Python file with displays (repeatable)",
-    )
+    add_plugin(parser)
     return parser

@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from webviz.cli.options import add_config, add_plugin, add_ros_args, new_parser
 from webviz.pictures import files as picture_files
 from webviz.pictures.times import TimeError, read_at
 
@@ -57,15 +58,14 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="webviz screenshot",
-        description="Makes pictures of what a config shows, without a screen: of the ROS graph, "
+    parser = new_parser(
+        "webviz screenshot",
+        "Makes pictures of what a config shows, without a screen: of the ROS graph, "
         "or of a bag, which needs no ROS.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        EPILOG,
     )
     add = parser.add_argument
-    add("-d", "--display-config", type=Path, metavar="FILE", help="config to show (YAML or .rviz)")
+    add_config(parser)
     add(
         "-o",
         "--output",
@@ -74,14 +74,6 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE",
         help=f"picture to write, overwritten ({', '.join(picture_files.STILLS)}); several get "
         "numbers and the names of views behind its name",
-    )
-    add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
-    add(
-        "--set",
-        action="append",
-        default=[],
-        metavar="PATH=VALUE",
-        help="another value than the config's, such as displays.Scan.size=0.1 (repeatable)",
     )
     add(
         "--size",
@@ -118,15 +110,8 @@ def _parser() -> argparse.ArgumentParser:
         metavar="S",
         help="how long to wait for that (default: 20 s)",
     )
-    add(
-        "--plugin",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="FILE",
-        help="Python file with displays (repeatable)",
-    )
-    add("--ros-args", action="store_true", help="arguments for ROS follow, up to `--`")
+    add_plugin(parser)
+    add_ros_args(parser)
     _add_bag(parser)
     return parser
 

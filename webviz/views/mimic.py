@@ -97,12 +97,6 @@ def focus(
     )
 
 
-def focus_point(view: View, rig: Rig, point: Vector, height_px: float) -> View:
-    """The view from the same direction and distance of a point of the fixed frame."""
-    eye = rig.outward(_eye(view, height_px))
-    return _looking(view, rig, eye, point, eye.distance, height_px)
-
-
 def _looking(
     view: View, rig: Rig, eye: Camera, at: Vector, distance: float, height_px: float
 ) -> View:
