@@ -11,7 +11,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-from webviz import config as config_file
 from webviz import plugins
 from webviz.commands import (
     Command,
@@ -31,6 +30,7 @@ from webviz.display import Color
 from webviz.frame_loop.display_list import DisplayList
 from webviz.frame_loop.requests import Requests
 from webviz.frame_loop.session import Session
+from webviz.frame_loop.statuses import fixed_frame_status, import_status
 from webviz.frame_loop.viewing import ViewedScene, Viewing
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
@@ -203,7 +203,7 @@ class FrameLoop:
             self.settings.fixed_frame,
             tuple(sorted(self.buffer.frames())),
             topics,
-            {"Fixed Frame": self._fixed_frame_status(), **self._global_statuses(offers, frames)},
+            self._global_statuses(offers, frames),
             self.settings,
             self._session.file(),
             self._requests.answer,
@@ -310,25 +310,14 @@ class FrameLoop:
         return runner.statuses(offers, frames, dropped, self._scene.has_watchers())
 
     def _global_statuses(self, offers: Mapping[str, Offer], frames: Frames) -> Mapping[str, Status]:
-        time_status = self._time.status(offers)
-        statuses = {"Time": time_status} if time_status else {}
+        statuses = {"Fixed Frame": fixed_frame_status(frames.fixed_frame, self.buffer)}
+        if time_status := self._time.status(offers):
+            statuses["Time"] = time_status
         statuses |= self._listener.statuses(offers, frames.now_ns) | self._statuses
         statuses |= self._viewing.statuses(frames)
         if report := self._session.report:
-            text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
-            statuses["Import"] = Status(Level.WARN, text)
+            statuses["Import"] = import_status(report)
         return statuses
-
-    def _fixed_frame_status(self) -> Status:
-        fixed_frame, known = self.settings.fixed_frame, self.buffer.frames()
-        if fixed_frame in known:
-            return Status(Level.OK, "OK")
-        if not known:
-            return Status(
-                Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
-            )
-        hint = config_file.nearest(fixed_frame, known)
-        return Status(Level.ERROR, f"Nobody publishes a frame named {fixed_frame}: {hint}")
 
     def _tree(self, frames: Frames) -> str:
         wanted = self._inspects_transforms and self._scene.has_watchers()

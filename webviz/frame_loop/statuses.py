@@ -1,0 +1,28 @@
+"""Statuses of the viewer as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from webviz import config as config_file
+from webviz.status import Level, Status
+from webviz.transforms import TransformBuffer
+
+
+def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
+    """Whether anything can be drawn in a frame."""
+    known = buffer.frames()
+    if fixed_frame in known:
+        return Status(Level.OK, "OK")
+    if not known:
+        return Status(
+            Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
+        )
+    hint = config_file.nearest(fixed_frame, known)
+    return Status(Level.ERROR, f"Nobody publishes a frame named {fixed_frame}: {hint}")
+
+
+def import_status(report: Sequence[str]) -> Status:
+    """What of a .rviz file has no counterpart here, which needs at least one sentence."""
+    text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
+    return Status(Level.WARN, text)
