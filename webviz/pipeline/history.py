@@ -13,6 +13,8 @@ from webviz.sample import Sample
 
 MAX_SAMPLES = 10_000
 """Of one display, whatever its properties say; nothing grows without a bound."""
+MAX_BYTES = 256_000_000
+"""Of the messages of one display, as they came; the newest is held however large it is."""
 
 
 @dataclass
@@ -21,12 +23,14 @@ class Held:
 
     Args:
         sample: the newest version of it.
+        size: of its message, in bytes.
         slot: number of its scope; free slots are used again, so that a stream of messages updates
             nodes instead of making and removing them.
         has_pose: whether the sample could be placed in the fixed frame of now.
     """
 
     sample: Sample
+    size: int
     slot: int
     has_pose: bool = True
 
@@ -39,6 +43,9 @@ class History:
         self.version = 0
         """Another one whenever there is something else to draw."""
         self._free: list[int] = []
+        self._bytes = 0
+        self._missed_ns: int | None = None
+        """When the newest of those came that had to go for their size."""
         self._samples: list[Sample] | None = []
         """What `samples` says, if that is known. Never changed in place, for others hold it."""
 
@@ -48,13 +55,36 @@ class History:
             self._samples = [held.sample for held in self.held if held.has_pose]
         return self._samples
 
-    def add(self, sample: Sample, keep: Keep) -> None:
-        """Hold a sample. What `keep.count` then excludes goes first, so that its slot is free."""
+    def add(self, sample: Sample, size: int, keep: Keep) -> None:
+        """Hold a sample whose message has `size` bytes.
+
+        What `keep.count` then excludes goes first, so that its slot is free, and what is too large.
+        """
         self._let_go(len(self.held) - _most(keep) + 1)
+        rest, too_large = self._bytes + size, 0
+        while rest > MAX_BYTES and too_large < len(self.held):
+            rest -= self.held[too_large].size
+            too_large += 1
+        if too_large:
+            self._missed_ns = self.held[too_large - 1].sample.received_ns
+            self._let_go(too_large)
         slot = heapq.heappop(self._free) if self._free else len(self.held)
-        self.held.append(Held(sample, slot))
+        self.held.append(Held(sample, size, slot))
+        self._bytes += size
         self._samples = None if self._samples is None else [*self._samples, sample]
         self.version += 1
+
+    def shortage(self, keep: Keep, now_ns: int) -> str:
+        """A sentence if samples that `keep` wants had to go for their size, else nothing."""
+        if self._missed_ns is None or not self.held or len(self.held) >= _most(keep):
+            return ""
+        limit = f"limit of {MAX_BYTES // 1_000_000} MB"
+        if not keep.seconds:
+            return f"Keeps {len(self.held)} of {_most(keep)} messages: {limit}."
+        if self._missed_ns < now_ns - keep.seconds * 1e9:
+            return ""
+        span_s = (now_ns - self.held[0].sample.received_ns) / 1e9
+        return f"Keeps {span_s:.1f} of {keep.seconds:g} s: {limit}."
 
     def trim(self, keep: Keep, now_ns: int) -> None:
         """Let go of what is too much or too old."""
@@ -71,6 +101,7 @@ class History:
             self._samples = self._samples[count:] if self._samples and is_whole else None
             for held in self.held[:count]:
                 heapq.heappush(self._free, held.slot)
+                self._bytes -= held.size
             del self.held[:count]
             self.version += 1
 

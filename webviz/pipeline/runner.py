@@ -206,6 +206,8 @@ class Runner:
             result |= {f"{key}{title}": status for key, status in said.items()}
         for frame in self._painter.lost(frames):
             result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
+        if shortage := self._history.shortage(self._keep(), frames.now_ns):
+            result["History"] = Status(Level.WARN, shortage)
         result |= self._painter.statuses()
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
@@ -252,17 +254,17 @@ class Runner:
             message, arrival.frame, arrival.stamp_ns, arrival.raw.received_ns, arrival.number, pose
         )
         if overrides(self.display, "fold"):
-            self._fold(name, sample)
+            self._fold(name, sample, len(arrival.raw.cdr))
             return
         verdict = self._guard("accept", self.display.accept, sample, self._history.samples())
         if isinstance(verdict, str):
             intake.refuse(verdict)
         elif verdict is True:
-            self._history.add(sample, self._keep())
+            self._history.add(sample, len(arrival.raw.cdr), self._keep())
 
-    def _fold(self, name: str, sample: Sample) -> None:
+    def _fold(self, name: str, sample: Sample, size: int) -> None:
         folded = self._guard("fold", self.display.fold, name, sample, self._folded)
         if folded is None or folded is CRASHED:
             return
         self._folded = folded
-        self._history.add(replace(sample, message=folded), self._keep())
+        self._history.add(replace(sample, message=folded), size, self._keep())

@@ -1,0 +1,79 @@
+"""What a display keeps has a bound in bytes, and says when that is less than was asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import pytest
+
+from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
+from webviz.commands import SetProperty
+from webviz.pipeline import history
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+
+
+class Note(Display):
+    """A dot for every text, as far along as the text is long."""
+
+    topic: Annotated[Topic, Input("std_msgs/msg/String")] = Topic("/note")
+    count: Annotated[int, Prop(ge=0)] = 1
+    seconds: Annotated[float, Prop(ge=0)] = 0.0
+
+    def history(self) -> Keep:
+        return Keep(self.count, self.seconds)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("dot", [[len(sample.message.data), 0, 0]], (255, 0, 0), 0.1)
+
+
+@pytest.fixture(autouse=True)
+def limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(history, "MAX_BYTES", 2_000_000)
+
+
+def lengths(bench: Any) -> list[int]:
+    return [round(float(node.xyz[0][0])) for _, _, node in bench.scene.visible()]
+
+
+def note(bench: Any, length: int, second: float) -> None:
+    bench.source.now = T + round(second * SECOND)
+    bench.publish("/note", "std_msgs/msg/String", {"data": "x" * length})
+    bench.turn()
+
+
+def test_the_oldest_go_when_messages_take_too_many_bytes(bench: Callable[..., Any]) -> None:
+    b = bench(Note(name="Note", count=0, seconds=10.0))
+    for second in range(6):
+        note(b, 600_000 + second, second)
+    assert sorted(lengths(b)) == [600_003, 600_004, 600_005]
+    assert b.statuses()["History"] == ("WARN", "Keeps 2.0 of 10 s: limit of 2 MB.")
+
+
+def test_the_newest_stays_however_large_it_is(bench: Callable[..., Any]) -> None:
+    b = bench(Note(name="Note", count=5))
+    note(b, 1000, 0)
+    note(b, 3_000_000, 1)
+    assert lengths(b) == [3_000_000]
+    assert b.statuses()["History"] == ("WARN", "Keeps 1 of 5 messages: limit of 2 MB.")
+    note(b, 1001, 2)
+    assert lengths(b) == [1001]
+
+
+def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Callable[..., Any]) -> None:
+    b = bench(Note(name="Note", count=0, seconds=10.0))
+    for second in range(6):
+        note(b, 600_000, second)
+    b.viewer.enqueue(SetProperty(b.states[-1].rows[0].id, "seconds", 1.5))
+    note(b, 1000, 6)
+    assert sorted(lengths(b)) == [1000, 600_000]
+    assert "History" not in b.statuses()
+
+
+def test_one_message_at_a_time_is_no_shortage(bench: Callable[..., Any]) -> None:
+    b = bench(Note(name="Note"))
+    for second in range(6):
+        note(b, 900_000, second)
+    assert "History" not in b.statuses()
