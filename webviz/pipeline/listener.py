@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 
 from webviz.display import Topic
 from webviz.messages import MessageError, TFMessage, decode
+from webviz.pipeline.transform_layout import Layouts
 from webviz.sources import Offer, Raw, Subscription
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer
@@ -45,6 +46,7 @@ class TransformListener:
     def __init__(self, buffer: TransformBuffer, clock: Callable[[], float]) -> None:
         self._buffer = buffer
         self._clock = clock
+        self._layouts = Layouts()
         self._faults: dict[str, Status] = {}
         self._back_since: float | None = None
         self._back_messages = 0
@@ -90,25 +92,24 @@ class TransformListener:
         return self._faults | self._found
 
     def _insert(self, topic: str, raw: Raw, is_static: bool) -> None:
+        if not is_static and (batch := self._layouts.read(raw.cdr)) is not None:
+            self._faults.pop(topic, None)
+            self._notice_time(batch.names[0][1], batch.stamps_ns[0])
+            self._buffer.set_moving(
+                batch.names, batch.stamps_ns, batch.poses, topic, raw.received_ns
+            )
+            return
         try:
             message: TFMessage = decode(TYPE, raw.cdr)
         except MessageError as error:
             self._faults[topic] = Status(Level.ERROR, f"{topic}: {error}")
             return
         self._faults.pop(topic, None)
-        buffer = self._buffer
         if message.transforms and not is_static:
-            first = message.transforms[0]
-            cache = buffer.tree.caches.get(first.child.removeprefix("/"))
-            newest_ns = cache.newest_stamp if cache else 0
-            if first.stamp_ns >= newest_ns - BACK_NS:
-                self._back_since = None
-            elif self._back_since is None:
-                self._back_since, self._back_messages = self._clock(), 1
-            else:
-                self._back_messages += 1
+            self._layouts.learn(raw.cdr, message)
+            self._notice_time(message.transforms[0].child, message.transforms[0].stamp_ns)
         for t in message.transforms:
-            buffer.set_transform(
+            self._buffer.set_transform(
                 t.parent,
                 t.child,
                 t.stamp_ns,
@@ -118,6 +119,17 @@ class TransformListener:
                 topic,
                 raw.received_ns,
             )
+
+    def _notice_time(self, child: str, stamp_ns: int) -> None:
+        """Note whether a message, by its first transform, is of the past."""
+        cache = self._buffer.tree.caches.get(child.removeprefix("/"))
+        newest_ns = cache.newest_stamp if cache else 0
+        if stamp_ns >= newest_ns - BACK_NS:
+            self._back_since = None
+        elif self._back_since is None:
+            self._back_since, self._back_messages = self._clock(), 1
+        else:
+            self._back_messages += 1
 
     def _watch_static(self, offers: Mapping[str, Offer]) -> None:
         """Ask again when static transforms changed, or those who publish contested ones did."""

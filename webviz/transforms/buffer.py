@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from math import isnan
 
 import numpy as np
@@ -14,6 +14,7 @@ from webviz.transforms.errors import NS_PER_S
 from webviz.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
 from webviz.transforms.listing import frames_as_yaml
 from webviz.transforms.many_frames import FramesIn
+from webviz.transforms.many_inserts import insert_expected
 from webviz.transforms.many_stamps import lookup_many
 from webviz.transforms.publishers import Publishers
 from webviz.transforms.records import Rejection, Transform, fault_of, too_old
@@ -144,6 +145,35 @@ class TransformBuffer:
             publishers.delay_ns = received_ns - stamp_ns
         self.version += 1
         return True
+
+    def set_moving(
+        self,
+        names: Sequence[tuple[str, str]],
+        stamps_ns: Sequence[int],
+        poses: NDArray[np.float64],
+        authority: str,
+        received_ns: int,
+    ) -> None:
+        """`set_transform` for N moving transforms of one message.
+
+        Args:
+            names: N times a parent and its child.
+            stamps_ns: N stamps.
+            poses: float64 (N, 7), translations in metres and rotations (x, y, z, w).
+            authority: who published them.
+            received_ns: when they were received.
+        """
+        others = insert_expected(
+            self._tree, self._publishers, names, stamps_ns, poses, authority, received_ns
+        )
+        self.version += len(names) - len(others)
+        for place in others:
+            parent, child = names[place]
+            x, y, z, qx, qy, qz, qw = poses[place].tolist()
+            self.set_transform(
+                *(parent, child, stamps_ns[place], (x, y, z), (qx, qy, qz, qw)),
+                *(False, authority, received_ns),
+            )
 
     def lookup(self, target: str, source: str, stamp_ns: int) -> Transform:
         """The pose of `source` in `target` at a time; 0 means the latest common time.

@@ -1,0 +1,90 @@
+"""Messages with the frames of one before are read as the decoder reads them, or not at all."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+from webviz.messages import TFMessage, decode
+from webviz.pipeline.transform_layout import MIN_TRANSFORMS, SAME_SIZE, Layouts
+from webviz.testing.messages import header, serialized
+
+TYPE = "tf2_msgs/msg/TFMessage"
+
+
+def message(names: list[tuple[str, str]], seed: int = 0) -> bytes:
+    dice = random.Random(seed)
+
+    def numbers(keys: str) -> dict[str, float]:
+        return {key: dice.uniform(-9.0, 9.0) for key in keys}
+
+    def stamped(parent: str, child: str) -> dict[str, Any]:
+        transform = {"translation": numbers("xyz"), "rotation": numbers("xyzw")}
+        stamp_ns = dice.randrange(2**31 * 10**9)
+        return {
+            "header": header(parent, stamp_ns),
+            "child_frame_id": child,
+            "transform": transform,
+        }
+
+    return serialized(TYPE, {"transforms": [stamped(*each) for each in names]})
+
+
+NAMES = [("map", "link é" + "x" * i) for i in range(MIN_TRANSFORMS)]
+
+
+def learnt(cdr: bytes) -> Layouts:
+    layouts = Layouts()
+    layouts.learn(cdr, decode(TYPE, cdr))
+    return layouts
+
+
+def test_a_message_with_the_same_frames_is_read_as_it_is_decoded() -> None:
+    layouts = learnt(message(NAMES))
+    for seed in range(1, 20):
+        cdr = message(NAMES, seed)
+        decoded: TFMessage = decode(TYPE, cdr)
+        batch = layouts.read(cdr)
+        assert batch is not None
+        assert batch.names == [(t.parent, t.child) for t in decoded.transforms]
+        assert batch.stamps_ns == [t.stamp_ns for t in decoded.transforms]
+        assert batch.poses.tolist() == [[*t.translation, *t.rotation] for t in decoded.transforms]
+
+
+def test_other_frames_of_the_same_length_are_not_taken_for_the_same() -> None:
+    layouts = learnt(message(NAMES))
+    for place in range(len(NAMES)):
+        names = list(NAMES)
+        parent, child = names[place]
+        names[place] = ("mop", child) if place % 2 else (parent, f"K{child[1:]}")
+        assert layouts.read(message(names)) is None
+
+
+def test_a_broken_message_is_left_to_the_decoder() -> None:
+    cdr = message(NAMES)
+    layouts = learnt(cdr)
+    assert layouts.read(cdr[:-4]) is None
+    assert layouts.read(cdr + b"\0\0\0\0") is None
+    assert layouts.read(b"\0\0" + cdr[2:]) is None  # big-endian
+    assert layouts.read(cdr[:4] + b"\xff" + cdr[5:]) is None  # another count
+    assert layouts.read(b"") is None
+
+
+def test_names_that_are_not_utf_8_are_read_as_they_are_decoded() -> None:
+    cdr = message(NAMES).replace("é".encode(), b"\xff\xfe")
+    batch = learnt(cdr).read(cdr)
+    decoded: TFMessage = decode(TYPE, cdr)
+    assert batch is None or batch.names == [(t.parent, t.child) for t in decoded.transforms]
+
+
+def test_robots_of_a_fleet_are_all_known_up_to_a_bound() -> None:
+    fleet = [message([(f"{i}/{p}", f"{i}/{c}") for p, c in NAMES]) for i in range(SAME_SIZE + 1)]
+    layouts = Layouts()
+    for cdr in fleet:
+        layouts.learn(cdr, decode(TYPE, cdr))
+    assert [layouts.read(cdr) is not None for cdr in fleet] == [True] * SAME_SIZE + [False]
+
+
+def test_what_is_quickly_decoded_is_not_learnt() -> None:
+    cdr = message(NAMES[1:])
+    assert learnt(cdr).read(cdr) is None
