@@ -14,8 +14,8 @@ from side_by_side.systems.registry import SYSTEMS
 
 SECONDS = 90.0
 MOST_MB_PER_MIN = 15.0
-"""A leak of one message of each scan would be 30 MB a minute, one of what is sent to a client
-300 MB. Allocators settling down after the warm-up were seen to add up to 3 MB a minute (README)."""
+"""A leak of one stream's messages would be 20 (scans) to 77 MB a minute (costmaps). Heaps that
+settle down after the warm-up were seen to add 2 (README)."""
 LONGEST_GAP_S = 15.0
 """Every stream comes at least twice a second; the rest is for a machine that is busy otherwise."""
 

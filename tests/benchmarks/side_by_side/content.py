@@ -143,11 +143,15 @@ def maps(size: int, variants: int = 1) -> list[Values]:
 
 
 def map_updates(size: int, edge: int) -> list[Values]:
-    """Squares of a map that come anew, each somewhere else; all with a strip."""
+    """Squares of a map that come anew, each somewhere else; all with a strip.
+
+    None reaches over a multiple of 256 cells, where a viewer that sends tiles might cut its strip.
+    """
     rng = np.random.default_rng(5)
     made = []
     for _ in range(VARIANTS):
-        x, y = (rng.integers(0, (size - edge) // 8, 2) * 8).tolist()
+        corner = rng.integers(0, size // 256, 2) * 256 + rng.integers(0, (256 - edge) // 8, 2) * 8
+        x, y = corner.tolist()
         grid = rng.choice([0, 100, -1], (edge, edge)).astype(np.int8)
         grid[: strip.BLOCK, : strip.LENGTH * strip.BLOCK] = 77
         made.append(
