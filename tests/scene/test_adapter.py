@@ -88,6 +88,26 @@ def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
     assert [m["position"] for m in moves if m["name"] == "/webviz/a"] == [[999.0, 0.0, 0.0]]
 
 
+def test_many_moves_at_once_leave_what_single_ones_leave(
+    scene: Scene,
+) -> None:
+    link, turned = scene.link, (0.6, 0.8, 0.0, 0.0)
+    for _ in range(2):
+        link.set_position("/webviz/a", (1.0, 0.0, 0.0))
+        link.set_orientation("/webviz/a", turned)
+        link.place([("/webviz/b", (1.0, 0.0, 0.0), turned)])
+    link.place([("/webviz/b", None, turned), ("/webviz/b", (2.0, 0.0, 0.0), None)])
+    buffer = link._buffer
+    for name in ("/webviz/a", "/webviz/b"):
+        ids = buffer.ids_from_entity_state_key["scene", name]
+        messages = [buffer.message_from_id[number] for number in sorted(ids)]
+        assert {type(message) for message in messages} == {_Position, _Orientation}
+        assert len(messages) == 2
+        keys = {buffer.id_from_redundancy_key[message.redundancy_key()] for message in messages}
+        assert keys == ids
+    assert list(buffer.message_from_id) == sorted(buffer.message_from_id)
+
+
 def pretend_that_were_sent(scene: Scene, messages: int) -> None:
     """Lets message numbers go on from far above, as after so many messages."""
     with scene.link._buffer.buffer_lock:
