@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import webviz
+from webviz import registry
 from webviz.commands import Refresh
 from webviz.testing import header, serialized
 from webviz.testing.source import HandFedSource
@@ -178,8 +179,11 @@ def test_the_config_is_values_and_text(viewer: webviz.Viewer, refused: Refused) 
 def test_a_display_of_a_plug_in_can_be_added(source: HandFedSource, tmp_path: Path) -> None:
     plugin = tmp_path / "mine.py"
     plugin.write_text("import webviz\nclass Mine(webviz.Display):\n    size: float = 1.0\n")
-    with webviz.Viewer(port=0, source=source, plugins=[plugin]) as viewer:
-        assert viewer.add("Mine", size=2.0).size == 2.0
+    try:
+        with webviz.Viewer(port=0, source=source, plugins=[plugin]) as viewer:
+            assert viewer.add("Mine", size=2.0).size == 2.0
+    finally:
+        registry.register(str(plugin), {})
 
 
 def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused: Refused) -> None:

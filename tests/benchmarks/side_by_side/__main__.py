@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import itertools
 import json
+import signal
 import sys
 import tempfile
 import time
@@ -28,7 +29,9 @@ Report = dict[str, Any]
 
 
 def main() -> int:
-    """Measure, print a table and write JSON; Ctrl-C ends it with what there is."""
+    """Measure, print a table and write JSON; Ctrl-C or SIGTERM ends it with what there is."""
+    for number in (signal.SIGINT, signal.SIGTERM):  # a shell lets its background ignore Ctrl-C
+        signal.signal(number, signal.default_int_handler)
     options = _options()
     cases: list[tuple[str, str, CaseResult]] = []
     failures: list[tuple[str, str, str]] = []
