@@ -45,7 +45,6 @@ def tab(browser: playwright.Browser) -> Iterator[View]:
 def view(tab: View) -> Iterator[View]:
     """A tab with an empty scene that looks down on the origin from 10 m."""
     tab.scene.clear()
-    tab.scene.set_origin((0.0, 0.0, 0.0))
     tab.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
     yield tab
     assert tab.errors == []

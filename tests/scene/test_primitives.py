@@ -222,12 +222,14 @@ def test_a_hidden_group_is_not_drawn(view: Any) -> None:
     assert (view.pixels() == BACKGROUND).all()
 
 
-def test_far_from_home_the_scene_looks_the_same_at_its_origin(view: Any) -> None:
-    view.scene.set_origin((500_000.0, 4_000_000.0, 0.0))
-    view.scene.set_pose("utm", Pose((500_001.0, 4_000_000.5, 0.0)))
-    view.scene.upsert("utm", "it", Points(floats((0, 0, 0)), COLOR, 0.2))
+def test_far_from_home_the_scene_looks_the_same(view: Any) -> None:
+    x, y = 500_001.0, 4_000_000.5
+    view.look((x, y - 0.01, 10.0), (x, y, 0.0))
+    view.scene.set_pose("utm", Pose((x, y, 0.0)))
+    view.scene.upsert("utm", "it", Points(floats((-0.2, 0, 0), (0.2, 0, 0)), COLOR, 0.2))
     view.show()
-    assert view.color_at((1.0, 0.5, 0.0)) == COLOR
+    assert view.color_at((x - 0.2, y, 0.0)) == view.color_at((x + 0.2, y, 0.0)) == COLOR
+    assert view.color_at((x, y, 0.0)) == BACKGROUND
 
 
 def test_the_background_can_be_changed(view: Any) -> None:

@@ -177,22 +177,6 @@ def test_a_pose_that_is_not_finite_is_refused_with_the_groups_name(
         scene.set_pose("base_link", Pose(wxyz=(1.0, bad, 0.0, 0.0)))
 
 
-def test_a_new_origin_moves_every_group_and_later_poses(
-    scene: Scene, call: Callable[..., Any]
-) -> None:
-    scene.set_pose("a", Pose((500_001.0, 2.0, 3.0)))
-    scene.flush()
-    scene.set_origin((500_000.0, 0.0, 0.0))
-    scene.set_pose("b", Pose((500_000.25, 0.0, 0.0)))
-    scene.flush()
-    positions = {
-        m["name"]: m["position"] for m in call().replay() if m["type"] == "SetPositionMessage"
-    }
-    assert positions["/webviz/a"] == [1.0, 2.0, 3.0]
-    assert positions["/webviz/b"] == [0.25, 0.0, 0.0]
-    assert scene.origin == (500_000.0, 0.0, 0.0)
-
-
 def test_a_hidden_group_is_hidden_and_goes_on_changing(
     scene: Scene, sent: Callable[[], int], call: Callable[..., Any]
 ) -> None:

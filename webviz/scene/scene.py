@@ -70,7 +70,6 @@ class Scene:
         self._groups: dict[str, _Group] = {}
         self._dirty: dict[str, _Group] = {}
         self._gone: list[_Group] = []
-        self._origin: Position = (0.0, 0.0, 0.0)
         server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
         self.link.run_javascript(PAGE_SCRIPT)
@@ -135,23 +134,6 @@ class Scene:
         for group in tuple(self._groups):
             self.remove_group(group)
 
-    def set_origin(self, xyz: Position) -> None:
-        """Shows the scene relative to a point of the fixed frame, in metres.
-
-        Browsers place labels in float32, which resolves 3 cm at UTM coordinates, and their camera
-        starts at zero. So when the scene is far out, one choice of a point in its midst, kept while
-        the scene stays there, is subtracted from every group's position in float64. Cameras and
-        clicks are then relative to `origin` too.
-        """
-        if xyz != self._origin:
-            self._origin = xyz
-            self._dirty.update(self._groups)
-
-    @property
-    def origin(self) -> Position:
-        """The point of the fixed frame that browsers have as zero."""
-        return self._origin
-
     def flush(self) -> None:
         """Sends everything that changed since the last flush, in one piece.
 
@@ -167,7 +149,7 @@ class Scene:
                 self._gone.pop().remove(self.link)
             try:
                 for name, group in tuple(self._dirty.items()):
-                    group.send(self.link, self._origin, moves)
+                    group.send(self.link, moves)
                     del self._dirty[name]
             finally:
                 self.link.place(moves)
@@ -197,12 +179,11 @@ class _Group:
         self._sent_visible = True
         self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
-    def send(self, link: Adapter, origin: Position, moves: list[Move]) -> None:
+    def send(self, link: Adapter, moves: list[Move]) -> None:
         """Send what differs, except for the move of the whole group, which is added to `moves`."""
         if self._handle is None:
             self._handle = link.server.scene.add_frame(self._path, show_axes=False)
-        x, y, z = self.pose.position
-        position = (x - origin[0], y - origin[1], z - origin[2])
+        position = self.pose.position
         is_moved, is_turned = position != self._sent_position, self.pose.wxyz != self._sent_wxyz
         if is_moved or is_turned:
             self._sent_position, self._sent_wxyz = position, self.pose.wxyz
