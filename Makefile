@@ -1,4 +1,4 @@
-# `make` sets up .venv, `make test` checks and tests everything in it.
+# `make` sets up .venv, `make test` checks and tests everything in it, by two processes.
 SHELL := /bin/bash
 .DEFAULT_GOAL := install
 
@@ -21,7 +21,7 @@ comma := ,
 install: $(VENV)/ready
 
 test: $(VENV)/ready-to-test check
-	@$(VENV)/bin/python -m pytest $(ARGS)
+	@$(VENV)/bin/python -m pytest -n 2 --dist loadfile $(ARGS)
 
 check: $(VENV)/ready-to-test
 	@$(VENV)/bin/ruff check

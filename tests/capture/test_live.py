@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import random
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -18,13 +16,11 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 from robot import Robot, Scan
 
 CONFIG = Path(__file__).parent / "top.yaml"
-DOMAIN = random.SystemRandom().randrange(100, 160)
 
 
 @pytest.fixture
-def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    robot = Robot(DOMAIN)
+def robot(webviz_domain: int) -> Iterator[Robot]:
+    robot = Robot(webviz_domain)
     robot.static("map", "odom")
     robot.links["odom", "base"] = 0.0
     yield robot
@@ -39,7 +35,6 @@ def screenshot(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str
         text=True,
         timeout=100,
         cwd=folder,
-        env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)},
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import random
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -13,18 +12,14 @@ import pytest
 from program import Program
 
 from webviz.pictures.browser import Page
+from webviz.testing.domain import isolated_domain
 
 
 @pytest.fixture(scope="module")
-def ros_env() -> dict[str, str]:
+def ros_env() -> Iterator[dict[str, str]]:
     """The environment of programs that meet only each other."""
-    domain = str(random.SystemRandom().randrange(160, 220))
-    return {
-        **os.environ,
-        "ROS_DOMAIN_ID": domain,
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "PYTHONUNBUFFERED": "1",
-    }
+    with isolated_domain():
+        yield {**os.environ, "PYTHONUNBUFFERED": "1"}
 
 
 @pytest.fixture(scope="module")

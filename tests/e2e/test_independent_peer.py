@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import random
 import signal
 import subprocess
 import sys
@@ -51,8 +50,8 @@ def peer_python() -> str:
 
 
 @pytest.fixture
-def domain() -> str:
-    return str(random.SystemRandom().randrange(60, 100))
+def domain(webviz_domain: int) -> str:
+    return str(webviz_domain)
 
 
 @pytest.fixture

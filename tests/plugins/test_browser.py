@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import random
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -34,19 +33,12 @@ GREEN, MAGENTA = (25, 255, 0), (255, 0, 255)
 
 
 @pytest.fixture
-def domain() -> int:
-    return random.SystemRandom().randrange(100, 160)
-
-
-@pytest.fixture
-def viewer(plugin: Any, domain: int, tmp_path: Path) -> Iterator[Program]:
+def viewer(plugin: Any, webviz_domain: int, tmp_path: Path) -> Iterator[Program]:
     config = tmp_path / "fence.yaml"
     config.write_text(CONFIG)
     arguments = ["--plugin", str(plugin.path), "-d", str(config), "--port", "0"]
     env = {
         **os.environ,
-        "ROS_DOMAIN_ID": str(domain),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "PYTHONUNBUFFERED": "1",
     }
     program = Program([sys.executable, "-m", "webviz", *arguments], env, tmp_path / "log.txt")
@@ -64,11 +56,10 @@ def page(viewer: Program, browser: playwright.Browser) -> Iterator[Page]:
 
 
 @pytest.fixture
-def publish(domain: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], None]]:
+def publish(webviz_domain: int) -> Iterator[Callable[[], None]]:
     """Publish the polygon once."""
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     context = Context()
-    rclpy.init(context=context, domain_id=domain)
+    rclpy.init(context=context, domain_id=webviz_domain)
     node = Node("fence", context=context)
     publisher = node.create_publisher(PolygonStamped, "/polygon", 1)
     message = PolygonStamped()

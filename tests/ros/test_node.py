@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -25,18 +24,12 @@ from webviz.ros.node import RosSource
 from webviz.sources import Subscription
 
 STRING = "std_msgs/msg/String"
-DOMAIN = random.SystemRandom().randrange(110, 160)
-
-
-@pytest.fixture(autouse=True)
-def only_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
 
 
 @pytest.fixture
-def talker(only_this_machine: None) -> Iterator[Node]:
+def talker(webviz_domain: int) -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=DOMAIN)
+    rclpy.init(context=context, domain_id=webviz_domain)
     node = Node("talker", context=context)
     yield node
     node.destroy_node()
@@ -44,11 +37,11 @@ def talker(only_this_machine: None) -> Iterator[Node]:
 
 
 @pytest.fixture
-def listen(only_this_machine: None) -> Iterator[Callable[..., RosSource]]:
+def listen(webviz_domain: int) -> Iterator[Callable[..., RosSource]]:
     sources: list[RosSource] = []
 
     def make(*args: str) -> RosSource:
-        sources.append(RosSource(args, domain_id=DOMAIN))
+        sources.append(RosSource(args, domain_id=webviz_domain))
         return sources[-1]
 
     yield make
@@ -202,8 +195,8 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., R
     until(ticked, "the time of /clock")
 
 
-def test_close_leaves_no_thread_and_no_node(talker: Node, listen: Callable[..., RosSource]) -> None:
-    source = RosSource(domain_id=DOMAIN)
+def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) -> None:
+    source = RosSource(domain_id=webviz_domain)
     until(lambda: "webviz" in talker.get_node_names(), "the node is seen")
     source.close()
     assert not [t for t in threading.enumerate() if t.name == "webviz-ros"]
