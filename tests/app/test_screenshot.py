@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -60,7 +61,9 @@ def test_a_notebook_can_make_a_picture(viewer: webviz.Viewer) -> None:
     async def cell() -> np.ndarray:
         return viewer.screenshot(size=SIZE)
 
-    assert asyncio.run(cell()).shape == (240, 320, 3)
+    with ThreadPoolExecutor(1) as notebook:
+        pixels = notebook.submit(lambda: asyncio.run(cell())).result()
+    assert pixels.shape == (240, 320, 3)
 
 
 def test_what_cannot_be_made_is_refused(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import logging
 import math
 import signal
 import sys
@@ -191,4 +192,6 @@ def _image(picture: Picture) -> PIL.Image.Image:
 
 
 def _interrupt(*_: object) -> None:
+    # Ctrl-C in a terminal ends playwright's driver too; asyncio would tell of all that it owed.
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
     raise KeyboardInterrupt
