@@ -151,3 +151,8 @@ def test_a_box_from_above_fits_the_shorter_side() -> None:
     assert isinstance(view, TopDownOrtho)
     assert (view.x, view.y, view.angle) == pytest.approx((2.0, 1.5, 0.7), abs=1e-5)
     assert 250 <= view.scale * 5.0 <= 300  # its diagonal, in px
+
+
+def test_a_camera_on_the_ground_keeps_its_direction_in_xy_orbit() -> None:
+    view = Orbit(distance=372.162088, yaw=1.0, pitch=0.0, focal_point=(0.0, 0.0, 0.0))
+    assert same_picture(camera_of(seen_as(view, XYOrbit), HEIGHT), camera_of(view, HEIGHT))

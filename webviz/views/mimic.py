@@ -26,6 +26,8 @@ from webviz.views.types import (
     View,
 )
 
+NEAREST = 1e-3
+"""Of the distance that was: from nearer, no direction is left."""
 REACH = 10.0
 """Metres to what an FPS view looks at where that is not the ground."""
 FARTHEST = 1000.0
@@ -135,7 +137,8 @@ def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
     if cls is not FPS and cls is not Orbit and back[2] > 0.05 - RAISED:
         # Along the line of sight to where the focal point lies on the ground.
         step = (eye.look_at[2] - RAISED * eye.distance) / (back[2] + RAISED)
-        if 0.0 < eye.distance + step < FARTHEST:
+        # A camera that stands on the ground would look at itself, from no direction.
+        if NEAREST * eye.distance < eye.distance + step < FARTHEST:
             eye = Camera(eye.position, eye.look_at - step * back)
     return view_of(cls, frame, eye, height_px)
 
