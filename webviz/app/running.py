@@ -98,9 +98,7 @@ class Running:
                 fixed_frame = fixed_frame or control.asked["fixed_frame"]
             shown = shown or read(path)
             if fixed_frame:
-                shown.settings = msgspec.structs.replace(
-                    shown.settings, fixed_frame=fixed_frame.removeprefix("/")
-                )
+                shown.set_fixed_frame(fixed_frame)
             scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._panel = Panel(server, self._enqueue)
@@ -192,7 +190,7 @@ class Running:
             picture_files.check(Path(path), is_animation=False, transparent=False)
         if isinstance(view, str):
             if view not in (saved := self.state.settings.views):
-                hint = config_file.nearest(view, saved) if saved else "none is saved."
+                hint = config_file.nearest(view, saved)
                 raise Error(f"There is no saved view `{view}`: {hint}")
             view = saved[view]
         looked = None if view is None else checked_view(view)

@@ -101,7 +101,7 @@ class Viewer(Running):
         elif key in names:
             number = names.index(key)
         else:
-            hint = config_file.nearest(key, names) if names else "there are none."
+            hint = config_file.nearest(key, names)
             raise NoSuchDisplay(f"No display is named {key!r}: {hint}")
         return DisplayHandle(self, rows[number].id)
 

@@ -57,7 +57,7 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
 
 
 def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
-    from webviz.pictures.capture import SIZE, Order, opened, set_fixed_frame
+    from webviz.pictures.capture import SIZE, Order, opened
     from webviz.sources.bag import BagSource
     from webviz.sources.bag_extras import map_of_file, static_transform
 
@@ -72,7 +72,7 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
         convert.tell(path, config.report)
     config = override(config, options.set)
     if options.fixed_frame:
-        set_fixed_frame(config, options.fixed_frame)
+        config.set_fixed_frame(options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
     extras += [static_transform(*each) for each in options.transform]
     with opened(options.bag, extras, ros) as source:

@@ -18,6 +18,8 @@ class ConfigError(Error):
 def nearest(word: str, valid: Iterable[str]) -> str:
     """A hint at the valid word somebody may have meant, or the list of all."""
     valid = sorted(valid)
+    if not valid:
+        return "there are none"
     close = difflib.get_close_matches(word, valid, n=1)
     if close:
         return f"did you mean `{close[0]}`?"

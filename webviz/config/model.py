@@ -88,6 +88,11 @@ class Config:
     displays: list[Item] = field(default_factory=list)
     report: list[str] = field(default_factory=list)
 
+    def set_fixed_frame(self, frame: str) -> None:
+        """Draw in another frame than the file says; a leading slash is no part of its name."""
+        fixed_frame = frame.removeprefix("/")
+        self.settings = msgspec.structs.replace(self.settings, fixed_frame=fixed_frame)
+
 
 def standard() -> Config:
     """What is shown without a config file: the usual displays on their usual topics."""

@@ -141,7 +141,7 @@ class _Assignment:
             names = ".".join(map(str, (*above, *deeper[0])))
             self._refuse(f"no display `{step}` here, did you mean {names}?")
         names = [_name(item) for item in items]
-        hint = nearest(str(step), names) if names else "there are none"
+        hint = nearest(str(step), names)
         self._refuse(f"no display `{step}`, {hint}")
 
     def _refuse_value(self, path: Path, clause: str) -> NoReturn:

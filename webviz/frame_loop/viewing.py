@@ -265,6 +265,5 @@ def _named(view: View | str, saved: Mapping[str, View]) -> View:
 
 def _found(name: str, saved: Mapping[str, View]) -> View:
     if name not in saved:
-        known = nearest(name, saved) if saved else "none is saved."
-        raise ConfigError(f"There is no saved view `{name}`: {known}")
+        raise ConfigError(f"There is no saved view `{name}`: {nearest(name, saved)}")
     return saved[name]

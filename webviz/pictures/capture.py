@@ -9,8 +9,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-import msgspec
-
 from webviz import plugins
 from webviz.app.running import ros_source
 from webviz.config import Config, load, nearest, parse
@@ -160,7 +158,7 @@ def capture(
                 plugins.load(Path(path))
             shown = _read(config)
             if fixed_frame:
-                set_fixed_frame(shown, fixed_frame)
+                shown.set_fixed_frame(fixed_frame)
             times = at if isinstance(at, Sequence) and not isinstance(at, str) else (at,)
             with opened(bag, extras, ros_args) as source:
                 order = Order(
@@ -242,11 +240,6 @@ def one_sentence() -> Iterator[None]:
         yield
     except (BrowserDied, CannotListen, NoBrowser, TimeoutError) as error:
         raise Error(str(error)) from error
-
-
-def set_fixed_frame(config: Config, frame: str) -> None:
-    """Draw in another frame than the config says."""
-    config.settings = msgspec.structs.replace(config.settings, fixed_frame=frame.removeprefix("/"))
 
 
 def check_size(size: tuple[int, int]) -> None:

@@ -194,7 +194,8 @@ class Adapter:
         viser's event loop.
 
         Raises:
-            TimeoutError: a browser that is still connected did not answer within `timeout` seconds.
+            TimeoutError: a browser that is still connected did not answer within `timeout` seconds,
+                or there was still something to send it.
         """
         shared, own = (
             wire.LocalStorageGetItemRequestMessage(key="webviz", request_uuid=uuid.uuid4().hex)
@@ -207,7 +208,8 @@ class Adapter:
             asked = {id_: client for id_, client in asked.items() if id_ == client_id}
         deadline = time.monotonic() + timeout
         try:
-            self.late.wait(timeout)
+            if not self.late.wait(timeout):
+                raise TimeoutError(f"Pictures were not encoded within {timeout:g} s.")
             self._queue(shared)
             self.flush()
             for client in asked.values():
