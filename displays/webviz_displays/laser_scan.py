@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic, messages
 from webviz_displays import beams
-from webviz_displays.geometry import coordinate
+from webviz_displays.geometry import conjugate, coordinate
 from webviz_displays.points_display import PointsDisplay
 
 F64 = NDArray[np.float64]
@@ -71,7 +71,8 @@ class LaserScan(PointsDisplay):
             ctx.warn("Angles", "angle_increment is 0: all beams lie on one line.")
         xyz = self._place(hits, sample, ctx)
         colors = self._colors(scan, hits, xyz, sample, ctx)
-        self.draw_points(xyz, colors, ctx, sample.pose, ctx)
+        # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
+        self.draw_points(xyz, colors, ctx, ctx, conjugate(sample.pose.wxyz))
 
     def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""

@@ -102,7 +102,7 @@ class PointCloud2(PointsDisplay):
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
-        self.draw_points(xyz, colors, group, fixed, ctx)
+        self.draw_points(xyz, colors, group, ctx)  # as in RViz, boxes turn with the sensor
 
     def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
         """Which points to show, None for all, and a sentence about it.

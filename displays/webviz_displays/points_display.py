@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz import Color, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
 from webviz_displays.colors import RAINBOW, bounds, faded, faded_color, ramp
-from webviz_displays.geometry import conjugate, coordinate
+from webviz_displays.geometry import coordinate
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
@@ -165,7 +165,12 @@ class PointsDisplay(Display):
         )
 
     def draw_points(
-        self, xyz: NDArray[Any], colors: U8 | Rgb, group: Group, fixed: Pose, ctx: Context
+        self,
+        xyz: NDArray[Any],
+        colors: U8 | Rgb,
+        group: Group,
+        ctx: Context,
+        box_wxyz: ArrayLike | None = None,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -173,15 +178,15 @@ class PointsDisplay(Display):
             xyz: points (N, 3), finite.
             colors: (N, 3) or one for all.
             group: where to draw.
-            fixed: pose of the group in the fixed frame.
-            ctx: for what there is to say.
+            ctx: collects statuses.
+            box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
+                their sides along its axes.
         """
         too_many = len(xyz) > SOLIDS_LIMIT
         if self.style in _SOLIDS and not too_many:
-            # As in RViz the sides of boxes lie along the axes of the fixed frame.
-            upright = np.tile(conjugate(fixed.wxyz), (len(xyz), 1))
+            wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
-            group.instances("solids", shape, xyz, self.size, colors, upright, self.alpha)
+            group.instances("solids", shape, xyz, self.size, colors, wxyzs, self.alpha)
             return
         if isinstance(colors, tuple):
             colors = faded_color(colors, self.alpha)

@@ -304,12 +304,21 @@ def test_axis_bounds_hold_far_from_the_origin_too(lab: Benches) -> None:
 # Styles and time
 
 
-def test_solids_are_lit_and_stand_upright(lab: Benches) -> None:
+def test_solids_are_lit(lab: Benches) -> None:
     bench = lab(xyz_cloud(THREE), style="Boxes", size=0.2, alpha=0.5)
     node = bench.nodes()["solids"]
     assert isinstance(node, Instances)
     assert (node.shape, node.opacity) == ("box", 0.5)
     np.testing.assert_allclose(bench.xyz("solids"), np.add(THREE, (0, 0, 1)))
+
+
+def test_boxes_turn_with_the_frame_of_the_cloud(bench: Benches) -> None:
+    made = bench(PointCloud2(style="Boxes"))
+    tilt = (0.5, 0.5, 0.5, 0.5)
+    made.transform("map", "lidar", (1.0, 0.0, 0.0), tilt)
+    made.send(CLOUD, xyz_cloud(THREE), frame="lidar")
+    made.turn()
+    np.testing.assert_allclose(made.nodes()["solids"].wxyzs, [tilt] * 3, atol=1e-6)
 
 
 @pytest.mark.parametrize(
