@@ -66,6 +66,17 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
     assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
 
 
+def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, opened):
+    day_s = 86_400.0
+    bag = opened(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
+    bag.want("/words")
+    steps = []
+    while bag.source.position_ns < bag.source.end_ns:
+        bag.source.play_step(bag.source.end_ns)
+        steps.append(len(bag.heard()))
+    assert steps == [1, 1, 1, 1, 1]
+
+
 def test_a_topic_that_is_wanted_late_begins_where_the_bag_is(tmp_path, opened):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.play(1)

@@ -61,15 +61,19 @@ def run(tmp_path) -> Path:
     return bag.write(tmp_path / "run")
 
 
-def show(run: Path, to_s: float, step_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
-    """Poses and nodes, and the rows of the panel in the end, if one plays in steps."""
+def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
+    """Poses and nodes, and the rows of the panel in the end, of a bag that is played."""
     source, scene = BagSource(run), RecordingScene()
     config = parse(CONFIG, "the config")
     viewer = FrameLoop(config, source, scene, strict=True, clock=lambda: source.position_ns / 1e9)
     scene.watched = watched
     viewer.turn()
-    while source.position_ns < source.start_ns + ns(to_s):
-        source.play(min(source.position_ns + ns(step_s), source.start_ns + ns(to_s)))
+    until_ns = source.start_ns + ns(to_s)
+    while source.position_ns < until_ns:
+        if watched:
+            source.play(min(source.position_ns + ns(0.01), until_ns))
+        else:
+            source.play_step(until_ns)
         viewer.turn()
     scene.watched = True
     viewer.turn()
@@ -84,8 +88,8 @@ def show(run: Path, to_s: float, step_s: float, watched: bool) -> tuple[list[Any
 
 @pytest.mark.parametrize("to_s", [0.0, 1.0, 2.0, 3.05, 5.9])
 def test_playing_unseen_ends_where_watching_does(run, to_s):
-    watched, watched_rows = show(run, to_s, 0.01, True)
-    unseen, unseen_rows = show(run, to_s, 0.1, False)
+    watched, watched_rows = show(run, to_s, True)
+    unseen, unseen_rows = show(run, to_s, False)
     assert watched
     assert unseen == watched
     levels = [[(row.name, row.level) for row in rows] for rows in (unseen_rows, watched_rows)]
@@ -93,5 +97,5 @@ def test_playing_unseen_ends_where_watching_does(run, to_s):
 
 
 def test_history_is_longer_than_the_last_message(run):
-    nodes, _ = show(run, 5.9, 0.1, False)
+    nodes, _ = show(run, 5.9, False)
     assert len(nodes) > 10

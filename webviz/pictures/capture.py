@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import time
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -140,7 +141,7 @@ def capture(
         views: names of the config's views, or views; none for its current one.
         transparent: leave the background out.
         wait_for: names of displays that have to be OK; None for all that are enabled.
-        timeout: seconds to wait for them.
+        timeout: seconds for each time, to play the bag there and to wait for the displays.
         focus: frame to look at, instead of the focal points of the views.
         fixed_frame: instead of the config's.
         plugin: Python files with displays.
@@ -204,11 +205,12 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
         if not stage.names():
             raise Error("The config shows nothing: add a display to it, or enable one.")
         for position in positions:
+            deadline = time.monotonic() + order.timeout
             at_s = None
             if isinstance(order.source, BagSource) and position is not None:
-                stage.play(order.source, position)
+                stage.play(order.source, position, deadline)
                 at_s = seconds_from_start(position, order.source)
-            shown = stage.wait(awaited, order.timeout)
+            shown = stage.wait(awaited, deadline)
             for name, view in looks:
                 studio.look(stage.focused(view, order.focus) if order.focus else view)
                 yield Picture(studio.capture(order.transparent), name, at_s, shown)

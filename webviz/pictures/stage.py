@@ -15,14 +15,13 @@ from webviz.frame_loop.loop import FrameLoop
 from webviz.frames import Frames
 from webviz.group import Group
 from webviz.pictures.studio import Studio
+from webviz.pictures.times import seconds_from_start
 from webviz.sources import Source
 from webviz.sources.bag import BagSource
 from webviz.state import Row, State
 from webviz.status import Level, Status
 from webviz.views import FIXED_FRAME, FPS, TopDownOrtho, View
 
-STEP_NS = 100_000_000
-"""Of the time of a bag in one turn of the frame loop."""
 LOOK_S = 0.05
 LOADING = "Loading"
 """Status of a display that waits for slow work."""
@@ -75,19 +74,38 @@ class Stage:
         self._viewer.close()
         self._studio.clear()
 
-    def play(self, source: BagSource, until_ns: int) -> None:
-        """Let a bag run to a time of recording, drawing nothing on the way."""
+    def play(self, source: BagSource, until_ns: int, deadline: float) -> None:
+        """Let a bag run to a time of recording, drawing nothing on the way.
+
+        Args:
+            source: the bag.
+            until_ns: the time of recording.
+            deadline: when to give up, in seconds of `time.monotonic`.
+
+        Raises:
+            Error: the bag did not get there by the deadline.
+        """
         with self._unwatched():
             while source.position_ns < until_ns:
-                source.play(min(until_ns, source.position_ns + STEP_NS))
+                if time.monotonic() > deadline:
+                    reached, wanted = (
+                        seconds_from_start(at_ns, source)
+                        for at_ns in (source.position_ns, until_ns)
+                    )
+                    raise Error(
+                        f"The bag was played to {max(reached, 0.0):.1f} s of {wanted:.1f} s when "
+                        "the time-out passed. Choose a longer time-out or an earlier time."
+                    )
+                source.play_step(until_ns)
                 self._viewer.turn()
 
-    def wait(self, names: Collection[str], timeout: float) -> Shown:
+    def wait(self, names: Collection[str], deadline: float) -> Shown:
         """Draw until nothing is loaded any more and the named displays are OK.
 
         Args:
             names: of displays.
-            timeout: seconds; in a bag time stands still, so only what loads is waited for.
+            deadline: when to give up, in seconds of `time.monotonic`. In a bag time stands still,
+                so only what loads is waited for.
 
         Returns:
             How far it came.
@@ -95,7 +113,6 @@ class Stage:
         Raises:
             Error: no enabled display has such a name; one sentence.
         """
-        deadline = time.monotonic() + timeout
         while True:
             self._source.inbox.arrived.clear()
             self._viewer.turn()

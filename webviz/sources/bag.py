@@ -20,6 +20,8 @@ TF_TYPE = "tf2_msgs/msg/TFMessage"
 MOST = 500
 """Messages that arrive at once, so that no queue of the inbox overflows."""
 MOST_BYTES = 32 << 20
+STEP_NS = 100_000_000
+"""Of the time of recording between two turns of a frame loop that nobody watches."""
 INBOX_LIMIT = 20_000
 """Of one topic: what is latched arrives at once, however much it is."""
 TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
@@ -103,6 +105,15 @@ class BagSource:
         else:
             self._position_ns = max(self._position_ns, until_ns)
         self.inbox.arrived.set()
+
+    def play_step(self, until_ns: int) -> None:
+        """Play a short step towards a time, or up to the next message if that is later.
+
+        Raises:
+            BagError: the bag is damaged behind what arrived.
+        """
+        next_ns = until_ns if self._next is None else self._next.stamp_ns
+        self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
 
     # What every source can do, see webviz.sources.Source
 
