@@ -23,6 +23,7 @@ class Row:
         name: as shown.
         statuses: sentences by key.
         depth: in how many groups it is.
+        enabled: whether it is switched on, whatever its groups are.
     """
 
     id: str
@@ -31,6 +32,7 @@ class Row:
     name: str
     statuses: Mapping[str, Status]
     depth: int = 0
+    enabled: bool = True
 
     @property
     def level(self) -> Level:

@@ -103,6 +103,25 @@ def test_a_display_that_shows_nothing_is_told_with_the_reason(capture):
     assert capture(config, wait_for=["Scan"]).is_ok
 
 
+def test_an_enabled_display_of_an_unsupported_class_is_not_ok(capture, tmp_path):
+    file = tmp_path / "two.rviz"
+    file.write_text("""\
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Grid, Name: Grid, Enabled: true}
+    - {Class: my_plugins/Laser, Name: Laser, Enabled: true}
+    - {Class: my_plugins/Laser, Name: Spare, Enabled: false}
+  Global Options: {Fixed Frame: odom}
+""")
+    shot: Capture = capture(file)
+    assert not shot.is_ok
+    assert shot.statuses.keys() == {"Grid", "Laser"}
+    assert shot.statuses["Laser"].level is Level.ERROR
+    assert "Unsupported display class my_plugins/Laser." in shot.statuses["Laser"].text
+    assert not capture(file, wait_for=["Laser"]).is_ok
+    assert capture(file, wait_for=["Grid"]).is_ok
+
+
 def test_displays_of_one_name_are_numbered(capture):
     config = CONFIG + "- {type: Path, topic: /a}\n- {type: Path, topic: /b}\n"
     statuses = capture(config).statuses

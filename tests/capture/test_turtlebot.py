@@ -27,6 +27,7 @@ def test_a_turtlebot_its_map_and_its_config_are_one_picture(studio):
         at=24.0,
         size=(800, 450),
         focus="base_link",
+        wait_for=["Grid", "LaserScan", "Map", "Odometry", "Odometry (2)"],
         extras=[
             map_of_file(DATA / "maps/mac_1st_floor_final.yaml"),
             static_transform("map", "odom", -0.32, 0.04, 0.077),

@@ -233,7 +233,7 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
     mine = config.displays[0]
     assert isinstance(mine, Unreadable)
     assert mine.name == "Mine"
-    assert "my_plugins/Laser has no counterpart here yet" in mine.reason
+    assert "Unsupported display class my_plugins/Laser." in mine.reason
     assert mine.values["rviz"]["Power"] == "007"
     assert "Mine: my_plugins/Laser: there is no such display" in said(report)
 

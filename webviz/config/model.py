@@ -61,6 +61,17 @@ class Unreadable:
         """Whether it is kept of a .rviz file, for want of a counterpart."""
         return isinstance(self.values, Mapping) and "rviz" in self.values
 
+    @property
+    def enabled(self) -> bool:
+        """Whether the file has it switched on; RViz's displays are off unless it says so."""
+        if not isinstance(self.values, Mapping):
+            return True
+        if not self.is_from_rviz:
+            return self.values.get("enabled", True) is not False
+        entry = self.values["rviz"]
+        entry = entry if isinstance(entry, Mapping) else {}
+        return entry.get("Enabled", entry.get("Value", False)) is True
+
 
 @dataclass
 class Branch:

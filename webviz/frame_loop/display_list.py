@@ -231,12 +231,13 @@ class DisplayList:
         content, depth = entry.content, entry.depth
         if isinstance(content, Unreadable):
             status = {"Config": Status(Level.ERROR, content.reason)}
-            return Row(entry.id, "", None, entry.name, status, depth)
+            return Row(entry.id, "", None, entry.name, status, depth, content.enabled)
         if isinstance(content, Group):
-            return Row(entry.id, "Group", content, content.name, {}, depth)
+            return Row(entry.id, "Group", content, content.name, {}, depth, content.enabled)
         statuses = statuses_of(content) if entry.is_enabled else {}
-        name = type_name(type(content.display))
-        return Row(entry.id, name, content.display, content.display.name, statuses, depth)
+        display = content.display
+        name = type_name(type(display))
+        return Row(entry.id, name, display, display.name, statuses, depth, display.enabled)
 
     def _insert(
         self, block: list[Entry], parent: Entry | None, before: Entry | None = None

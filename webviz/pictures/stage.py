@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import msgspec
 
-from webviz.config import Branch, Config, Item, Unreadable, nearest
+from webviz.config import Config, nearest
 from webviz.errors import Error
 from webviz.frame_loop.loop import FrameLoop
 from webviz.frames import Frames
@@ -65,7 +65,6 @@ class Stage:
     def __init__(self, config: Config, source: Source, studio: Studio) -> None:
         self._source = source
         self._studio = studio
-        self._kept = set(_kept(config.displays))
         self._viewer = FrameLoop(config, source, studio.scene, clock=self._clock)
         self._viewer.turn()
 
@@ -125,9 +124,9 @@ class Stage:
             self._source.inbox.arrived.wait(LOOK_S)
 
     def names(self) -> list[str]:
-        """Of the displays that are enabled; several of one name are numbered.
+        """Of the displays that are enabled, unsupported ones too, without groups.
 
-        Groups are left out, and what is kept of a .rviz file without a counterpart.
+        Several of one name are numbered.
         """
         return list(self._statuses(self._state()))
 
@@ -152,8 +151,6 @@ class Stage:
     def _statuses(self, state: State) -> dict[str, Status]:
         result: dict[str, Status] = {}
         for row in _enabled(state.rows):
-            if row.display is None and row.name in self._kept:
-                continue
             name, number = row.name, 2
             while name in result:
                 name, number = f"{row.name} ({number})", number + 1
@@ -189,21 +186,11 @@ def summary(statuses: Mapping[str, Status]) -> Status:
     return Status(level, " ".join(texts))
 
 
-def _kept(items: Collection[Item]) -> Iterator[str]:
-    for item in items:
-        if isinstance(item, Branch):
-            yield from _kept(item.displays)
-        elif isinstance(item, Unreadable) and item.is_from_rviz:
-            yield item.name
-
-
 def _enabled(rows: Collection[Row]) -> Iterator[Row]:
     hidden_below: int | None = None
     for row in rows:
         if hidden_below is not None and row.depth > hidden_below:
             continue
-        hidden_below = None
-        if isinstance(row.display, Group):
-            hidden_below = None if row.display.enabled else row.depth
-        elif row.display is None or row.display.enabled:
+        hidden_below = None if row.enabled else row.depth
+        if row.enabled and not isinstance(row.display, Group):
             yield row
