@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import functools
 import threading
 import time
@@ -23,6 +22,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.ros import qos
 from webviz.ros.control import Control
+from webviz.ros.heap import Heap
 from webviz.ros.types import message_class
 from webviz.sources import Inbox, Offer, Publisher, Raw, Subscription
 
@@ -55,7 +55,7 @@ class RosSource:
         node_name: str = "webviz",
         domain_id: int | None = None,
     ) -> None:
-        _keep_large_buffers()
+        self._heap = Heap()
         self.inbox = Inbox()
         self._context = Context()
         rclpy.init(
@@ -126,6 +126,7 @@ class RosSource:
                     wanted = self._wanted
                     self._look([*self._offers, *wanted], only=wanted)
                     self._reconcile(wanted)
+                self._heap.turn()
                 self.control.turn()
                 executor.spin_once(timeout_sec=SPIN_S)
         finally:
@@ -200,6 +201,7 @@ class RosSource:
             self._node.destroy_subscription(subscription)
 
     def _arrive(self, topic: str, cdr: bytes) -> None:
+        self._heap.note(len(cdr))
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
 
 
@@ -247,18 +249,3 @@ def _publisher(info: TopicEndpointInfo) -> Publisher:
         if info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
         else "volatile",
     )
-
-
-def _keep_large_buffers() -> None:
-    """Let glibc keep freed buffers of up to 32 MB, and all threads take them from one heap.
-
-    Otherwise each 16 MB message costs 30 ms of page faults (measured: 40 ms of CPU, then 12.5 ms).
-    It arrives in one thread, is drawn in another and sent in a third, each with a heap of its own:
-    one for all saves two thirds of the page faults of a busy /tf, too (measured: 330 a second).
-    """
-    mmap_threshold, trim_threshold, arena_max = -3, -1, -8  # M_MMAP_THRESHOLD etc. in malloc.h
-    libc = ctypes.CDLL(None)
-    if hasattr(libc, "mallopt"):
-        libc.mallopt(mmap_threshold, 32 << 20)
-        libc.mallopt(trim_threshold, 512 << 20)
-        libc.mallopt(arena_max, 1)
