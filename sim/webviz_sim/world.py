@@ -106,15 +106,15 @@ def load_world(path: str | Path) -> World:
     try:
         entries = YAML(typ="safe", pure=True).load(path.read_text())
     except OSError as error:
-        raise WorldError(f"Cannot read the world {path}: {error.strerror}.") from None
+        raise WorldError(f"Cannot read the map {path}: {error.strerror}.") from None
     except (YAMLError, UnicodeDecodeError):
-        raise WorldError(f"The world {path} is not valid YAML.") from None
+        raise WorldError(f"The map {path} is not valid YAML.") from None
     if not isinstance(entries, dict):
-        raise WorldError(f"The world {path} is not a mapping with image, resolution and origin.")
+        raise WorldError(f"Invalid map {path}: expected the keys image, resolution and origin.")
     try:
         return _read(entries, path.parent)
     except WorldError as error:
-        raise WorldError(f"The world {path} is wrong: {error}.") from None
+        raise WorldError(f"Invalid map {path}: {error}.") from None
 
 
 def _read(entries: dict[str, Any], folder: Path) -> World:

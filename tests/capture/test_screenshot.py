@@ -171,16 +171,17 @@ def test_wrong_arguments_are_status_2(capsys, arguments, sentence):
     assert sentence in capsys.readouterr().err
 
 
-def test_a_topic_of_an_unknown_type_is_skipped_and_listed(tmp_path):
+def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path):
     bag = strings(0, 1)
-    bag.add("/odd", "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
-    bag.put(0, "/odd", b"\x00\x01\x00\x00")
+    for topic in ("/odd", "/other"):
+        bag.add(topic, "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
+        bag.put(0, topic, b"\x00\x01\x00\x00")
     folder = bag.write(tmp_path / "run")
-    (tmp_path / "grid.yaml").write_text("fixed_frame: map\ndisplays: [{type: Grid}]\n")
-    result = run_in(tmp_path, "-d", "grid.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
-    assert result.returncode == 0, result.stderr
-    (line,) = result.stderr.splitlines()
-    assert line.startswith(f"webviz: {folder}: /odd is skipped: ")
+    (tmp_path / "odd.yaml").write_text("displays: [{type: Path, topic: /odd}]\n")
+    result = run_in(tmp_path, "-d", "odd.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
+    assert result.returncode == 3, result.stderr
+    assert f"webviz: {folder}: /odd is skipped: " in result.stderr
+    assert "/other" not in result.stderr
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")

@@ -122,13 +122,13 @@ def test_resolution_and_origin_with_yaw_place_the_cells(write):
 )
 def test_a_wrong_entry_is_refused_in_one_sentence(write, changes, message):
     path = write([[255]], **changes)
-    with pytest.raises(WorldError, match=rf"^The world .*map.yaml is wrong: {message}.*\.$"):
+    with pytest.raises(WorldError, match=rf"^Invalid map .*map.yaml: {message}.*\.$"):
         load_world(path)
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a: [", "is not valid YAML"), ("just text", "is not a mapping"), ("", "is not a mapping")],
+    [("a: [", "is not valid YAML"), ("just text", "expected the keys"), ("", "expected the keys")],
 )
 def test_a_yaml_that_is_no_map_is_refused_in_one_sentence(tmp_path, text, message):
     path = tmp_path / "map.yaml"
@@ -138,7 +138,7 @@ def test_a_yaml_that_is_no_map_is_refused_in_one_sentence(tmp_path, text, messag
 
 
 def test_a_missing_yaml_is_refused_in_one_sentence(tmp_path):
-    with pytest.raises(WorldError, match=r"^Cannot read the world .*: No such file .*\.$"):
+    with pytest.raises(WorldError, match=r"^Cannot read the map .*: No such file .*\.$"):
         load_world(tmp_path / "none.yaml")
 
 

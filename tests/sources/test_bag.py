@@ -160,18 +160,29 @@ def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
-def test_a_type_without_a_definition_is_skipped_and_listed(tmp_path, opened, text):
+def test_a_type_without_a_definition_is_skipped_and_told_if_it_is_wanted(tmp_path, opened, text):
     recorded = strings(0, 1)
     recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
     recorded.put(0, "/odd", b"\x00\x01\x00\x00")
     bag = opened(recorded.write(tmp_path / "bag"))
+    assert bag.source.remarks == []
+    bag.want("/words", "/odd")
     (remark,) = bag.source.remarks
     assert remark.startswith("/odd is skipped: ")
     assert "odd_msgs/msg/Odd" in remark
     assert bag.source.offers()["/odd"].problem
-    bag.want("/words", "/odd")
     bag.play(1)
     assert bag.heard() == ["0", "1"]
+
+
+@pytest.mark.parametrize("text", ["string request\n---\nstring response\n", "string words\n"])
+def test_service_events_are_skipped_without_a_parser_s_words(tmp_path, opened, text):
+    recorded = strings(0)
+    recorded.add("/ask/_service_event", "odd_msgs/srv/Ask_Event", definition=text)
+    recorded.put(0, "/ask/_service_event", b"\x00\x01\x00\x00")
+    bag = opened(recorded.write(tmp_path / "bag"))
+    offer = bag.source.offers()["/ask/_service_event"]
+    assert offer.problem == "service events are unsupported"
 
 
 def test_a_recorded_clock_is_the_time(tmp_path, opened):

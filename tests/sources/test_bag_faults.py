@@ -47,6 +47,44 @@ def test_a_folder_whose_file_is_missing(tmp_path):
     assert f"ros2 bag reindex {folder}" in refusal(folder)
 
 
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage):
+    folder = strings(0, 1).write(tmp_path / "bag", storage)
+    file = next(each for each in folder.iterdir() if each.suffix != ".yaml")
+    file.rename(file.with_stem("renamed"))
+    bag = opened(folder)
+    assert bag.source.remarks == [
+        f"{file.name}, named by metadata.yaml, is missing. Reading renamed{file.suffix}."
+    ]
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+@pytest.mark.parametrize("lost", ["deadline:", "depth:", "durability:", "history:"])
+def test_a_qos_profile_may_lack_a_policy(tmp_path, opened, storage, lost):
+    folder = strings(0, 1, best_effort=True).write(tmp_path / "bag", storage)
+    for file in folder.iterdir():  # the length must not change
+        other = f"_{lost[1:]}"
+        file.write_bytes(file.read_bytes().replace(lost.encode(), other.encode()))
+    bag = opened(folder)
+    (publisher,) = bag.source.offers()["/words"].publishers
+    assert publisher.reliability == "best_effort"
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
+def test_an_unreadable_qos_profile_is_left_out(tmp_path, opened):
+    (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
+    file.write_bytes(file.read_bytes().replace(b"history:", b"[history"))
+    bag = opened(file)
+    bag.want("/words")
+    bag.play(1)
+    assert bag.heard() == ["0", "1"]
+
+
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.97])
 def test_an_mcap_file_that_was_cut_off(tmp_path, share):
     (file,) = files(strings(*range(50)).write(tmp_path / "bag"), ".mcap")

@@ -78,8 +78,6 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
     with opened(options.bag, extras, ros) as source:
         at: Sequence[At] = ("end",)
         if isinstance(source, BagSource):
-            for remark in source.remarks:
-                print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
             at = _times(options, source)
         order = Order(
             config,
@@ -93,7 +91,10 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
             wait_for=options.wait_for or None,
             timeout=options.timeout,
         )
-        return _write(options, order)
+        status = _write(options, order)
+        for remark in source.remarks if isinstance(source, BagSource) else ():
+            print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+        return status
 
 
 def _times(options: argparse.Namespace, source: BagSource) -> Sequence[At]:

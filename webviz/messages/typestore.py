@@ -113,8 +113,10 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     name = full_name(type_name)
     try:
         learnt = get_types_from_msg(text, name)
-    except TypesysError as error:
-        raise DefinitionError(f"The definition of {name} cannot be read: {error}.") from error
+    except TypesysError as error:  # it quotes the whole definition, in the parser's own words
+        raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
+    if name not in learnt:  # such as a service's, whose types would be messages
+        raise DefinitionError(f"The definition of {name} does not define it.")
     known = _store().fielddefs
     for key in learnt:
         if key in fixed and _fields_of(learnt[key]) != fields(key):

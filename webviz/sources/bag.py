@@ -79,9 +79,13 @@ class BagSource:
 
     @property
     def remarks(self) -> list[str]:
-        """Sentences on what is peculiar about the bag: topics that cannot be read, its time."""
-        skipped = [f"{topic} is skipped: {why}." for topic, why in self._file.skipped.items()]
-        return skipped + ([self._time.remark] if self._time.remark else [])
+        """Sentences on what is peculiar: wanted topics that cannot be read, files, time."""
+        skipped = [
+            f"{topic} is skipped: {why}."
+            for topic, why in self._file.skipped.items()
+            if topic in self._wanted
+        ]
+        return [*skipped, *filter(None, (self._file.remark, self._time.remark))]
 
     def play(self, until_ns: int) -> None:
         """Move on to a time of recording, and let arrive what was recorded up to then.

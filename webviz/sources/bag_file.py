@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import NamedTuple
 
 from rosbags.interfaces import Connection, MessageDefinitionFormat, QosDurability, QosReliability
 from rosbags.rosbag2 import Reader
+from ruamel.yaml import YAML
 
 from webviz.errors import Error
 from webviz.messages import MessageError, register, type_exists
 from webviz.messages.typestore import full_name
+from webviz.sources import bag_qos
 from webviz.sources.source import Durability, Publisher, Reliability
 
+FILES = (".mcap", ".db3")
+INFORMATION = "rosbag2_bagfile_information"
 KEEP_LAST = 1
 """Messages that a publisher repeats if the bag does not say how many."""
 
@@ -68,6 +72,8 @@ class BagFile:
         self.channels: tuple[Channel, ...] = ()
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
+        self.remark = ""
+        """A sentence for people, if there is something peculiar."""
         self._reader = self._open()
         if not self._reader.message_count:
             self.close()
@@ -115,14 +121,31 @@ class BagFile:
                 f"{path} has no metadata.yaml: run `ros2 bag reindex {path}`, or give one of the "
                 "files in it."
             )
-        if path.is_file() and path.suffix not in (".mcap", ".db3"):
+        if path.is_file() and path.suffix not in FILES:
             raise BagError(f"{path} is no bag: give an .mcap or .db3 file, or a rosbag2 folder.")
+        bag_qos.be_lenient()
         try:
-            reader = Reader(path)
+            reader = Reader(self._renamed_file() or path)
             reader.open()
         except Exception as error:  # see `messages`
             raise BagError(self._complaint(error)) from error
         return reader
+
+    def _renamed_file(self) -> Path | None:
+        """The only file of a folder whose metadata has another name for it; rosbags insists."""
+        if not self.path.is_dir():
+            return None
+        try:
+            information = YAML(typ="safe").load(self.path / "metadata.yaml")[INFORMATION]
+            named = [PurePath(name).name for name in information["relative_file_paths"]]
+            is_plain = not information.get("compression_mode")  # else the file is not enough
+        except Exception:  # rosbags will say what is wrong
+            return None
+        files = [file for file in self.path.iterdir() if file.suffix in FILES]
+        if not is_plain or len(files) != 1 or len(named) != 1 or (self.path / named[0]).exists():
+            return None
+        self.remark = f"{named[0]}, named by metadata.yaml, is missing. Reading {files[0].name}."
+        return files[0]
 
     def _complaint(self, error: Exception) -> str:
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
@@ -155,6 +178,8 @@ def _obstacle(connection: Connection) -> str:
     encoding = getattr(connection.ext, "serialization_format", "cdr")
     if encoding != "cdr":
         return f"its messages are encoded as {encoding}, not as CDR"
+    if connection.msgtype.endswith("_Event") and "/srv/" in connection.msgtype:
+        return "service events are unsupported"
     if type_exists(connection.msgtype):
         return ""
     definition = connection.msgdef
