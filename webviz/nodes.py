@@ -117,12 +117,12 @@ class Axes(_Node):
 
 @dataclass(frozen=True, eq=False)
 class Labels(_Node):
-    """Texts that face the camera.
+    """Light texts with a dark outline that face the camera.
 
     Args:
         positions: float32 (N, 3), metres.
         texts: one for each position.
-        height: of a capital letter, metres.
+        height: of a line, metres; capitals are 0.6 of it, as in RViz.
         below: whether they hang below their positions on the screen, instead of around them.
     """
 

@@ -1,4 +1,4 @@
-"""Where texts are, as a real browser draws them."""
+"""Where texts are and how they look, as a real browser draws them."""
 
 from __future__ import annotations
 
@@ -6,17 +6,47 @@ from typing import Any
 
 import numpy as np
 
-from webviz.nodes import Labels
+from webviz.nodes import Instances, Labels
+
+CENTER = np.zeros((1, 3), np.float32)
+GREEN = (0, 255, 0)
+
+
+def light(view: Any) -> np.ndarray:
+    """Rows and columns of the letters, (2, N)."""
+    view.wait_for(lambda: (view.pixels() > 200).all(axis=2).any())
+    return np.array(np.nonzero((view.pixels() > 200).all(axis=2)))
 
 
 def test_a_text_hangs_below_its_position_when_asked_from_wherever_one_looks(view: Any) -> None:
-    place = np.zeros((1, 3), np.float32)
     for below in (False, True, False):
-        view.scene.upsert("tf", "names", Labels(place, ("HHH",), 2.0, below))
+        view.scene.upsert("tf", "names", Labels(CENTER, ("HHH",), 2.0, below))
         for position in ((0.0, -0.01, 10.0), (10.0, 0.0, 0.0)):
             view.look(position, (0.0, 0.0, 0.0))
-            view.wait_for(lambda: (view.pixels() < 20).all(axis=2).any())
-            rows, _ = np.nonzero((view.pixels() < 20).all(axis=2))
+            rows, _ = light(view)
             row, _ = view.row_column((0.0, 0.0, 0.0))
             assert rows.max() > row
             assert (rows.min() >= row) == below
+
+
+def test_capitals_are_0_6_of_the_height_of_a_line(view: Any) -> None:
+    view.scene.upsert("tf", "names", Labels(CENTER, ("H",), 5.0))
+    view.show()
+    rows, _ = light(view)
+    top, bottom = (view.row_column((0.0, y, 0.0))[0] for y in (2.5, -2.5))
+    assert 0.56 < (np.ptp(rows) + 1) / (bottom - top) < 0.64
+
+
+def test_letters_have_a_dark_outline_and_leave_the_scene_around_them_alone(view: Any) -> None:
+    below, size = np.array([(0, 0, -1)], np.float32), np.array([(20, 20, 0.1)], np.float32)
+    floor = Instances(below, size, GREEN)
+    view.scene.upsert("map", "floor", floor)
+    view.scene.upsert("tf", "names", Labels(CENTER, ("HHH",), 4.0))
+    view.show()
+    rows, columns = light(view)
+    box = view.pixels()[rows.min() : rows.max(), columns.min() : columns.max()].astype(int)
+    is_dark, is_light = (box < 60).all(axis=2), (box > 200).all(axis=2)
+    is_floor = box[..., 1] - box[..., 0] > 100
+    assert 0.02 < is_dark.mean() < 0.2
+    assert 0.2 < is_light.mean() < 0.4
+    assert is_floor.mean() > 0.4

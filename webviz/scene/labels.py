@@ -10,9 +10,9 @@ from viser import LabelHandle
 from webviz.nodes import Labels
 from webviz.scene.adapter import Adapter
 
-# Browsers use a system font; capitals of the usual ones are about 0.72 of the font size (Arial
-# 0.716, Roboto 0.711, DejaVu Sans 0.729).
-_CAPITAL = 0.72
+# RViz's characters, in Liberation Sans, are 1.19 font sizes high with all that surrounds them
+# (measured). A browser's font is Arial or another of that size.
+_LINE = 1.19
 
 
 class _Label(NamedTuple):
@@ -36,7 +36,7 @@ class LabelsDrawn:
     def draw(self, node: Labels) -> None:
         """Sends texts, places and heights that changed; places that are not finite are left out."""
         look = {
-            "font_scene_height": node.height / _CAPITAL,
+            "font_scene_height": node.height / _LINE,
             "anchor": "top-center" if node.below else "center-center",
         }
         wanted = [

@@ -29,6 +29,7 @@ from webviz.scene.cameras import Cameras
 from webviz.scene.drawn import Drawn
 from webviz.scene.images import ImageDrawn
 from webviz.scene.instances import InstancesDrawn
+from webviz.scene.label_script import LABEL_SCRIPT
 from webviz.scene.labels import LabelsDrawn
 from webviz.scene.lines import ArrowsDrawn, LinesDrawn
 from webviz.scene.meshes import GlbDrawn, MeshDrawn
@@ -72,7 +73,8 @@ class Scene:
         self._gone: list[_Group] = []
         server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
-        self.link.run_javascript(PAGE_SCRIPT)
+        for script in (PAGE_SCRIPT, LABEL_SCRIPT):
+            self.link.run_javascript(script)
         self.cameras = Cameras(self.link)
 
     def has_watchers(self) -> bool:
