@@ -11,10 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Pose
-from webviz_displays.geometry import normalized
+from webviz_displays.geometry import FARTHEST, normalized
 
 TILE = 512
-"""Cells along the edge of a tile."""
+"""Cells along the edges of a tile, unless there would be more than `MOST_TILES`."""
+MOST_TILES = 128
+"""Of a map. Each is a picture of its own, which takes the frame loop up to a millisecond."""
+LONGEST_TILE = 8192
+"""Cells along an edge: what every browser accepts in a texture."""
+MOST_CELLS = MOST_TILES * LONGEST_TILE
+"""Along the edge of a map."""
+
+SMALLEST_CELL = 1e-6
+"""Metres; what is smaller is an error of the publisher, and nobody could see it."""
 
 Corner = tuple[int, int]
 """Row and column of a tile's cell (0, 0) in the grid."""
@@ -33,7 +42,7 @@ class TiledGrid:
         width, height: in cells.
         resolution: edge of a cell in metres.
         origin: of the corner of cell (0, 0).
-        tiles: int8 arrays of at most (TILE, TILE) cells by corner. They are never written to, and
+        tiles: int8 arrays of at most `tile_shape` cells by corner. They are never written to, and
             a tile that a message leaves as it was stays the same object.
     """
 
@@ -54,7 +63,7 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
         before: tiles that did not change are taken from here.
 
     Raises:
-        GridFault: the message contradicts itself or is not finite.
+        GridFault: the message contradicts itself, or what it describes cannot be drawn.
     """
     info, data = message.info, message.data
     width, height = info.width, info.height
@@ -65,15 +74,22 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
             f"The map's size is {width} x {height} = {width * height} cells, "
             f"but it carries {len(data)}."
         )
-    if not (isfinite(info.resolution) and info.resolution > 0.0):
+    if max(width, height) > MOST_CELLS:
         raise GridFault(
-            f"The map's resolution is {info.resolution} m per cell; it must be positive."
+            f"The map's size is {width} x {height} cells; at most {MOST_CELLS} along an edge can "
+            "be drawn."
+        )
+    if not (SMALLEST_CELL <= info.resolution < FARTHEST / max(width, height)):
+        raise GridFault(
+            f"The map's resolution is {info.resolution:.4g} m per cell; it must be at least "
+            f"{SMALLEST_CELL:g} m, and the map smaller than {FARTHEST:g} m."
         )
     cells = data.reshape(height, width)
     known = before.tiles if before else {}
     tiles = {}
-    for row, column in _corners((0, height), (0, width)):
-        tile = cells[row : row + TILE, column : column + TILE]
+    rows, columns = shape = tile_shape(height, width)
+    for row, column in _corners((0, height), (0, width), shape):
+        tile = cells[row : row + rows, column : column + columns]
         old = known.get((row, column))
         # A copy, for a view would keep the whole message alive.
         tiles[row, column] = old if old is not None and np.array_equal(old, tile) else tile.copy()
@@ -102,7 +118,8 @@ def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
         raise GridFault(f"The update is in frame '{frame}', the map in '{grid.frame}'.")
     cells = data.reshape(height, width)
     tiles = dict(grid.tiles)
-    for row, column in _corners((y, y + height), (x, x + width)):
+    shape = tile_shape(grid.height, grid.width)
+    for row, column in _corners((y, y + height), (x, x + width), shape):
         old = tiles[row, column]
         top, left = max(y, row), max(x, column)
         bottom = min(y + height, row + old.shape[0])
@@ -115,12 +132,28 @@ def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
     return replace(grid, tiles=tiles)
 
 
-def _corners(rows: tuple[int, int], columns: tuple[int, int]) -> Iterator[Corner]:
+def tile_shape(height: int, width: int) -> tuple[int, int]:
+    """Rows and columns of the tiles of a map, so that it has at most `MOST_TILES`.
+
+    Larger maps have larger tiles; long ones have long tiles.
+    """
+    rows, columns = min(TILE, height), min(TILE, width)
+    while -(-height // rows) * -(-width // columns) > MOST_TILES:
+        if rows >= height or (columns <= rows and columns < width):
+            columns *= 2
+        else:
+            rows *= 2
+    return rows, columns
+
+
+def _corners(
+    rows: tuple[int, int], columns: tuple[int, int], shape: tuple[int, int]
+) -> Iterator[Corner]:
     """The tiles that touch the cells from the first to before the last row and column."""
     if rows[0] == rows[1] or columns[0] == columns[1]:
         return
-    for row in range(rows[0] // TILE * TILE, rows[1], TILE):
-        for column in range(columns[0] // TILE * TILE, columns[1], TILE):
+    for row in range(rows[0] // shape[0] * shape[0], rows[1], shape[0]):
+        for column in range(columns[0] // shape[1] * shape[1], columns[1], shape[1]):
             yield row, column
 
 
@@ -130,5 +163,10 @@ def _origin(pose: Any) -> Pose:
     position, wxyz = (p.x, p.y, p.z), (q.w, q.x, q.y, q.z)
     if not all(map(isfinite, (*position, *wxyz))):
         raise GridFault("The map's origin holds a NaN or infinity.")
+    if max(map(abs, position)) >= FARTHEST:
+        x, y, z = position
+        raise GridFault(
+            f"The map's origin is ({x:g}, {y:g}, {z:g}); it must be within {FARTHEST:g} m."
+        )
     (unit,), _ = normalized([wxyz])
     return Pose(position, tuple(unit.tolist()))  # pyright: ignore[reportArgumentType]

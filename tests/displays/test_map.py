@@ -9,7 +9,7 @@ from webviz import Image, Topic
 from webviz.testing.messages import header
 from webviz_displays.map import Map
 from webviz_displays.palettes import lookup_table
-from webviz_displays.tiles import TILE
+from webviz_displays.tiles import LONGEST_TILE, MOST_CELLS, MOST_TILES, TILE
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
@@ -91,6 +91,26 @@ def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> 
     assert len(at.nodes()) == 6
     assert all(max(node.rgba.shape[:2]) <= TILE for node in at.nodes().values())
     assert (whole_picture(at) == lookup_table("map")[cells.view(np.uint8)]).all()
+
+
+@pytest.mark.parametrize("shape", [(1, 1_000_000), (1_000_000, 1), (3, 400_000), (9000, 9000)])
+def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -> None:
+    at = bench(Map(alpha=1.0))
+    cells = np.zeros(shape, np.int8)
+    cells[-1, -1] = 100
+    send_map(at, cells)
+    nodes = at.nodes()
+    assert len(nodes) <= MOST_TILES
+    assert sum(node.cells.size for node in nodes.values()) == cells.size
+    assert max(max(node.cells.shape) for node in nodes.values()) <= LONGEST_TILE
+    send_update(at, shape[1] - 1, shape[0] - 1, [[0]])
+    assert sum(node is nodes[key] for key, node in at.nodes().items()) == len(nodes) - 1
+
+
+def test_a_map_longer_than_any_picture_is_refused(bench) -> None:
+    at = bench(Map())
+    send_map(at, np.zeros((1, MOST_CELLS + 1)))
+    assert "at most 1048576 along an edge" in at.statuses()["Map"][1]
 
 
 def test_tiles_lie_along_the_axes_of_an_origin_with_yaw(bench) -> None:
@@ -270,9 +290,12 @@ def test_updates_before_the_map_are_ignored(bench) -> None:
         ({"info": {"width": 0, "height": 3}}, "size is 0 x 3"),
         ({"info": {"width": 2, "height": 2}}, "2 x 2 = 4 cells, but it carries 6"),
         ({"info": {"width": 2**32 - 1, "height": 2**32 - 1}}, "but it carries 6"),
-        ({"info": {"resolution": 0.0}}, "resolution is 0.0 m"),
+        ({"info": {"resolution": 0.0}}, "resolution is 0 m"),
         ({"info": {"resolution": math.nan}}, "resolution is nan m"),
         ({"info": {"resolution": math.inf}}, "resolution is inf m"),
+        ({"info": {"resolution": 1e38}}, "resolution is 1e+38 m"),
+        ({"info": {"resolution": 1e-38}}, "it must be at least 1e-06 m"),
+        ({"info": {"origin": {"position": {"y": 1e308}}}}, "origin is (0, 1e+308, 0)"),
         ({"info": {"origin": {"position": {"x": math.nan}}}}, "origin holds a NaN"),
         ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin holds a NaN or infinity"),
     ],

@@ -50,7 +50,7 @@ def test_the_cells_of_a_picture_are_sharp(view: Any) -> None:
 
 
 def test_a_picture_of_several_tiles_is_seamless(view: Any) -> None:
-    rgba = np.full((8, 2100, 4), (*COLOR, 255), np.uint8)
+    rgba = np.full((8, 9000, 4), (*COLOR, 255), np.uint8)
     view.scene.set_pose("map", Pose((-3.0, -1.0, 0.0)))
     view.scene.upsert("map", "grid", Image(rgba, 6.0, 2.0))
     view.show()

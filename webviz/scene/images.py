@@ -11,15 +11,20 @@ from webviz.nodes import U8, Image, same
 from webviz.scene.adapter import Adapter
 from webviz.scene.png import encode_png
 
-# Cells per edge of a tile. An update sends only tiles that changed, and no texture comes near the
-# 8192 texels that every WebGL 2 browser of the last years has.
+# Cells per edge of a tile, more where the picture is narrow. An update sends only tiles that
+# changed, and no texture has more than the 8192 texels that every WebGL 2 browser of the last years
+# accepts.
 TILE = 1024
+LONGEST_TILE = 8192
 
 # The page recognises pictures by this in their names (see page.py); no key has it when escaped.
 TILE_PREFIX = "%tile "
 
 Tile = tuple[int, int, int]
 """Layer, and row and column of the first cell. The page reads the layer from the name."""
+
+Shape = tuple[int, int]
+"""Rows and columns of a tile."""
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
 """Centre and size in metres."""
@@ -57,8 +62,9 @@ class ImageDrawn:
         if cells.dtype != np.uint8 or shape[2:] != (() if node.palette is not None else (4,)):
             raise ValueError(f"No picture can be made of cells {cells.dtype} {shape}.")
         old, self._sent = self._sent, node
-        rows, columns = shape[:2]
-        wanted = {(node.layer, y, x) for y in range(0, rows, TILE) for x in range(0, columns, TILE)}
+        height, width = _shape(node)
+        rows, columns = range(0, shape[0], height), range(0, shape[1], width)
+        wanted = {(node.layer, y, x) for y in rows for x in columns}
         for tile in self._wanted - wanted:
             self._drop(tile)
         for tile in sorted(wanted):
@@ -105,6 +111,14 @@ class ImageDrawn:
         return f"{self._name}/{TILE_PREFIX}{layer} {y} {x}"
 
 
+def _shape(node: Image) -> Shape:
+    """Of all tiles of a picture: as many cells as a square one has, if one edge is short."""
+    rows, columns = node.cells.shape[:2]
+    height = max(TILE, min(LONGEST_TILE, TILE * TILE // max(columns, 1)))
+    width = max(TILE, min(LONGEST_TILE, TILE * TILE // max(rows, 1)))
+    return height, width
+
+
 def _is_same(tile: Tile, new: Image, old: Image) -> bool:
     return (
         same(new.palette, old.palette)
@@ -115,7 +129,8 @@ def _is_same(tile: Tile, new: Image, old: Image) -> bool:
 
 def _cells(node: Image, tile: Tile) -> U8:
     _, y, x = tile
-    return node.cells[y : y + TILE, x : x + TILE]
+    height, width = _shape(node)
+    return node.cells[y : y + height, x : x + width]
 
 
 def _extent(node: Image, tile: Tile) -> Extent:
