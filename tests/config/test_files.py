@@ -5,16 +5,19 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
+import socket
 import stat
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from webviz.config import Config, ConfigError, load, parse, save, write_text
+from webviz.config.disk import MAX_THREADS, in_thread, within
 
 
 @pytest.fixture
@@ -43,7 +46,7 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
         (b"\x89PNG\r\n\x1a\n\x00\xff", "is not UTF-8 text: no config file."),
         ("version: 1".encode("utf-16"), "is not UTF-8 text: it is UTF-16, save it as UTF-8."),
         (b"version: 1\x00", "is not valid YAML"),
-        (b"# " * (9 << 20), "is larger than 16 MB and no config file."),
+        (b"# " * (2 << 20), "is not a config file: it is larger than 2 MB."),
     ],
 )
 def test_bytes_that_are_no_config_are_an_error(path: Path, data: bytes, sentence: str) -> None:
@@ -54,9 +57,37 @@ def test_bytes_that_are_no_config_are_an_error(path: Path, data: bytes, sentence
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_without_end_is_refused() -> None:
-    with pytest.raises(ConfigError, match="larger than 16 MB"):
-        load(Path("/dev/zero"))
+@pytest.mark.parametrize("kind", ["fifo", "socket", "device"])
+def test_only_regular_files_are_read(path: Path, kind: str) -> None:
+    if kind == "fifo":
+        os.mkfifo(path)  # which to open waits for somebody who writes
+    elif kind == "socket":
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(str(path))
+    else:
+        path.symlink_to("/dev/zero")
+    with pytest.raises(ConfigError, match=rf"^Cannot read {path}: (it is not a regular file|No )"):
+        load(path)
+
+
+def test_a_fifo_that_nobody_reads_is_not_written(path: Path) -> None:
+    os.mkfifo(path)
+    with pytest.raises(ConfigError, match=r"Cannot write .*No such device"):
+        write_text("one", path)
+
+
+def test_a_disk_that_does_not_respond_is_given_up() -> None:
+    mounted = threading.Event()
+    try:
+        with pytest.raises(OSError, match=r"no response within 0\.05 s"):
+            within(0.05, mounted.wait)
+        waiting = [in_thread(mounted.wait) for _ in range(MAX_THREADS - 1)]
+        with pytest.raises(OSError, match="too many files do not respond"):
+            in_thread(mounted.wait)
+    finally:
+        mounted.set()
+    assert all(each.result(10.0) for each in waiting)
+    assert within(10.0, lambda: "mounted again") == "mounted again"
 
 
 def test_the_version_before_is_kept(path: Path) -> None:

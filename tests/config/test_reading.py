@@ -168,8 +168,74 @@ def test_aliases_that_unfold_without_end_are_refused() -> None:
     bomb = "a: &a [x, x, x, x, x, x, x, x, x, x]\n"
     for name, before in zip("bcdefg", "abcdef", strict=True):
         bomb += f"{name}: &{name} [{', '.join([f'*{before}'] * 10)}]\n"
-    with pytest.raises(ConfigError, match="holds more than 200000 values, aliases counted"):
+    with pytest.raises(ConfigError, match="contains more than 50000 values, including aliases"):
         parse(bomb, "x.yaml")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "root:$6$hunter2:19000:0:99999:7:::\n",
+        "root:*:hunter2:::\ndaemon:*:19000:0:99999:7:::\n",
+        "user: hunter2\npassword: hunter2\n",
+        "hunter2: {fixed_frame: hunter2}\n",
+        "[default]\nkey = hunter2\n",
+        "version: hunter2\nservices: {hunter2: 1}\n",
+        "a: hunter2\na: hunter2\n",
+        'a: "1"\n"hunter2": 1\n"hunter2": "hun\'ter2"\n',
+        "a: *hunter2\n",
+        "a: !hunter2 {}\n",
+        "a: !hunter2!x {}\n",
+        "a: hunter2: b\n",
+        "a: 'hunter2\n",
+        "%hunter2 'x'\n",
+        "a: 0o8hunter2\nb: 2001-13-45\n",
+        "- hunter2\n- hunter2: hunter2\n",
+    ],
+)
+@pytest.mark.parametrize("name", ["x.yaml", "x.rviz"])
+def test_a_file_that_is_not_a_config_is_not_quoted(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ConfigError) as caught:
+        load(tmp_path / name)
+    assert "hunter2" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a: " + "[" * 200_000,
+        "- " * 200_000,
+        "displays: [" + "&a {type: Grid}," * 40_000,  # an anchor may be used again
+    ],
+)
+def test_what_is_too_large_is_refused_before_all_of_it_is_read(text: str) -> None:
+    # What comes later in the text is not even YAML.
+    with pytest.raises(ConfigError, match=r"nested deeper than|contains more than 50000 values"):
+        parse(text + "\n}", "x.yaml")
+
+
+def test_words_that_aliases_repeat_count_each_time() -> None:
+    words = ", ".join(["*a"] * 500)
+    with pytest.raises(ConfigError, match="is larger than 4 MB, including aliases"):
+        parse(f"a: &a {'word ' * 2000}\nb: [{words}]\n", "x.yaml")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("x.yaml", "displays:\n- type: Group\n  displays:\n" + "  - {type: Grid}\n" * 1000),
+        (
+            "x.rviz",
+            "Visualization Manager:\n  Displays:\n  - Class: rviz_common/Group\n    Displays:\n"
+            + "    - {Class: rviz_default_plugins/Grid}\n" * 1000,
+        ),
+    ],
+)
+def test_a_thousand_displays_are_the_limit(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ConfigError, match="has 1001 displays; the limit is 1000"):
+        load(tmp_path / name)
 
 
 def test_hundreds_of_displays_open_within_a_second() -> None:

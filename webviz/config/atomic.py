@@ -12,12 +12,15 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from webviz.config.disk import within
 from webviz.config.errors import ConfigError
 
 BACKUP = ".bak"
 """Ends the name of the file's previous version."""
-PATIENCE_S = 0.5
+LOCK_S = 0.5
 """How long to wait for somebody else who saves in the same folder, which takes a millisecond."""
+PATIENCE_S = 20.0
+"""For the disk; a memory card that is busy takes seconds."""
 POLL_S = 0.01
 
 
@@ -29,21 +32,28 @@ def write_text(text: str, path: Path) -> None:
     written again, so that the previous version is not lost.
 
     Raises:
-        ConfigError: it cannot be written; the file is as it was.
+        ConfigError: it cannot be written, and the file is as it was; or the disk does not respond
+            within some seconds, and the file may still be written later.
     """
-    target = Path(os.path.realpath(path))
     try:
         data = text.encode("utf-8")
-        if target.exists() and not target.is_file():  # such as /dev/stdout
-            target.write_bytes(data)
-        elif not (target.exists() and target.read_bytes() == data):
-            _replace(data, target)
+        within(PATIENCE_S, lambda: _write(data, Path(os.path.realpath(path))))
     except OSError as error:
         raise ConfigError(
             f"Cannot write {path}: {error.strerror or error}; save it under another name."
         ) from error
     except UnicodeEncodeError as error:
         raise ConfigError(f"Cannot write {path}: it would hold what is no text.") from error
+
+
+def _write(data: bytes, target: Path) -> None:
+    if target.exists() and not target.is_file():  # such as /dev/stdout
+        # To open a FIFO would wait for a reader.
+        with open(os.open(target, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY), "wb") as file:
+            os.set_blocking(file.fileno(), True)
+            file.write(data)
+    elif not (target.exists() and target.read_bytes() == data):
+        _replace(data, target)
 
 
 def _replace(data: bytes, target: Path) -> None:
@@ -102,7 +112,7 @@ def _alone_in(folder: Path) -> Iterator[int]:
 
 
 def _lock(descriptor: int) -> None:
-    deadline = time.monotonic() + PATIENCE_S
+    deadline = time.monotonic() + LOCK_S
     while True:
         try:
             return fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

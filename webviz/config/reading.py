@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -20,14 +21,20 @@ from webviz.views import with_type
 
 NO_TYPE = "a display needs a `type`, such as `type: Grid`."
 NO_LIST = "expected a list, each entry with a `type`."
+MAX_DISPLAYS = 1000
+"""In one config, groups counted; real ones have fewer than 100."""
+_KEYS = (*Settings.__struct_fields__, "displays")
+_TELLING = frozenset(_KEYS) - {"version", "rviz"}
+"""Keys that other kinds of files do not have."""
 
 
 def load(path: Path) -> Config:
     """Read a config file: YAML, or RViz's if its name ends with .rviz.
 
     Raises:
-        ConfigError: the file is missing, no YAML, or not a config. A single display that does not
-            fit is no error: it becomes an `Unreadable`.
+        ConfigError: the file is missing, no YAML, or not a config; then the sentence shows nothing
+            of what it contains. A single display that does not fit is no error: it becomes an
+            `Unreadable`.
     """
     text = read_text(path)
     if is_rviz(path):
@@ -47,13 +54,14 @@ def parse(text: str, where: str) -> Config:
         raise ConfigError(f"{where} holds no settings such as `fixed_frame: map`.")
     if "Visualization Manager" in document:
         raise ConfigError(f"{where} is RViz's config: its name must end with .rviz.")
+    _refuse_other_files(document, where, top)
     version = document.get("version", VERSION)
     if isinstance(version, int) and version > VERSION:
         raise ConfigError(
             f"{where} has version {version}, this webviz reads up to {VERSION}: update webviz."
         )
     rest = {str(key): value for key, value in document.items() if key != "displays"}
-    _refuse_unknown(rest, [*Settings.__struct_fields__, "displays"], top)
+    _refuse_unknown(rest, _KEYS, top)
     rest = _typed(rest)
     try:
         settings = msgspec.convert(rest, Settings)
@@ -63,6 +71,7 @@ def parse(text: str, where: str) -> Config:
     entries = document.get("displays") or []
     if not isinstance(entries, list):
         raise ConfigError(top.at("displays").says(NO_LIST))
+    refuse_too_many(entries, "displays", where)
     items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
     if not any(map(_is_kept, items)):
         return Config(settings, items)
@@ -70,6 +79,41 @@ def parse(text: str, where: str) -> Config:
 
     items, settings, report = rviz.revive(items, settings)
     return Config(settings, items, report.sentences())
+
+
+def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
+    """Refuse a list of displays that is too long to be shown.
+
+    Args:
+        entries: as in a file.
+        key: of the list in the entry of a group.
+        where: names the file.
+
+    Raises:
+        ConfigError: it has more than `MAX_DISPLAYS`.
+    """
+    waiting, count = [entries], 0
+    while waiting:
+        for entry in waiting.pop():
+            count += 1
+            inner = entry.get(key) if isinstance(entry, Mapping) else None
+            if isinstance(inner, list):
+                waiting.append(inner)
+    if count > MAX_DISPLAYS:
+        raise ConfigError(
+            f"{where} has {count} displays; the limit is {MAX_DISPLAYS}. Split it into several."
+        )
+
+
+def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Place) -> None:
+    """Refuse what is not a config, with none of its words but one that is almost ours."""
+    keys = [str(key) for key in document]
+    if _TELLING.intersection(keys) or set(keys) <= set(_KEYS):
+        return
+    for key in keys:
+        if key not in _KEYS and difflib.get_close_matches(key, _KEYS, n=1):
+            _refuse_unknown([key], _KEYS, top)
+    raise ConfigError(f"{where} is not a config: expected keys such as `fixed_frame: map`.")
 
 
 def _is_kept(item: Item) -> bool:

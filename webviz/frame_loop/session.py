@@ -27,6 +27,7 @@ from webviz.commands import (
     SetProperty,
 )
 from webviz.config import Config, ConfigError, Settings
+from webviz.config.files import SUFFIXES
 from webviz.display import Display, make
 from webviz.frame_loop.display_list import DisplayList
 from webviz.registry import display_types
@@ -34,7 +35,6 @@ from webviz.state import File
 
 log = logging.getLogger("webviz")
 
-SUFFIXES = (".yaml", ".yml", ".rviz")
 MAX_OTHERS = 200
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import viser
 
 from webviz.commands import Command, Export, Load, Open, Save
+from webviz.config.files import SUFFIXES
 from webviz.gui.dialogs import Dialog
-from webviz.gui.file_names import NEW_NAME, SUFFIXES, file_name
+from webviz.gui.file_names import NEW_NAME, file_name
 from webviz.gui.text import note_html, plain
 from webviz.state import File, State
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from webviz.config.files import SUFFIXES
 from webviz.gui.text import plain
 from webviz.state import File
 
-SUFFIXES = (".yaml", ".yml", ".rviz")
 NAME = "webviz"
 NEW_NAME = f"{NAME}.yaml"
 

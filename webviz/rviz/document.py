@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from webviz.config import Config, ConfigError, Place, Settings, Source
+from webviz.config.reading import refuse_too_many
 from webviz.display import Color
 from webviz.rviz import values, views
 from webviz.rviz.displays import Kept, read_items, write_items
@@ -58,7 +59,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         where: names it in errors.
 
     Raises:
-        ConfigError: it is not a .rviz file.
+        ConfigError: it is not a .rviz file, or has too many displays.
     """
     source = Source(text, where)
     document = parse(source)
@@ -74,6 +75,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if not isinstance(entries, list):
         report.note(MANAGER, "Displays", "it is no list, so there are no displays")
         entries = []
+    refuse_too_many(entries, "Displays", where)
     items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
     note_rest(document, report)
     basis = _bare(settings)
