@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from webviz import nodes
-from webviz.frames import Frames
+from webviz.frames import Frames, is_placeable
 from webviz.nodes import Node, Pose, Rgb, Solid
 from webviz.status import Level, Status
+from webviz.transforms.geometry import REACH_M
 
 When = Literal["latest", "now"]
 """The latest common time of a frame and the fixed frame, or the time of the viewer's clock."""
@@ -54,12 +55,13 @@ class Group:
 
         Raises:
             TypeError: it is none of the nodes of `webviz.nodes`.
+            ValueError: the pose cannot be drawn.
         """
         if not isinstance(node, Node):
             raise TypeError(f"{key!r} is no node: {node!r:.80}")
-        self.nodes[key] = node
         if pose is not None:
-            self.poses[key] = pose
+            self.poses[key] = _checked(pose, key)
+        self.nodes[key] = node
 
     def points(
         self,
@@ -210,7 +212,11 @@ class Context(Group):
             frame: frame id; None or "" is the fixed frame.
             when, offset, keep_last, interval_s: see `Placement`.
             key: tells groups of one frame apart.
+
+        Raises:
+            ValueError: the offset cannot be drawn.
         """
+        _checked(offset, f"{frame or 'the fixed frame'} {key}".rstrip())
         placement = Placement(frame or None, when, offset, keep_last, interval_s)
         return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
 
@@ -225,6 +231,14 @@ class Context(Group):
     def error(self, key: str, text: str) -> None:
         """Say what is wrong, and what to do about it."""
         self.statuses[key] = Status(Level.ERROR, text)
+
+
+def _checked(pose: Pose, what: str) -> Pose:
+    if not is_placeable(pose):
+        x, y, z = pose.position
+        text = f"The position ({x:.3g}, {y:.3g}, {z:.3g}) m or the orientation of {what!r}"
+        raise ValueError(f"{text} is not finite, or farther than {REACH_M:.0e} m.")
+    return pose
 
 
 def _f32(values: ArrayLike, *shape: int) -> NDArray[np.float32]:

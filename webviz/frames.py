@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.nodes import Pose
-from webviz.transforms import Transform, TransformBuffer, TransformException, explain
+from webviz.transforms import FramesIn, Transform, TransformBuffer, TransformException, explain
+from webviz.transforms.geometry import REACH_M, is_within_reach
 from webviz.transforms.geometry import compose as compose_tuples
 
 
@@ -22,7 +23,7 @@ class FramePoses:
         positions: float64 (N, 3), metres.
         wxyzs: float64 (N, 4), unit quaternions.
         stamps_ns: int64 (N,), the latest common time; 0 where all transforms are static.
-        ok: bool (N,), where there is a pose; the other rows mean nothing.
+        ok: bool (N,), where there is a pose that can be drawn; the other rows mean nothing.
     """
 
     names: list[str]
@@ -34,6 +35,8 @@ class FramePoses:
 
 class Frames:
     """Poses of frames in the fixed frame at one tick of the frame loop; computed once each.
+
+    A frame whose transforms do not compose to a finite pose within `REACH_M` has none.
 
     Args:
         buffer: not to be changed while this object is in use.
@@ -73,7 +76,7 @@ class Frames:
             missing = [name for name in missing if name in places]
         else:
             some = self.buffer.poses_in(self.fixed_frame, missing)
-            positions, wxyzs, ok = some.translations, np.roll(some.rotations, 1, axis=1), some.ok
+            positions, wxyzs, ok = some.translations, np.roll(some.rotations, 1, axis=1), _ok(some)
         rows = zip(missing, positions.tolist(), wxyzs.tolist(), ok.tolist(), strict=True)
         for name, position, wxyz, is_ok in rows:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
@@ -83,7 +86,8 @@ class Frames:
         key = (frame, stamp_ns)
         if key not in self._poses:
             try:
-                self._poses[key] = to_pose(self.buffer.lookup(self.fixed_frame, frame, stamp_ns))
+                pose = to_pose(self.buffer.lookup(self.fixed_frame, frame, stamp_ns))
+                self._poses[key] = pose if is_placeable(pose) else None
             except TransformException:
                 self._poses[key] = None
         return self._poses[key]
@@ -113,7 +117,7 @@ class Frames:
                 poses.translations,
                 np.roll(poses.rotations, 1, axis=1),
                 poses.stamps_ns,
-                poses.ok,
+                _ok(poses),
             )
         return self._all
 
@@ -124,10 +128,19 @@ def to_pose(transform: Transform) -> Pose:
     return Pose(transform.translation, (w, x, y, z))
 
 
+def is_placeable(pose: Pose) -> bool:
+    """Whether something can be drawn at a pose: it is finite and within `REACH_M`."""
+    return is_within_reach(_flat(pose))
+
+
 def compose(a: Pose, b: Pose) -> Pose:
     """The pose `b`, given in the coordinates of `a`."""
     x, y, z, qx, qy, qz, qw = compose_tuples(_flat(a), _flat(b))
     return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def _ok(poses: FramesIn) -> NDArray[np.bool_]:
+    return poses.ok & (np.abs(poses.translations) <= REACH_M).all(axis=1)
 
 
 def _flat(pose: Pose) -> tuple[float, float, float, float, float, float, float]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Frames, Sample, messages
-from webviz_displays.geometry import FARTHEST, matrices, w_first
+from webviz_displays.geometry import FARTHEST, is_drawable, matrices, w_first
 
 F64 = NDArray[np.float64]
 
@@ -97,6 +97,7 @@ def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
     positions, rotations, known = frames.buffer.lookup_many(
         frames.fixed_frame, sample.frame, sample.stamp_ns + ahead_ns
     )
+    known &= is_drawable(positions)
     missing = int(len(known) - known.sum())
     if missing == len(known):
         return hits.xyz, missing

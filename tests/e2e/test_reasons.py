@@ -16,7 +16,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 from robot import TF, Robot, Scan, transforms
 
 SECOND = 1_000_000_000
-ROWS = ("Unseen", "Trees", "Ahead", "Old", "Clocks", "Nameless", "Queue", "Slash")
+ROWS = ("Unseen", "Trees", "Ahead", "Old", "Clocks", "Nameless", "Queue", "Slash", "Far")
 OK = "Transform: Transform OK"
 
 
@@ -40,6 +40,7 @@ def page(
 ) -> Iterator[Page]:
     """A viewer with a display for each reason."""
     rows = [f"- {{type: LaserScan, name: {row}, topic: /{row.lower()}}}" for row in ROWS]
+    rows += ["- {type: TF, show_names: true}", "- {type: Axes, reference_frame: out}"]
     config = tmp_path_factory.mktemp("config") / "reasons.yaml"
     config.write_text("\n".join(["fixed_frame: map", "displays:", *rows, ""]))
     program = start("webviz", "-d", str(config), "--port", "0")
@@ -175,5 +176,20 @@ def test_a_queue_that_overflows_says_which_size_would_do(robot: Robot, page: Pag
 
 def test_a_leading_slash_is_tolerated(robot: Robot, page: Page) -> None:
     robot.scans["/slash"] = Scan("/base_link")
+    select(page, "Slash")
+    wait_until_ok(page)
+
+
+def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, page: Page) -> None:
+    select(page, "Far")
+    stamp_ns = time.time_ns()
+    links = [("map", "far", stamp_ns, 1e308), ("far", "out", stamp_ns, 1e308)]
+    robot.publish("/tf", TF, transforms(*links))
+    robot.scans["/far"] = Scan("out", stamp_ns=stamp_ns)
+    wait_for(
+        page,
+        '"out" is more than 1e+12 m from "map", too far to be drawn. The longest link on the way '
+        'is "map" → "far" with 1e+308 m.',
+    )
     select(page, "Slash")
     wait_until_ok(page)

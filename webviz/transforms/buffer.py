@@ -25,6 +25,10 @@ QUATERNION_TOLERANCE = 10e-3
 """How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
 
 
+_SILENT = np.errstate(over="ignore", invalid="ignore")
+"""Huge transforms compose to infinity and NaN without a word, as floats do."""
+
+
 class TransformBuffer:
     """Transforms of the last seconds, and the pose of any frame in any other at a time.
 
@@ -189,6 +193,7 @@ class TransformBuffer:
         pose, stamp_ns = self._pose(target, source, stamp_ns)
         return _transform(pose, stamp_ns)
 
+    @_SILENT
     def lookup_many(
         self, target: str, source: str, stamps_ns: NDArray[np.int64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
@@ -205,6 +210,7 @@ class TransformBuffer:
         """
         return lookup_many(self._tree, target, source, stamps_ns)
 
+    @_SILENT
     def poses_in(
         self, target: str, frames: Iterable[str] | None = None, stamp_ns: int = 0
     ) -> FramesIn:

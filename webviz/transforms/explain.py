@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.errors import ConnectivityException, LookupException, TransformException
 from webviz.transforms.explain_time import explain_time
+from webviz.transforms.geometry import REACH_M, is_within_reach
 from webviz.transforms.reasons import Explanation, Kind
 from webviz.transforms.tree import FrameTree, ancestors
 
@@ -30,13 +31,15 @@ def explain(
         return faulty
     tree = buffer.tree
     try:
-        tree.resolve(fixed_frame, frame, stamp_ns)
+        pose, stamp_ns = tree.resolve(fixed_frame, frame, stamp_ns)
     except LookupException:
         return _loop(tree, fixed_frame, frame)
     except ConnectivityException:
         return _not_connected(tree, fixed_frame, frame)
     except TransformException as error:
         return explain_time(buffer, fixed_frame, frame, stamp_ns, now_ns, str(error))
+    if not is_within_reach(pose):
+        return _out_of_reach(tree, fixed_frame, frame, stamp_ns)
     return Explanation(Kind.AVAILABLE, "Transform OK")
 
 
@@ -91,6 +94,20 @@ def _nearest(buffer: TransformBuffer, name: str) -> str:
         return f'the nearest name is "{tails[0]}"'
     shown = ", ".join(known[:4]) + (" …" if len(known) > 4 else "")
     return f"known are {shown}"
+
+
+def _out_of_reach(tree: FrameTree, fixed_frame: str, frame: str, stamp_ns: int) -> Explanation:
+    up, down = ancestors(tree, frame), ancestors(tree, fixed_frame)
+    links: list[tuple[float, str, str]] = []
+    for child in set(up) ^ set(down):
+        sample = tree.caches[child].at(stamp_ns) if child in tree.caches else None
+        if sample is not None:
+            links.append((max(map(abs, sample[0][:3])), sample[1], child))
+    text = f'"{frame}" is more than {REACH_M:.0e} m from "{fixed_frame}", too far to be drawn.'
+    if links:
+        metres, parent, child = max(links)
+        text += f' The longest link on the way is "{parent}" → "{child}" with {metres:.3g} m.'
+    return Explanation(Kind.OUT_OF_REACH, f"{text} Fix the publisher of that transform.")
 
 
 def _loop(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:

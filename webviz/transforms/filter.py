@@ -10,6 +10,7 @@ from typing import Generic, TypeVar
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.errors import TransformException
 from webviz.transforms.explain import explain
+from webviz.transforms.geometry import is_within_reach
 from webviz.transforms.reasons import Explanation, Kind, in_words
 
 P = TypeVar("P")
@@ -89,7 +90,10 @@ class MessageFilter(Generic[P]):
             if not message.frame:
                 self._give_up(message, Kind.EMPTY_FRAME)
             elif all(buffer.can_transform(fixed_frame, message.frame, t) for t in message.stamps()):
-                done.append(message.payload)
+                if _is_within_reach(buffer, fixed_frame, message):
+                    done.append(message.payload)
+                else:
+                    self._give_up(message, Kind.OUT_OF_REACH)
             elif _is_too_old(buffer, fixed_frame, message):
                 self._give_up(message, Kind.BEHIND)
             else:
@@ -152,6 +156,12 @@ def _why(
     """What keeps a message from its place: the first of its stamps that has none."""
     reasons = [explain(buffer, fixed_frame, message.frame, t, now_ns) for t in message.stamps()]
     return next((r for r in reasons if r.kind != Kind.AVAILABLE), reasons[0])
+
+
+def _is_within_reach(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
+    """Whether a message can be drawn where the transforms place it."""
+    pose = buffer.lookup(fixed_frame, message.frame, message.stamp_ns)
+    return is_within_reach((*pose.translation, *pose.rotation))
 
 
 def _is_too_old(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:

@@ -17,6 +17,17 @@ Matrix = tuple[float, float, float, float, float, float, float, float, float]
 
 IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
+REACH_M = 1e12
+"""Farthest that anything is drawn along an axis, some seven times the distance to the sun.
+
+Finite transforms may compose to infinity or NaN, which no viewer can draw.
+"""
+
+
+def is_within_reach(pose: Pose) -> bool:
+    """Whether a pose is finite and near enough to be drawn."""
+    return all(abs(value) <= REACH_M for value in pose)
+
 
 def to_matrix(x: float, y: float, z: float, w: float) -> Matrix:
     """The rotation matrix of a quaternion of any length but zero."""

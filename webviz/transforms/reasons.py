@@ -27,6 +27,7 @@ class Kind(StrEnum):
     CLOCKS = "clocks disagree"
     JUMPED_BACK = "time jumped back"
     NO_DATA = "too little data"
+    OUT_OF_REACH = "too far away"
     QUEUE_FULL = "queue full"
 
 
