@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 from webviz import plugins
 from webviz.commands import (
@@ -26,22 +25,20 @@ from webviz.commands import (
     ViewCommand,
 )
 from webviz.config import Config, Settings
-from webviz.display import Color
 from webviz.frame_loop.display_list import DisplayList
+from webviz.frame_loop.hearing import Hearing
 from webviz.frame_loop.requests import Requests
 from webviz.frame_loop.session import Session
-from webviz.frame_loop.statuses import fixed_frame_status, import_status
-from webviz.frame_loop.viewing import ViewedScene, Viewing
+from webviz.frame_loop.showing import Scene, Showing
+from webviz.frame_loop.statuses import failures, fixed_frame_status, import_status
+from webviz.frame_loop.viewing import Viewing
 from webviz.frames import Frames
 from webviz.pipeline import Runner, Services, Workers
-from webviz.pipeline.drawing import Scene as DrawingScene
-from webviz.pipeline.listener import TransformListener
-from webviz.pipeline.ros_time import RosTime
+from webviz.pipeline.guard import Guard
 from webviz.pipeline.stopwatch import Stopwatch
-from webviz.pipeline.topic_monitor import TopicMonitor
-from webviz.sources import Offer, Source, Subscription
-from webviz.state import State
-from webviz.status import Level, Status
+from webviz.sources import Source, Subscription
+from webviz.state import Clock, File, State
+from webviz.status import Status
 from webviz.transforms import TransformBuffer, tree_text
 
 log = logging.getLogger("webviz")
@@ -52,22 +49,8 @@ PANEL_S = 0.2
 FOLDER_S = 2.0
 """How often to look for config files that others wrote."""
 AUTOSAVE_S = 2.0
-
-
-class Scene(DrawingScene, ViewedScene, Protocol):
-    """What the viewer needs of a scene besides drawing; see `webviz.scene.Scene`."""
-
-    def flush(self) -> None:
-        """Send everything that changed since the last flush."""
-        ...
-
-    def has_watchers(self) -> bool:
-        """Whether anybody looks."""
-        ...
-
-    def set_background(self, rgb: Color) -> None:
-        """Fill what lies behind everything with one colour."""
-        ...
+TOLD_S = 15.0
+"""How long to tell that a part of the viewer failed."""
 
 
 class FrameLoop:
@@ -97,27 +80,24 @@ class FrameLoop:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.buffer = TransformBuffer()
-        self._listener = TransformListener(self.buffer, clock)
-        self._time = RosTime(clock)
+        self._guard = Guard("", strict, told_s=TOLD_S, clock=clock)
+        self._hearing = Hearing(source, self.buffer, self._guard, clock)
         self._stopwatch = Stopwatch()
         self._paused_ns: int | None = None
         self._source = source
-        self._monitor = TopicMonitor(source.inbox, clock)
         self._inspects_transforms = False
-        self._scene = scene
         self._show = show
         self._workers = Workers(self._wake)
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
-        self._requests = Requests()
+        self._requests = Requests(self._guard)
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
         self._session = Session(self._list, config, path, autosave)
         self._viewing = Viewing(scene)
         self._viewing.start_with(config.settings.view)
+        self._showing = Showing(scene, self._viewing, self._guard)
         self._frames = Frames(self.buffer, self.settings.fixed_frame, 0)
-        self._statuses: dict[str, Status] = {}
         self._next_panel = self._next_folder = self._next_autosave = 0.0
-        self._background: Color | None = None
 
     @property
     def settings(self) -> Settings:
@@ -147,7 +127,7 @@ class FrameLoop:
             while not self._stop.is_set():
                 began = time.monotonic()
                 arrived.clear()
-                self.turn()
+                self._guard("Frame loop", self.turn)
                 rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
                 if rest > 0 and self._stop.wait(rest):
                     break
@@ -165,54 +145,48 @@ class FrameLoop:
     def turn(self) -> None:
         """One turn of the frame loop."""
         answers = self._requests.obey(self._do)
-        now_ns, offers = self._source.now_ns(), self._source.offers()
-        # While paused, messages wait in the inbox, which is bounded and counts what gives way.
-        batches = self._source.inbox.drain() if self._paused_ns is None else {}
-        if self._time.step(now_ns):
-            # What arrived with it may be older or newer; what is latched is asked for again.
-            batches = {}
-            self._reset()
-        if self._listener.take(batches, offers):
-            self._time.tell("The transforms started over in the past: everything was reset.")
-            self._reset()
-        self._monitor.take(batches)
+        batches, is_over = self._hearing.take(self._paused_ns is not None)
+        if is_over:
+            self._forget()
+        now_ns, offers = self._hearing.now_ns, self._hearing.offers
         shown_ns = now_ns if self._paused_ns is None else self._paused_ns
         frames = self._frames = self._frames.next(self.settings.fixed_frame, shown_ns)
         runners = self._list.active()
         for runner in runners:
             runner.take(batches, frames, offers)
-        if self._scene.has_watchers():
-            self._draw(runners, frames)
-        self._source.want(self._wanted(offers))
+        if self._showing.is_watched():
+            self._showing.draw(runners, frames, self.settings.background)
+        self._hearing.want(self._wanted())
         if answers or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
-            self._keep_up(bool(answers))
-            self._show(self.state(frames))
+            self._guard("Files", self._keep_up, bool(answers))
+            self._guard("Panel", self._show, self.state(frames))
         for answer in answers:
             answer()  # now that what was asked for can be seen
 
     def state(self, frames: Frames) -> State:
         """A snapshot for a panel."""
-        offers = self._source.offers()
+        attempt, hearing, offers = self._guard.attempt, self._hearing, self._hearing.offers
         topics = {
             topic: tuple(sorted({p.type for p in offer.publishers}))
             for topic, offer in offers.items()
         }
+        is_paused = self._paused_ns is not None
         return State(
             self._list.rows(lambda runner: self._statuses_of(runner, frames)),
             self.settings.fixed_frame,
             tuple(sorted(self.buffer.frames())),
             topics,
-            self._global_statuses(offers, frames),
+            self._global_statuses(frames),
             self.settings,
-            self._session.file(),
+            attempt("Files", File(), self._session.file),
             self._requests.answer,
-            self._stopwatch.clock(frames.now_ns, self._paused_ns is not None),
+            attempt("Time", Clock(), self._stopwatch.clock, frames.now_ns, is_paused),
             offers,
-            self._monitor.traffic(),
-            self._monitor.look(offers),
-            self._tree(frames),
-            self._viewing.views(),
+            attempt("Topics", {}, hearing.monitor.traffic),
+            attempt("Topics", None, hearing.monitor.look, offers),
+            attempt("Transforms", "", self._tree, frames),
+            attempt("Views", {}, self._viewing.views),
         )
 
     def config(self) -> Config:
@@ -229,7 +203,7 @@ class FrameLoop:
             case Pause(paused):
                 self._paused_ns = self._frames.now_ns if paused else None
             case InspectTopic(topic):
-                self._monitor.inspected = topic
+                self._hearing.monitor.inspected = topic
             case InspectTransforms(inspect):
                 self._inspects_transforms = inspect
             case Refresh():
@@ -255,9 +229,12 @@ class FrameLoop:
         self._viewing.start_with(self.settings.view)
 
     def _reset(self) -> None:
-        self._listener.reset()
+        self._hearing.reset()
+        self._forget()
+
+    def _forget(self) -> None:
         for runner in self._list.runners():
-            runner.reset()
+            self._guard("Displays", runner.reset)
 
     def _keep_up(self, commanded: bool) -> None:
         """What has to be done now and then, and after commands."""
@@ -275,52 +252,29 @@ class FrameLoop:
 
     # Parts of a turn
 
-    def _draw(self, runners: list[Runner], frames: Frames) -> None:
-        if self.settings.background != self._background:
-            self._background = self.settings.background
-            self._scene.set_background(self._background)
-        followed = (runner.followed() for runner in runners)
-        frames.prepare(self._viewing.followed().union(*followed))
-        for runner in runners:
-            runner.draw(frames)
-        self._viewing.follow(frames)
-        try:
-            self._scene.flush()
-        except Exception as error:  # a display made a malformed node; the scene has dropped it
-            if self._services.strict:
-                raise
-            text = " ".join([str(error), *getattr(error, "__notes__", ())])
-            if "Scene" not in self._statuses or text not in self._statuses["Scene"].text:
-                log.exception("A node could not be drawn")
-            self._statuses["Scene"] = Status(Level.ERROR, f"A node could not be drawn: {text}")
-
-    def _wanted(self, offers: Mapping[str, Offer]) -> Mapping[str, Subscription]:
+    def _wanted(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic. The first display decides on the type and QoS of a topic."""
-        wanted = self._listener.subscriptions()
+        wanted = self._hearing.subscriptions()
         for runner in self._list.active():
             for name, subscription in runner.subscriptions().items():
                 first = wanted.setdefault(name, subscription)
                 wanted[name] = replace(first, asked=max(first.asked, subscription.asked))
-        if not self._scene.has_watchers():
-            return wanted
-        return self._monitor.subscription(offers) | wanted
+        return self._hearing.inspected() | wanted if self._showing.is_watched() else wanted
 
     def _statuses_of(self, runner: Runner, frames: Frames) -> Mapping[str, Status]:
-        offers, dropped = self._source.offers(), self._source.inbox.dropped
-        return runner.statuses(offers, frames, dropped, self._scene.has_watchers())
+        dropped = self._source.inbox.dropped
+        return runner.statuses(self._hearing.offers, frames, dropped, self._showing.is_watched())
 
-    def _global_statuses(self, offers: Mapping[str, Offer], frames: Frames) -> Mapping[str, Status]:
+    def _global_statuses(self, frames: Frames) -> Mapping[str, Status]:
         statuses = {"Fixed Frame": fixed_frame_status(frames.fixed_frame, self.buffer)}
-        if time_status := self._time.status(offers):
-            statuses["Time"] = time_status
-        statuses |= self._listener.statuses(offers, frames.now_ns) | self._statuses
-        statuses |= self._viewing.statuses(frames)
+        statuses |= self._hearing.statuses(frames.now_ns)
+        statuses |= self._guard.attempt("Views", {}, self._viewing.statuses, frames)
         if report := self._session.report:
             statuses["Import"] = import_status(report)
-        return statuses
+        return statuses | failures(self._guard.crashes) | self._showing.statuses
 
     def _tree(self, frames: Frames) -> str:
-        wanted = self._inspects_transforms and self._scene.has_watchers()
+        wanted = self._inspects_transforms and self._showing.is_watched()
         return tree_text(self.buffer, frames.now_ns) if wanted else ""
 
     def _wake(self) -> None:

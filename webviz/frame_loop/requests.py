@@ -14,6 +14,7 @@ from webviz import config as config_file
 from webviz.commands import Command
 from webviz.config import ConfigError
 from webviz.errors import Error
+from webviz.pipeline.guard import Guard
 from webviz.state import Answer
 from webviz.status import Level
 
@@ -28,9 +29,14 @@ class Refused(Error):
 
 
 class Requests:
-    """Commands that wait for the frame loop."""
+    """Commands that wait for the frame loop.
 
-    def __init__(self) -> None:
+    Args:
+        guard: notes what commands raise that is not about what was asked for.
+    """
+
+    def __init__(self, guard: Guard) -> None:
+        self._guard = guard
         self.answer = Answer()
         """To the last command that has one, for panels."""
         self._waiting: queue.Queue[tuple[Command, Future[str]]] = queue.Queue(MAX_REQUESTS)
@@ -61,7 +67,7 @@ class Requests:
         while (request := self._next()) is not None:
             command, answer = request
             try:
-                text = _in_one_sentence(do, command)
+                text = self._in_one_sentence(do, command)
             except Refused as error:
                 log.warning("%s", error)
                 self.answer = Answer(self.answer.number + 1, Level.ERROR, str(error))
@@ -88,13 +94,14 @@ class Requests:
             if request[1].set_running_or_notify_cancel():
                 return request
 
-
-def _in_one_sentence(do: Callable[[Command], str], command: Command) -> str:
-    try:
-        return do(command)
-    except ConfigError as error:
-        raise Refused(str(error)) from error
-    except msgspec.ValidationError as error:
-        raise Refused(f"Not changed: {config_file.describe(error)}.") from error
-    except AttributeError as error:
-        raise Refused(f"Not changed: {error}.") from error
+    def _in_one_sentence(self, do: Callable[[Command], str], command: Command) -> str:
+        try:
+            return do(command)
+        except ConfigError as error:
+            raise Refused(str(error)) from error
+        except msgspec.ValidationError as error:
+            raise Refused(f"Not changed: {config_file.describe(error)}.") from error
+        except AttributeError as error:
+            raise Refused(f"Not changed: {error}.") from error
+        except (Exception, SystemExit) as error:
+            raise Refused(self._guard.note("Command", error)) from error

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from webviz import config as config_file
 from webviz.status import Level, Status
@@ -26,3 +26,11 @@ def import_status(report: Sequence[str]) -> Status:
     """What of a .rviz file has no counterpart here, which needs at least one sentence."""
     text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
     return Status(Level.WARN, text)
+
+
+def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
+    """Which parts of the viewer failed, by part."""
+    return {
+        part: Status(Level.ERROR, f"{text} The log has the details; please report this.")
+        for part, text in crashes.items()
+    }

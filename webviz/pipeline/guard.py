@@ -1,44 +1,101 @@
-"""Calls into a display, which may raise anything."""
+"""Calls that may raise anything, without ending the frame loop."""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
-from typing import Any
-
-from webviz.display import Display
+import math
+import time
+import traceback
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
 
 log = logging.getLogger("webviz")
 
+T = TypeVar("T")
+
 CRASHED = object()
-"""The result of a hook that raised."""
+"""The result of a call that raised."""
+MAX_CHARACTERS = 500
+"""Of what an exception says."""
 
 
 class Guard:
-    """Calls the hooks of one display; what they raise is logged once and remembered.
+    """Calls hooks of a display or parts of the viewer; what they raise is logged once.
 
     Args:
-        display: whose hooks.
-        strict: let through what they raise, as tests want it.
+        who: fails, in sentences; "" is the scope of the call.
+        strict: let through what is raised, as tests want it.
+        name: added to the log, to tell displays of one type apart.
+        told_s: how long a crash is told; None is until the next call of its scope succeeds.
+        clock: monotonic time in seconds.
     """
 
-    def __init__(self, display: Display, strict: bool) -> None:
-        self.crashes: dict[str, str] = {}
-        """What the last call of each scope raised, if it did."""
-        self._display = display
+    def __init__(
+        self,
+        who: str,
+        strict: bool,
+        *,
+        name: Callable[[], str] = str,
+        told_s: float | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._who = who
         self._strict = strict
+        self._name = name
+        self._told_s = told_s
+        self._clock = clock
+        self._crashes: dict[str, tuple[str, float]] = {}
+        self._logged: set[object] = set()
 
-    def __call__(self, scope: str, hook: Callable[..., Any], *args: Any) -> Any:
-        """The result of a hook, or `CRASHED`; `scope` tells its calls apart."""
+    @property
+    def crashes(self) -> Mapping[str, str]:
+        """What calls raised lately, one sentence for each scope."""
+        since = -math.inf if self._told_s is None else self._clock() - self._told_s
+        return {scope: text for scope, (text, at) in self._crashes.items() if at >= since}
+
+    def __call__(self, scope: str, call: Callable[..., Any], *args: Any) -> Any:
+        """The result of a call, or `CRASHED`; `scope` tells calls apart."""
         try:
-            result = hook(*args)
-        except Exception as error:
-            if self._strict:
-                raise
-            text = f"{type(self._display).__name__} failed: {type(error).__name__}: {error}"
-            if self.crashes.get(scope) != text:
-                log.exception("%s (%s)", text, self._display.name)
-            self.crashes[scope] = text
+            result = call(*args)
+        except (Exception, SystemExit) as error:  # a plug-in may call sys.exit
+            self.note(scope, error)
             return CRASHED
-        self.crashes.pop(scope, None)
+        if self._told_s is None:
+            self._crashes.pop(scope, None)
         return result
+
+    def note(self, scope: str, error: BaseException) -> str:
+        """Log what a call raised, if it is new, and return the sentence that stands in `crashes`.
+
+        Raises:
+            BaseException: the error itself, if the guard is strict.
+        """
+        if self._strict:
+            raise error
+        text = f"{self._who or scope} failed: {_in_words(error)}"
+        self._log(text, error)
+        self._crashes[scope] = text, self._clock()
+        return text
+
+    def attempt(self, scope: str, otherwise: T, call: Callable[..., T], *args: Any) -> T:
+        """The result of a call, or `otherwise`."""
+        result = self(scope, call, *args)
+        return otherwise if result is CRASHED else result
+
+    def _log(self, text: str, error: BaseException) -> None:
+        """Log each line of code that raises once; what it says may change with every call."""
+        *_, (frame, line) = traceback.walk_tb(error.__traceback__)
+        origin = type(error), frame.f_code, line
+        if origin not in self._logged:
+            self._logged.add(origin)
+            name = self._name()
+            log.error("%s", f"{text} ({name})" if name else text, exc_info=error)
+
+
+def _in_words(error: BaseException) -> str:
+    kind = type(error).__name__
+    try:
+        text = " ".join([str(error), *getattr(error, "__notes__", ())]).strip()
+    except Exception:  # even that is somebody else's code
+        text = ""
+    return f"{kind}: {text[:MAX_CHARACTERS]}" if text else f"{kind}."

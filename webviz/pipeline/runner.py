@@ -60,7 +60,7 @@ class Runner:
         """What others have to say of the display, shown with its own statuses."""
         self._services = services
         self._painter = Painter(id, services.scene, services.workers)
-        self._guard = Guard(display, services.strict)
+        self._guard = self._new_guard()
         self._history = History()
         self._newest: Arrival | None = None
         self._folded: Any = None
@@ -96,7 +96,7 @@ class Runner:
             self.reset()
             self._intakes = intakes_of(self.display, self._services.resolve)
         self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
-        self._guard = Guard(display, self._services.strict)
+        self._guard = self._new_guard()
         self._painter.replace(display)
 
     @property
@@ -137,44 +137,13 @@ class Runner:
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
     ) -> None:
         """Let the messages of this tick in; cheap, also when nobody watches."""
-        if not self.display.enabled:
-            return
-        clock = self._services.clock()
-        primary = next(iter(self._intakes), "")
-        counting: list[tuple[str, Intake, Arrival]] = []
-        for name, intake in self._heard().items():
-            raws = batches.get(intake.name, ())
-            waits = self._waits(name)
-            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
-            if not arrivals:
-                continue
-            # How long messages go on shows once one is decoded, and the next ones wait for that.
-            is_unknown = overrides(self.display, "duration_ns") and not intake.duration_ns
-            if self._every_message_counts or is_unknown or self._keep() != Keep():
-                counting += [(name, intake, arrival) for arrival in arrivals]
-            elif name == primary:
-                self._newest = arrivals[-1]
-        for name, intake, arrival in sorted(counting, key=lambda item: item[2].raw.received_ns):
-            self._let_in(name, intake, arrival, frames)
-        if counting:
-            self._history.trim(self._keep(), frames.now_ns)  # also while nobody watches
+        if self.display.enabled:
+            self._guard("take", self._take, batches, frames, offers)
 
     def draw(self, frames: Frames) -> None:
         """Bring the scene up to date."""
-        if not self.display.enabled:
-            return
-        if self._newest is not None:
-            name, intake = next(iter(self._intakes.items()))
-            arrival, self._newest = self._newest, None
-            self._let_in(name, intake, arrival, frames)
-        if frames.fixed_frame != self._fixed_frame:
-            if self._fixed_frame:
-                timed = self._waits(next(iter(self._intakes), ""))
-                self._history.move(frames, self._fixed_frame, timed)
-            self._fixed_frame = frames.fixed_frame
-            self._painter.is_stale = True
-        self._history.trim(self._keep(), frames.now_ns)
-        self._painter.draw(self.display, self._guard, self._history, frames)
+        if self.display.enabled:
+            self._guard("scene", self._draw, frames)
 
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""
@@ -198,6 +167,60 @@ class Runner:
         """Everything the display and the framework have to say, by key."""
         if not self.display.enabled:
             return {}
+        result = self._guard.attempt("statuses", {}, self._statuses, offers, frames, dropped)
+        for text in self._guard.crashes.values():
+            result["Display"] = Status(Level.ERROR, text)
+        result |= self.remarks
+        if worst(result.values()) is Level.OK and self._painter.is_empty():
+            result["Display"] = NOTHING_TO_DRAW if is_watched else NOBODY_WATCHES
+        return result
+
+    # Inside
+
+    def _new_guard(self) -> Guard:
+        who = type(self.display).__name__
+        return Guard(who, self._services.strict, name=lambda: self.display.name)
+
+    def _take(
+        self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
+    ) -> None:
+        clock = self._services.clock()
+        primary = next(iter(self._intakes), "")
+        counting: list[tuple[str, Intake, Arrival]] = []
+        for name, intake in self._heard().items():
+            raws = batches.get(intake.name, ())
+            waits = self._waits(name)
+            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
+            if not arrivals:
+                continue
+            # How long messages go on shows once one is decoded, and the next ones wait for that.
+            is_unknown = overrides(self.display, "duration_ns") and not intake.duration_ns
+            if self._every_message_counts or is_unknown or self._keep() != Keep():
+                counting += [(name, intake, arrival) for arrival in arrivals]
+            elif name == primary:
+                self._newest = arrivals[-1]
+        for name, intake, arrival in sorted(counting, key=lambda item: item[2].raw.received_ns):
+            self._let_in(name, intake, arrival, frames)
+        if counting:
+            self._history.trim(self._keep(), frames.now_ns)  # also while nobody watches
+
+    def _draw(self, frames: Frames) -> None:
+        if self._newest is not None:
+            name, intake = next(iter(self._intakes.items()))
+            arrival, self._newest = self._newest, None
+            self._let_in(name, intake, arrival, frames)
+        if frames.fixed_frame != self._fixed_frame:
+            if self._fixed_frame:
+                timed = self._waits(next(iter(self._intakes), ""))
+                self._history.move(frames, self._fixed_frame, timed)
+            self._fixed_frame = frames.fixed_frame
+            self._painter.is_stale = True
+        self._history.trim(self._keep(), frames.now_ns)
+        self._painter.draw(self.display, self._guard, self._history, frames)
+
+    def _statuses(
+        self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
+    ) -> dict[str, Status]:
         result: dict[str, Status] = {}
         clock = self._services.clock()
         for name, intake in self._heard().items():
@@ -208,15 +231,7 @@ class Runner:
             result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
         if shortage := self._history.shortage(self._keep(), frames.now_ns):
             result["History"] = Status(Level.WARN, shortage)
-        result |= self._painter.statuses()
-        for text in self._guard.crashes.values():
-            result["Display"] = Status(Level.ERROR, text)
-        result |= self.remarks
-        if worst(result.values()) is Level.OK and self._painter.is_empty():
-            result["Display"] = NOTHING_TO_DRAW if is_watched else NOBODY_WATCHES
-        return result
-
-    # Inside
+        return result | self._painter.statuses()
 
     def _keep(self) -> Keep:
         keep = self._guard("history", self.display.history)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from webviz.bounds import Box, bounds, union
-from webviz.frame_loop.loop import Scene
+from webviz.frame_loop.showing import Scene
 from webviz.frame_loop.viewing import Cameras, NoCameras
 from webviz.frames import compose
 from webviz.nodes import Node, Pose, Rgb

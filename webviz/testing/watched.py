@@ -47,7 +47,7 @@ class WatchedViewer(FrameLoop):
     def wanted(self) -> Mapping[str, Subscription]:
         """All that is subscribed to, by topic."""
         with self._lock:
-            return self._wanted(self._source.offers())
+            return self._wanted()
 
     def is_waiting(self, id: str) -> bool:
         """Whether the newest message of a display waits for its transform."""

@@ -1,0 +1,252 @@
+"""Whatever raises, the frame loop goes on, and says what went wrong."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+import pytest
+
+from webviz import Context, Display, Input, Keep, Sample, Topic
+from webviz.commands import Refresh, SetBackground, SetProperty
+from webviz.status import Level
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+
+
+class Boom(Exception):
+    """Of nobody's making."""
+
+    def __str__(self) -> str:
+        raise ValueError("not even this can be told")
+
+
+class Sound(Display):
+    """A dot per turn, to see that the rest goes on."""
+
+    turns: int = 0
+
+    def tick(self, ctx: Context) -> None:
+        self.turns += 1
+        ctx.points("dot", [[self.turns, 0, 0]], (0, 0, 0), 0.1)
+
+
+class Faulty(Display):
+    """Raises in one of its hooks."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+    hook: str = ""
+    leaves: bool = False
+
+    def _raise_in(self, hook: str) -> None:
+        if hook == self.hook:
+            if self.leaves:
+                sys.exit(3)
+            raise Boom
+
+    def history(self) -> Keep:
+        self._raise_in("history")
+        return Keep()
+
+    def listens(self, name: str) -> bool:
+        self._raise_in("listens")
+        return True
+
+    def waits(self, name: str) -> bool:
+        self._raise_in("waits")
+        return True
+
+    def duration_ns(self, message: Any) -> int:
+        self._raise_in("duration_ns")
+        return 0
+
+    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+        self._raise_in("accept")
+        return True
+
+    def depends(self, ctx: Context) -> object:
+        self._raise_in("depends")
+        return None
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        self._raise_in("draw")
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        self._raise_in("draw_all")
+
+    def tick(self, ctx: Context) -> None:
+        self._raise_in("tick")
+
+
+class FaultyFold(Faulty):
+    """Raises when it folds."""
+
+    def fold(self, name: str, sample: Sample, state: Any) -> Any:
+        self._raise_in("fold")
+        return state
+
+
+HOOKS = sorted({name for name, hook in vars(Display).items() if inspect.isfunction(hook)})
+
+
+def feed(b: Any) -> None:
+    """Let the next turn have something to do in every part."""
+    b.source.now += SECOND // 10
+    b.clock += 0.1
+    b.transform("map", "base", b.source.now)
+    b.pose("/pose", "base", b.source.now)
+    b.viewer._next_panel = b.viewer._next_folder = b.viewer._next_autosave = 0.0
+
+
+@pytest.mark.parametrize("leaves", [False, True], ids=["raises", "exits"])
+@pytest.mark.parametrize("hook", HOOKS)
+def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
+    bench: Callable[..., Any], caplog: pytest.LogCaptureFixture, hook: str, leaves: bool
+) -> None:
+    faulty = (FaultyFold if hook == "fold" else Faulty)(name="Faulty", hook=hook, leaves=leaves)
+    sound = Sound(name="Sound")
+    b = bench(faulty, sound, strict=False)
+    for _ in range(5):
+        feed(b)
+        b.turn()
+    before = sound.turns
+    feed(b)
+    level, text = b.statuses(0)["Display"]
+    assert level == "ERROR"
+    assert ("SystemExit: 3" if leaves else "Boom") in text
+    assert sound.turns > before
+    assert len([record for record in caplog.records if record.exc_info]) == 1
+
+
+PARTS = {
+    "source.now_ns": "Source",
+    "source.offers": "Source",
+    "source.want": "Source",
+    "source.inbox.drain": "Source",
+    "source.inbox.received": "Topics",
+    "source.inbox.dropped": "",
+    "viewer._hearing._time.step": "Time",
+    "viewer._hearing._time.status": "Time",
+    "viewer._hearing._listener.take": "Transforms",
+    "viewer._hearing._listener.statuses": "Transforms",
+    "viewer._hearing._listener.subscriptions": "Transforms",
+    "viewer._hearing.monitor.take": "Topics",
+    "viewer._hearing.monitor.look": "Topics",
+    "viewer._hearing.monitor.subscription": "Topics",
+    "viewer._viewing.follow": "Views",
+    "viewer._viewing.followed": "Views",
+    "viewer._viewing.views": "Views",
+    "viewer._viewing.statuses": "Views",
+    "viewer._session.look_around": "Files",
+    "viewer._session.keep": "Files",
+    "viewer._session.file": "Files",
+    "viewer._stopwatch.clock": "Time",
+    "scene.has_watchers": "Scene",
+    "scene.flush": "Scene",
+    "scene.set_background": "Scene",
+    "scene.set_pose": "",
+    "scene.upsert": "",
+    "viewer._show": "Panel",
+}
+"""What the frame loop calls, and the key of the status that tells of it; "" is the display's."""
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
+    bench: Callable[..., Any],
+    caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
+    part: str,
+) -> None:
+    sound = Sound(name="Sound")
+    b = bench(Faulty(name="Faulty"), sound, strict=False)
+    *path, name = part.split(".")
+    owner = b
+    for step in path:
+        owner = getattr(owner, step)
+    calls: list[int] = []
+
+    def boom(*args: Any, **options: Any) -> None:
+        calls.append(1)
+        raise Boom
+
+    feed(b)
+    b.turn()
+    logged = []
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, name, boom)
+        before = sound.turns
+        for shade in range(5):
+            feed(b)
+            answer = b.viewer.enqueue(SetBackground((shade, 0, 0)))
+            b.turn()
+            assert answer.done()
+            logged.append(len([record for record in caplog.records if record.exc_info]))
+        assert calls
+        assert sound.turns == before + 5
+        state = b.viewer.state(b.viewer._frames)
+    rows = [status for row in state.rows for status in row.statuses.values()]
+    told = [state.statuses[PARTS[part]]] if PARTS[part] else rows
+    assert any(status.level is Level.ERROR and "Boom" in status.text for status in told)
+    assert logged[0] in (1, 2), "two displays may have met it"
+    assert logged[-1] == logged[0]
+
+
+def test_a_command_that_raises_is_refused_and_the_next_is_done(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    b = bench(Sound(name="Sound"), strict=False)
+
+    def boom(*args: Any) -> None:
+        raise Boom
+
+    with monkeypatch.context() as patch:
+        patch.setattr(b.viewer._session.displays, "set", boom)
+        refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
+        b.turn()
+    assert "Boom" in str(refused.exception())
+    done = b.viewer.enqueue(Refresh())
+    b.turn()
+    assert done.result() == ""
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_strict_lets_through_what_a_part_raises(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    b = bench(Faulty(name="Faulty"), Sound(name="Sound"))
+    *path, name = part.split(".")
+    owner = b
+    for step in path:
+        owner = getattr(owner, step)
+
+    def boom(*args: Any, **options: Any) -> None:
+        raise Boom
+
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, name, boom)
+        feed(b)
+        b.viewer.enqueue(SetBackground((1, 2, 3)))
+        with pytest.raises(Boom):
+            b.turn()
+
+
+def test_a_turn_that_raises_does_not_end_the_loop(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    b = bench(strict=False)
+    turns: list[int] = []
+
+    def boom() -> None:
+        turns.append(1)
+        if len(turns) == 3:
+            b.viewer.stop()
+        raise Boom
+
+    monkeypatch.setattr(b.viewer, "turn", boom)
+    b.viewer._wake()
+    b.viewer.run()
+    assert len(turns) == 3
