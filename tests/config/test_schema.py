@@ -15,8 +15,8 @@ from rviz_files import FILES
 
 from webviz import registry, rviz
 from webviz.cli import main as cli
-from webviz.cli.main import DEMO
 from webviz.cli.schema import COMMAND, SHIPPED, text
+from webviz.cli.serving import DEMO
 from webviz.config import Config, ConfigError, Unreadable, dump, parse, standard
 from webviz.config.schema import schema
 from webviz.display import make

@@ -16,6 +16,8 @@ import psutil
 import pytest
 from program import Program
 
+from webviz.cli import main as cli
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -38,15 +40,33 @@ def refused(*arguments: str, status: int = 1) -> str:
     return result.stderr.strip()
 
 
-def test_help_explains_itself() -> None:
+def test_help_lists_every_command_and_option() -> None:
     result = run("--help")
     assert result.returncode == 0
-    for word in ("demo", "--display-config", "--fixed-frame", "--host", "--ros-args", "examples:"):
-        assert word in result.stdout
+    for word in ("convert", "demo", "schema", "screenshot", "--display-config", "--port"):
+        assert f" {word} " in result.stdout
+    assert "Examples:" in result.stdout
+    assert "--ros-args" in result.stdout
 
 
-def test_an_unknown_flag_is_named() -> None:
-    assert "unrecognized arguments: --colour" in refused("--colour", status=2)
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["screenshoot"], "There is no command `screenshoot`: did you mean `screenshot`?"),
+        (["lab.rviz"], "To show the config lab.rviz, run `webviz -d lab.rviz`."),
+        (["--port", "0", "demo"], "Give the command first: `webviz demo ...`."),
+        (["demo", "now"], "`webviz demo` takes no argument `now`."),
+        (["--prot", "80"], "Unknown option: --prot. Did you mean --port?"),
+        (["schema", "--outptu", "a"], "Unknown option: --outptu. Did you mean --output?"),
+        (["--port", "99999"], 'Invalid value "99999" for --port. Must be <= 65535.'),
+        (["--colour"], "Unknown option: --colour."),
+    ],
+)
+def test_a_mistyped_argument_is_named_with_what_was_meant(
+    arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli(arguments) == 2
+    assert capsys.readouterr().err == f"webviz: {sentence}\n"
 
 
 def test_a_missing_config_is_an_error() -> None:
@@ -86,7 +106,7 @@ def test_without_ros_one_sentence_says_how_to_get_it(tmp_path: Path) -> None:
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
     for arguments in ([], ["demo"]):
         result = subprocess.run(
-            [folder / "bin" / "python", "-m", "webviz", "--port", "0", *arguments],
+            [folder / "bin" / "python", "-m", "webviz", *arguments, "--port", "0"],
             capture_output=True,
             text=True,
             timeout=60,

@@ -2,47 +2,70 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from cyclopts import App
+
 from webviz import config as config_file
 from webviz import plugins, rviz
-from webviz.cli.options import add_plugin, new_parser
+from webviz.cli.options import File, Flag, Plugins
 from webviz.config import ConfigError
 
-EPILOG = """\
-examples:
-  webviz convert nav2.rviz nav2.yaml    what has no counterpart here is listed and kept
+EXAMPLES = """\
+Examples:
+  webviz convert nav2.rviz nav2.yaml    unsupported keys are listed, and kept
   webviz convert nav2.yaml nav2.rviz    back, with all that was kept
-  webviz convert --report nav2.rviz     how much of a file has a counterpart
+  webviz convert --report nav2.rviz     how much of a file is supported
 """
 
 
-def run(arguments: Sequence[str]) -> None:
-    """Convert a file and tell what was not carried over.
+def check(source: Path, target: Path | None = None, *, report: bool = False, **_: object) -> None:
+    """Refuse arguments that make no sense together.
+
+    Raises:
+        ValueError: a sentence.
+    """
+    if target is None and not report:
+        raise ValueError("Give a TARGET to write, or --report.")
+    if report and not config_file.is_rviz(source):
+        raise ValueError("--report counts what is carried over from a .rviz file.")
+
+
+app = App("convert", help_epilogue=EXAMPLES)
+
+
+@app.default(validator=check)
+def convert(
+    source: File,
+    target: File | None = None,
+    /,
+    *,
+    report: Flag = False,
+    plugin: Plugins = (),
+) -> None:
+    """Convert a file and report what was not carried over.
+
+    Args:
+        source: File to read.
+        target: File to write, overwritten.
+        report: Count what of a .rviz file is carried over.
+        plugin: Files with displays.
 
     Raises:
         ConfigError: a file cannot be read or written.
         PluginError: a plug-in cannot be loaded.
     """
-    parser = _parser()
-    options = parser.parse_args(arguments)
-    source, target = options.source, options.target
-    if target is None and not options.report:
-        parser.error("a TARGET is needed, or --report")
-    if options.report and not config_file.is_rviz(source):
-        parser.error("--report counts what is carried over from a .rviz file")
-    for path in options.plugin:
+    for path in plugin:
         plugins.load(path)
-    report = None
+    imported = None
     if config_file.is_rviz(source):
-        config, report = rviz.read(config_file.read_text(source), str(source))
+        config, imported = rviz.read(config_file.read_text(source), str(source))
         tell(source, config.report)
     else:
         config = config_file.load(source)
-    if options.report and report is not None:
-        print(report.table())
+    if report and imported is not None:
+        print(imported.table())
     if target is None:
         return
     if target.exists() and target.samefile(source):
@@ -62,17 +85,3 @@ def tell(path: Path, sentences: Sequence[str]) -> None:
         print(f"webviz: {path}: not all of it has a counterpart:")
         for sentence in sentences:
             print(f"  {sentence}")
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = new_parser(
-        "webviz convert",
-        "Converts config files: a name that ends with .rviz is RViz's, others are webviz's YAML.",
-        EPILOG,
-    )
-    add = parser.add_argument
-    add("source", type=Path, metavar="SOURCE", help="file to read")
-    add("target", type=Path, nargs="?", metavar="TARGET", help="file to write, overwritten")
-    add("--report", action="store_true", help="count what of a .rviz file is carried over")
-    add_plugin(parser)
-    return parser

@@ -1,49 +1,37 @@
-"""Options that several commands have."""
+"""Options that several commands share."""
 
-from __future__ import annotations
-
-import argparse
+# Annotations are no strings in modules of options: those of a base class are looked up in the
+# module of the class that inherits them.
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, TypeVar
+
+from cyclopts import Parameter
+
+T = TypeVar("T")
+Repeatable = Annotated[tuple[T, ...], Parameter(show_default=False)]
+"""An option that may be given several times."""
+Flag = Annotated[bool, Parameter(show_default=False)]
+File = Annotated[Path, Parameter(metavar="FILE")]
+Plugins = Annotated[
+    Repeatable[Path],
+    Parameter(metavar="FILE", help="Load displays from a Python file (repeatable)."),
+]
+RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
+"""The arguments for ROS, which `webviz.cli.main` splits off before parsing."""
+ROS_ARGS_HELP = "Arguments from --ros-args to `--` or the end are for ROS."
 
 
-def new_parser(prog: str, description: str, epilog: str) -> argparse.ArgumentParser:
-    """A parser that shows its examples as they are written."""
-    return argparse.ArgumentParser(
-        prog=prog,
-        description=description,
-        epilog=epilog,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ConfigOptions:
+    """What to show: a config, and how to change it for this run."""
 
-
-def add_config(parser: argparse.ArgumentParser) -> None:
-    """What to show: a config, and what is different from it."""
-    add = parser.add_argument
-    add("-d", "--display-config", type=Path, metavar="FILE", help="config to show (YAML or .rviz)")
-    add("-f", "--fixed-frame", metavar="FRAME", help="frame that everything is drawn in")
-    add(
-        "--set",
-        action="append",
-        default=[],
-        metavar="PATH=VALUE",
-        help="another value than the config's, such as displays.Scan.size=0.1 (repeatable)",
-    )
-
-
-def add_plugin(parser: argparse.ArgumentParser, note: str = "") -> None:
-    """Displays from files."""
-    parser.add_argument(
-        "--plugin",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="FILE",
-        help=f"Python file with displays{note} (repeatable)",
-    )
-
-
-def add_ros_args(parser: argparse.ArgumentParser) -> None:
-    """A place in the help for what `split_ros_arguments` takes out before."""
-    parser.add_argument(
-        "--ros-args", action="store_true", help="arguments for ROS follow, up to `--`"
-    )
+    display_config: Annotated[File | None, Parameter(alias="-d")] = None
+    """Config to show (YAML or .rviz)."""
+    fixed_frame: Annotated[str, Parameter(alias="-f", metavar="FRAME", show_default=False)] = ""
+    """Draw everything in this frame."""
+    set: Annotated[Repeatable[str], Parameter(metavar="PATH=VALUE")] = ()
+    """Override a value of the config, such as displays.Scan.size=0.1 (repeatable)."""
+    plugin: Plugins = ()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import logging
 import math
@@ -13,11 +12,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import PIL.Image
+from cyclopts import App
 
 from webviz import config as config_file
 from webviz import plugins
-from webviz.cli import convert
-from webviz.cli.screenshot_options import parse_arguments
+from webviz.cli.convert import tell
+from webviz.cli.options import ROS_ARGS_HELP, RosArgs
+from webviz.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.config.overrides import override
 from webviz.pictures import files as picture_files
 from webviz.pictures.files import OutputError
@@ -33,7 +34,11 @@ SHEET_SIZE = (480, 270)
 NOT_OK, INTERRUPTED = 3, 130
 
 
-def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
+app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@app.default(validator=check)
+def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
     """Make pictures and write them.
 
     Returns:
@@ -42,7 +47,6 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
     Raises:
         Error: there is no picture; one sentence.
     """
-    options = parse_arguments(arguments)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
     # viser takes a while to import; --help comes before.
@@ -56,7 +60,7 @@ def run(arguments: Sequence[str], ros: Sequence[str]) -> int:
         return INTERRUPTED
 
 
-def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
+def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
     from webviz.pictures.capture import SIZE, Order, opened
     from webviz.sources.bag import BagSource
     from webviz.sources.bag_extras import map_of_file, static_transform
@@ -69,7 +73,7 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
     path = options.display_config
     config = config_file.standard() if path is None else config_file.load(path)
     if path is not None:
-        convert.tell(path, config.report)
+        tell(path, config.report)
     config = override(config, options.set)
     if options.fixed_frame:
         config.set_fixed_frame(options.fixed_frame)
@@ -97,14 +101,16 @@ def _make(options: argparse.Namespace, ros: Sequence[str]) -> int:
         return status
 
 
-def _times(options: argparse.Namespace, source: BagSource) -> Sequence[At]:
+def _times(options: ScreenshotOptions, source: BagSource) -> Sequence[At]:
     if options.every is None:
         return options.at or ("end",)
-    times = every(options.first, options.last, options.every, source, str(options.bag))
+    times = every(
+        options.first or "start", options.last or "end", options.every, source, str(options.bag)
+    )
     return [*times, *options.at]
 
 
-def _write(options: argparse.Namespace, order: Order) -> int:
+def _write(options: ScreenshotOptions, order: Order) -> int:
     """Make the pictures of an order; the exit status."""
     from webviz.pictures.capture import pictures
 
@@ -124,7 +130,7 @@ def _write(options: argparse.Namespace, order: Order) -> int:
             written = [path]
         elif options.is_animation:
             images = (_image(picture) for picture in told)
-            picture_files.save_animation(images, path, options.fps)
+            picture_files.save_animation(images, path, options.fps or FPS)
             written = [path]
         else:
             written = []
