@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,9 @@ from webviz import Frames, Sample, messages
 from webviz_displays.geometry import FARTHEST, is_drawable, matrices, w_first
 
 F64 = NDArray[np.float64]
+
+MOST_ANGLE = 1000.0
+"""Radians; float32 resolves 0.003 degrees there, and no laser turns so often."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,9 @@ def fault(scan: messages.LaserScan) -> str:
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
         if np.isnan(value := getattr(scan, name)) or (name.startswith("angle") and np.isinf(value)):
             return f"{name} is {value}: the publisher must set it to a number."
+    for name, most in (("angle_min", MOST_ANGLE), ("angle_increment", math.tau)):
+        if abs(value := getattr(scan, name)) > most:
+            return f"{name} is {value:g} rad; expected a number from {-most:g} to {most:g}."
     if scan.range_max <= scan.range_min:
         return (
             f"range_max ({scan.range_max:g} m) is not greater than range_min "

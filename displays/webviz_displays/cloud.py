@@ -99,6 +99,11 @@ class Cloud:
         """
         places = [self._place(name) for name in "xyz"]
         columns = [self._view(dtype, offset) for offset, dtype in places]
+        if self._message.is_bigendian and _make_sense_swapped(columns):
+            raise CloudError(
+                "is_bigendian is set, but x, y and z make sense in little-endian order only. "
+                "Publish the cloud with is_bigendian: false."
+            )
         origin = _middle(columns)
         offset = places[0][0]
         packed = [(offset + 4 * i, np.dtype("<f4")) for i in range(3)]
@@ -152,6 +157,25 @@ def drawable(xyz: NDArray[np.float32]) -> NDArray[np.intp] | None:
         if not len(xyz) or (xyz.min() > -FARTHEST and xyz.max() < FARTHEST):
             return None
         return np.flatnonzero((np.abs(xyz) < FARTHEST).all(axis=1))
+
+
+def _make_sense_swapped(columns: list[NDArray[Any]]) -> bool:
+    """Whether coordinates are sensible in the other byte order, and most are not in theirs.
+
+    Floats in the wrong order are noise, of which a fifth happens to be sensible.
+    """
+    some = [column[:: max(len(column) // 100, 1)] for column in columns]
+    if any(column.dtype.kind != "f" for column in some):
+        return False
+    read = np.concatenate([_are_sensible(column[column != 0]) for column in some])
+    swapped = np.concatenate([_are_sensible(column[column != 0].byteswap()) for column in some])
+    return len(read) > 0 and read.mean() < 0.5 and swapped.mean() > 0.9
+
+
+def _are_sensible(values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which of (N,) are NaN, or between a micrometre and `FARTHEST`."""
+    with np.errstate(invalid="ignore"):
+        return np.isnan(values) | ((np.abs(values) > 1e-6) & (np.abs(values) < FARTHEST))
 
 
 def _middle(columns: list[NDArray[Any]]) -> Position:

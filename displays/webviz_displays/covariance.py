@@ -19,6 +19,9 @@ Mask = NDArray[np.bool_]
 WIDEST = np.deg2rad(89.0)
 """An angle that uncertain is drawn as if it were this; the tangent of 90 degrees has no end."""
 
+LARGEST = FARTHEST**2
+"""Square metres or square radians; what deviates more reaches farther than can be drawn."""
+
 _LIFT = 1e-3
 """Metres; flat ellipses lie so high above their pose, to be seen on a map of the same height."""
 
@@ -57,16 +60,23 @@ def read(covariances: F64) -> tuple[Covariances, Mask]:
     """Check covariances (N, 36) as messages have them.
 
     Returns:
-        The covariances, and which (N,) of them are finite and positive semidefinite in the parts
-        that are drawn. The others are to be left out.
+        The covariances, and which (N,) of them have entries up to `LARGEST` and are positive
+        semidefinite in the parts that are drawn. The others are to be left out.
     """
     matrices = np.reshape(covariances, (-1, 6, 6))
-    finite = np.all(np.isfinite(matrices), axis=(1, 2))
+    finite = np.all(np.abs(matrices) <= LARGEST, axis=(1, 2))
     matrices = np.where(finite[:, None, None], matrices, 0.0)
     is_planar = np.all(matrices[:, (2, 3, 4), (2, 3, 4)] <= 0, axis=1)
     flat_ok = _is_semidefinite(matrices[:, :2, :2]) & (matrices[:, 5, 5] >= 0)
     full_ok = _is_semidefinite(matrices[:, :3, :3]) & _is_semidefinite(matrices[:, 3:, 3:])
     return Covariances(matrices, is_planar), finite & np.where(is_planar, flat_ok, full_ok)
+
+
+def has_negative_variance(covariances: F64) -> Mask:
+    """Which (N,) of covariances (N, 36) have a variance below zero, by more than rounding."""
+    matrices = np.reshape(covariances, (-1, 6, 6))
+    variances = np.diagonal(matrices, axis1=1, axis2=2)
+    return variances.min(axis=1) < -_ROUNDING * np.abs(variances).max(axis=1)
 
 
 def ellipses(given: Covariances, positions: F64, rotations: F64, scale: float) -> Placed:

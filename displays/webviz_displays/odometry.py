@@ -8,12 +8,12 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic, messages
 from webviz_displays import covariance
 from webviz_displays.arrows import along_x
 from webviz_displays.covariance_marks import add_orientations, add_positions
 from webviz_displays.geometry import origin_near
-from webviz_displays.odometry_poses import Trail, Trails, fault, has_moved
+from webviz_displays.odometry_poses import Trail, Trails, fault, has_moved, is_sound
 from webviz_displays.pose_properties import Covariance, PoseShape
 from webviz_displays.rods import add_transparent_arrows
 
@@ -44,12 +44,18 @@ class Odometry(Display):
         return Keep(count=self.keep)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether the robot moved by one of the tolerances, or what is wrong with the pose."""
+        """Whether the robot moved by one of the tolerances, or what is wrong with the pose.
+
+        A robot at rest counts as well when its covariance becomes invalid, or valid again.
+        """
         if problem := fault(new.message):
             return problem
-        return not kept or has_moved(
-            new.message, kept[-1].message, self.position_tolerance, self.angle_tolerance
-        )
+        if not kept:
+            return True
+        last: messages.Odometry = kept[-1].message
+        if has_moved(new.message, last, self.position_tolerance, self.angle_tolerance):
+            return True
+        return self.covariance.value and is_sound(new.message) != is_sound(last)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All poses as one node, and what is uncertain as a few more."""
@@ -84,12 +90,20 @@ class Odometry(Display):
         self, samples: Sequence[Sample], poses: Trail, group: Group, ctx: Context
     ) -> None:
         newest = samples[-MOST_COVARIANCES:]
-        given, ok = covariance.read(np.array([s.message.pose.covariance for s in newest]))
+        rows = np.array([s.message.pose.covariance for s in newest])
+        given, ok = covariance.read(rows)
+        negative = covariance.has_negative_variance(rows)
         if not ok.all():
             ctx.warn(
                 "Covariance",
-                f"{(~ok).sum()} of {len(ok)} covariances are no covariances "
-                "(not finite, or with a negative eigenvalue) and are not drawn.",
+                f"{(~ok).sum()} of {len(ok)} covariances are not drawn: they are not finite, "
+                f"larger than {covariance.LARGEST:g}, or have a negative eigenvalue.",
+            )
+        elif negative.any():
+            ctx.warn(
+                "Covariance",
+                f"{negative.sum()} of {len(ok)} covariances have a negative variance of z, roll "
+                "or pitch, which counts as 0. Publish 0 if the robot moves in a plane.",
             )
         elif len(samples) > len(newest):
             ctx.ok("Covariance", f"Showing the newest {len(newest)} of {len(samples)} covariances.")

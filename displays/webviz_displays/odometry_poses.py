@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Sample, messages
+from webviz_displays.covariance import LARGEST
 from webviz_displays.geometry import FARTHEST, matrices, multiply, normalized
 
 F64 = NDArray[np.float64]
@@ -65,6 +66,12 @@ def has_moved(
     if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
         return True
     return _angle(a.orientation, b.orientation) >= angle
+
+
+def is_sound(message: messages.Odometry) -> bool:
+    """Whether the covariance of a pose is finite, of a sensible size and nowhere negative."""
+    entries = message.pose.covariance
+    return bool(np.abs(entries).max() <= LARGEST and entries[::7].min() >= 0)
 
 
 class Trails:

@@ -72,6 +72,8 @@ def test_a_range_counts_from_range_min_to_just_below_range_max(lab: Benches) -> 
         (scan([1.0, 1.0], angle_increment=NAN), "ERROR", "angle_increment is nan"),
         (scan([1.0, 1.0], angle_increment=INF), "ERROR", "angle_increment is inf"),
         (scan([1.0], angle_min=NAN), "ERROR", "angle_min is nan"),
+        (scan([1.0], angle_min=-3e38), "ERROR", "angle_min is -3e+38 rad"),
+        (scan([1.0], angle_increment=3e38), "ERROR", "expected a number from -6.28319 to"),
         (scan([1e30], range_max=INF), "WARN", "Showing 0 of 1"),
     ],
 )

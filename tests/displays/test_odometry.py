@@ -232,11 +232,22 @@ def test_a_covariance_that_is_none_is_left_out_and_named(shown: Benches) -> None
     assert text.startswith("2 of 3")
 
 
-def test_a_huge_covariance_stays_finite(shown: Benches) -> None:
-    message = odometry(covariance=np.eye(6) * 1e300)
-    for node in shown(message).nodes().values():
-        for values in vars(node).values():
-            assert not isinstance(values, np.ndarray) or np.isfinite(values).all()
+@pytest.mark.parametrize("size", [NAN, 1e300, -1.0])
+def test_a_bad_covariance_of_a_robot_at_rest_is_named(shown: Benches, size: float) -> None:
+    good, bad = odometry(covariance=np.eye(6)), odometry(covariance=np.eye(6) * size)
+    bench = shown(good, bad)
+    level, text = bench.statuses()["Covariance"]
+    assert level == "WARN"
+    assert text.startswith("1 of 2 covariances are not drawn")
+    assert len(bench.nodes()["ellipsoids"].positions) == 1
+
+
+def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(shown: Benches) -> None:
+    bench = shown(odometry(covariance=np.diag([1.0, 1.0, -1.0, 0.0, 0.0, 1.0])))
+    assert "ellipses" in bench.nodes()
+    level, text = bench.statuses()["Covariance"]
+    assert level == "WARN"
+    assert text.startswith("1 of 1 covariances have a negative variance of z")
 
 
 # Messages that cannot be shown

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from webviz.nodes import Instances, Lines, Points
+from webviz.testing.messages import header, serialized
 from webviz_displays import points_display
 from webviz_displays.decimation import evenly, one_per_voxel
 from webviz_displays.point_cloud2 import PointCloud2, spaced
@@ -87,6 +88,22 @@ def test_a_cloud_without_points_says_why(
     assert said[0] == level
     assert words in said[1]
     assert not any(len(node.xyz) for node in bench.nodes().values())
+
+
+@pytest.mark.parametrize("byte", [1, 255])
+def test_a_little_endian_cloud_that_claims_to_be_big_endian_is_refused(
+    lab: Benches, byte: int
+) -> None:
+    bench = lab(xyz_cloud([(0.0, 0.0, 0.0)]), decay_time=1.0)
+    values = {**xyz_cloud(THREE), "header": header("lidar", bench.now_ns)}
+    little, big = (serialized(CLOUD, {**values, "is_bigendian": flag}) for flag in (False, True))
+    (place,) = (i for i in range(len(big)) if big[i] != little[i])
+    bench.send_bytes(CLOUD, big[:place] + bytes([byte]) + big[place + 1 :])
+    bench.turn()
+    level, text = bench.statuses()["Points"]
+    assert level == "ERROR"
+    assert text.startswith("is_bigendian is set, but x, y and z make sense in little-endian order")
+    assert sum(len(node.xyz) for node in bench.nodes().values()) == 1
 
 
 def test_odd_sizes_are_shown_with_a_warning(lab: Benches) -> None:
