@@ -292,6 +292,9 @@ ViewCommand = (
 )
 """What is about views."""
 
+FileCommand = Open | Load | Save | Export
+"""What reads or writes configs; it is done beside the frame loop, in order."""
+
 Command = (
     SetProperty
     | AddDisplay
@@ -303,10 +306,7 @@ Command = (
     | SetFrameRate
     | Reset
     | Pause
-    | Open
-    | Load
-    | Save
-    | Export
+    | FileCommand
     | ViewCommand
     | InspectTopic
     | InspectTransforms

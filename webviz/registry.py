@@ -21,7 +21,7 @@ _registered: dict[str, dict[str, type[Display]]] = {}
 def display_types() -> dict[str, type[Display]]:
     """Every display class by the name it has in config files."""
     types = dict(_installed()[0])
-    for registered in _registered.values():
+    for registered in list(_registered.values()):  # another thread may read a config meanwhile
         types |= registered
     return types
 

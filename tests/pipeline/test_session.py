@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,12 +19,14 @@ from webviz.commands import (
     Load,
     MoveDisplay,
     Open,
+    Refresh,
     Save,
     SetBackground,
     SetFrameRate,
     SetProperty,
 )
 from webviz.config import Branch, Unreadable, load, parse
+from webviz.frame_loop.requests import MAX_FILES
 from webviz.group import Group
 from webviz.state import File, State
 from webviz.status import Level
@@ -31,9 +35,7 @@ from webviz_displays.axes import Axes
 
 def do(b: Any, command: Command) -> State:
     """What the panel shows after a command."""
-    b.viewer.enqueue(command)
-    b.turn()
-    return b.states[-1]
+    return b.do(command)
 
 
 def names(state: State) -> list[str]:
@@ -41,9 +43,9 @@ def names(state: State) -> list[str]:
     return ["  " * row.depth + row.name for row in state.rows]
 
 
-def file_of(b: Any) -> File:
-    b.turn()
-    return b.states[-1].file
+def offers(b: Any, *names: str) -> bool:
+    """Whether the config files of the folder become these."""
+    return any(do(b, Refresh()).file.others == names or time.sleep(0.01) for _ in range(1000))
 
 
 @pytest.fixture
@@ -78,7 +80,7 @@ def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
     folder: Path, bench: Callable[..., Any]
 ) -> None:
     b = bench(Axes(name="A"))
-    assert not file_of(b).is_changed
+    assert not do(b, Refresh()).file.is_changed
     assert do(b, SetProperty("display1", "length", 2.5)).file.is_changed
     assert not do(b, SetProperty("display1", "length", 1.0)).file.is_changed
     assert do(b, SetBackground((1, 2, 3))).file.is_changed
@@ -94,14 +96,16 @@ def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., 
     state = do(b, Open("b.yaml"))
     assert (state.fixed_frame, names(state)) == ("odom", ["B"])
     assert state.answer.text == "Opened b.yaml."
-    assert state.file == File(str(folder / "b.yaml"), False, str(folder), ("a.yaml", "b.yaml"))
+    file = File(str(folder / "b.yaml"), False, str(folder), state.file.others)
+    assert state.file == file
     assert not any(group.startswith("display1") for group in b.scene.groups)
 
 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        (None, "Cannot read"),
+        (None, "No such file"),
+        ("a FIFO", "it is not a regular file"),
         ("a: [", "is not valid YAML"),
         ("version: 99", "update webviz"),
         ("fixed_fram: x", "did you mean `fixed_frame`?"),
@@ -111,12 +115,57 @@ def test_a_file_that_cannot_be_opened_changes_nothing(
     folder: Path, bench: Callable[..., Any], text: str | None, sentence: str
 ) -> None:
     b = bench(Axes(name="A"))
-    if text is not None:
+    if text == "a FIFO":
+        os.mkfifo(folder / "bad.yaml")
+    elif text is not None:
         (folder / "bad.yaml").write_text(text)
     state = do(b, Open("bad.yaml"))
     assert state.answer.level is Level.ERROR
     assert sentence in state.answer.text
     assert (names(state), state.file.path) == (["A"], "")
+
+
+def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    (folder / "b.yaml").write_text("displays:\n- {type: Axes, name: B}\n")
+    b = bench(Axes(name="A"))
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)  # for which saving waits
+        saved, opened = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Open("b.yaml"))
+        assert do(b, SetBackground((1, 2, 3))).settings.background == (1, 2, 3)
+        assert not saved.done()
+        assert not opened.done()
+    finally:
+        os.close(descriptor)
+    b.until_done(opened)
+    assert saved.result() == "Saved a.yaml."
+    assert b.states[-1].file.path == str(folder / "b.yaml")
+    assert names(b.states[-1]) == ["B"]
+    saved_config = load(folder / "a.yaml")
+    assert saved_config.settings.background != (1, 2, 3)  # as it was when somebody said Save
+
+
+def test_the_end_waits_for_a_file_that_is_being_written(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench(Axes(name="A"))
+    saved, later = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Save("b.yaml"))
+    b.turn()
+    b.viewer.close()
+    assert saved.result(timeout=0) == "Saved a.yaml."
+    assert str(later.exception(timeout=0)) == "The viewer has ended."
+    assert [path.name for path in folder.iterdir()] == ["a.yaml"]
+
+
+def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> None:
+    b = bench()
+    exports = [b.viewer.enqueue(Export(lambda _: None)) for _ in range(MAX_FILES + 2)]
+    b.turn()
+    assert str(exports[-1].exception(timeout=0)) == "Too many files at once."
+    b.until_done(exports[-2])
+    assert [each.result() for each in exports[:-1]] == [""] * (MAX_FILES + 1)
 
 
 def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
@@ -143,7 +192,10 @@ def test_the_config_files_of_the_folder_are_on_offer(
 ) -> None:
     for name in ("b.rviz", "a.yml", "notes.txt"):
         (folder / name).write_text("")
-    assert file_of(bench()).others == ("a.yml", "b.rviz")
+    b = bench()
+    assert offers(b, "a.yml", "b.rviz")
+    do(b, Save("c.yaml"))
+    assert offers(b, "a.yml", "b.rviz", "c.yaml")
 
 
 def test_the_last_session_is_kept_in_a_file_of_its_own(
@@ -251,7 +303,10 @@ def test_background_and_frame_rate_are_set(bench: Callable[..., Any]) -> None:
     ],
 )
 def test_what_is_refused_is_told_and_changes_nothing(
-    bench: Callable[..., Any], command: Command, sentence: str
+    bench: Callable[..., Any],
+    command: Command,
+    sentence: str,
+    caplog: pytest.LogCaptureFixture,
 ) -> None:
     b = bench(Axes(name="A"))
     before = b.viewer.config()
@@ -261,6 +316,7 @@ def test_what_is_refused_is_told_and_changes_nothing(
     assert answer.level is Level.ERROR
     assert answer.text.startswith(sentence)
     assert str(future.exception(timeout=0)) == answer.text
+    assert not caplog.records  # whoever asked is told, and nobody twice
     assert b.viewer.config().settings == before.settings
     assert names(b.states[-1]) == ["A"]
 

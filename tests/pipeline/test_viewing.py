@@ -75,9 +75,7 @@ class Looking:
 
     def do(self, command: Command) -> State:
         """What the panel shows after a command."""
-        self.bench.viewer.enqueue(command)
-        self.bench.turn()
-        return self.bench.states[-1]
+        return self.bench.do(command)
 
     def refused(self, command: Command) -> str:
         """Why a command is refused."""

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from webviz.commands import Command
 from webviz.config import Config, Item, Settings
 from webviz.frame_loop.loop import FrameLoop
 from webviz.frame_loop.viewing import Cameras, NoCameras
@@ -65,6 +68,20 @@ class Bench:
 
     def turn(self) -> None:
         self.viewer.turn()
+
+    def do(self, command: Command) -> State:
+        """What the panel shows after a command."""
+        self.until_done(self.viewer.enqueue(command))
+        return self.states[-1]
+
+    def until_done(self, answer: Future[str]) -> None:
+        """Turn until a command is done; one about files takes several turns."""
+        for _ in range(2000):
+            self.turn()
+            if answer.done():
+                return
+            time.sleep(0.005)
+        raise AssertionError("not done")
 
     def statuses(self, index: int = 0) -> dict[str, tuple[str, str]]:
         """Level and sentence by key of one display, as a panel would show them now."""

@@ -205,7 +205,7 @@ class DisplayList:
         return settings
 
     def items(self, parent: Entry | None = None) -> list[Item]:
-        """What to save of a group, or of the whole list."""
+        """What to save of a group, or of the whole list: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
     def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
@@ -224,8 +224,8 @@ class DisplayList:
     def _item(self, entry: Entry) -> Item:
         content = entry.content
         if isinstance(content, Group):
-            return Branch(content, self.items(entry))
-        return content.display if isinstance(content, Runner) else content
+            return Branch(copy.copy(content), self.items(entry))
+        return copy.copy(content.display) if isinstance(content, Runner) else content
 
     def _row(self, entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
         content, depth = entry.content, entry.depth

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from webviz import plugins
 from webviz.commands import (
@@ -16,8 +17,6 @@ from webviz.commands import (
     FocusDisplay,
     InspectTopic,
     InspectTransforms,
-    Load,
-    Open,
     Pause,
     Refresh,
     ReloadPlugin,
@@ -27,7 +26,7 @@ from webviz.commands import (
 from webviz.config import Config, Settings
 from webviz.frame_loop.display_list import DisplayList
 from webviz.frame_loop.hearing import Hearing
-from webviz.frame_loop.requests import Requests
+from webviz.frame_loop.requests import Job, Requests
 from webviz.frame_loop.session import Session
 from webviz.frame_loop.showing import Scene, Showing
 from webviz.frame_loop.statuses import failures, fixed_frame_status, import_status
@@ -89,10 +88,10 @@ class FrameLoop:
         self._show = show
         self._workers = Workers(self._wake)
         self._services = Services(scene, self._workers, source.resolve, strict, clock)
-        self._requests = Requests(self._guard)
+        self._requests = Requests(self._guard, self._wake)
         self._stop = threading.Event()
         self._list = DisplayList(self._services)
-        self._session = Session(self._list, config, path, autosave)
+        self._session = Session(self._list, config, path, autosave, self._opened)
         self._viewing = Viewing(scene)
         self._viewing.start_with(config.settings.view)
         self._showing = Showing(scene, self._viewing, self._guard)
@@ -138,9 +137,8 @@ class FrameLoop:
     def close(self) -> None:
         """End the slow work beside the loop, and keep the last state if that is wanted."""
         self._requests.end()
+        self._guard("Files", self._session.close)
         self._workers.close()
-        if keep := self._session.keep():
-            keep()
 
     def turn(self) -> None:
         """One turn of the frame loop."""
@@ -195,7 +193,7 @@ class FrameLoop:
 
     # Commands
 
-    def _do(self, command: Command) -> str:
+    def _do(self, command: Command) -> str | Job[Any]:
         match command:
             case Reset():
                 self._reset()
@@ -211,10 +209,6 @@ class FrameLoop:
             case ReloadPlugin(path):
                 plugins.reload(path, self._list.runners())
                 self._session.settings = self._list.read_again(self.settings)
-            case Open() | Load():
-                text = self._session.do(command)
-                self._viewing.open(self.settings.view)
-                return text
             case _ if isinstance(command, ViewCommand):
                 self._view(command)
             case _:
@@ -227,6 +221,9 @@ class FrameLoop:
         for key, value in new.items():
             self._session.set(key, value)
         self._viewing.start_with(self.settings.view)
+
+    def _opened(self) -> None:
+        self._viewing.open(self.settings.view)
 
     def _reset(self) -> None:
         self._hearing.reset()
@@ -247,8 +244,7 @@ class FrameLoop:
             self._session.look_around()
         if now >= self._next_autosave:
             self._next_autosave = now + AUTOSAVE_S
-            if keep := self._session.keep():
-                self._workers.submit(keep)
+            self._session.keep()
 
     # Parts of a turn
 

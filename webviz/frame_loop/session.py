@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import logging
+import time
 from collections.abc import Callable
+from concurrent.futures import Future, wait
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +31,20 @@ from webviz.commands import (
     SetProperty,
 )
 from webviz.config import Config, ConfigError, Settings
+from webviz.config.disk import in_thread
 from webviz.config.files import SUFFIXES
 from webviz.display import Display, make
 from webviz.frame_loop.display_list import DisplayList
+from webviz.frame_loop.requests import Job
 from webviz.registry import display_types
 from webviz.state import File
 
 log = logging.getLogger("webviz")
 
 MAX_OTHERS = 200
+ENDING_S = 0.5
+"""How long the end waits until the last state is kept, at most twice."""
+NOT_KEPT = "The session is not kept: %s"
 
 
 class Session:
@@ -45,8 +54,8 @@ class Session:
         displays: to fill; empty.
         config: what to begin with.
         path: the file it came from, None for none.
-        folder: where names without a folder are meant.
         autosave: a file that follows every change, None for none.
+        opened: called by the frame loop when another config is shown.
     """
 
     def __init__(
@@ -55,6 +64,7 @@ class Session:
         config: Config,
         path: Path | None = None,
         autosave: Path | None = None,
+        opened: Callable[[], None] = lambda: None,
     ) -> None:
         self.settings = Settings()
         self.displays = displays
@@ -63,24 +73,27 @@ class Session:
         self._path = path
         self._folder = path.absolute().parent if path else Path.cwd()
         self._autosave = autosave
+        self._opened = opened
         self._others: tuple[str, ...] = ()
+        self._listing: Future[tuple[str, ...]] | None = None
+        self._keeping: Future[None] | None = None
         self._saved: dict[str, Any] = {}
         self._kept: dict[str, Any] = {}
         self._is_changed = False
         self._show(config)
 
     def config(self) -> Config:
-        """What to save to come back to this."""
+        """What to save to come back to this: a snapshot, for any thread."""
         return Config(self.settings, self.displays.items())
 
-    def do(self, command: Command) -> str:
+    def do(self, command: Command) -> str | Job[Any]:
         """Change what is shown, or save it.
 
         Returns:
-            What there is to tell of it, "" for what can be seen.
+            What there is to tell of it, "" for what can be seen; of files, the slow part.
 
         Raises:
-            ConfigError: a file cannot be read or written; nothing was changed.
+            ConfigError: it cannot be done; nothing was changed.
             msgspec.ValidationError: a value does not fit; nothing was changed.
             AttributeError: there is no such property.
         """
@@ -109,46 +122,51 @@ class Session:
             case Save(path):
                 return self._save(path)
             case Export(deliver, name):
-                deliver(self._text(name))
+                return self._export(deliver, name)
         return ""
 
     def look(self) -> None:
         """Find out whether something was changed since it was saved, after commands."""
         self._is_changed = config_file.document(self.config()) != self._saved
 
-    def keep(self) -> Callable[[], None] | None:
-        """What to do so that the last state is kept, if that is wanted and anything is new.
+    def keep(self) -> None:
+        """Begin to keep the last state, if that is wanted and anything is new.
 
-        It may run in any thread, and logs what goes wrong. The file is one of its own, so a config
-        that somebody saved is never touched.
+        The file is one of its own, so a config that somebody saved is never touched.
         """
-        values, path = config_file.document(self.config()), self._autosave
-        if path is None or values == self._kept:
-            return None
+        config = self.config()
+        values = config_file.document(config)
+        is_busy = self._keeping is not None and not self._keeping.done()
+        if self._autosave is None or is_busy or values == self._kept:
+            return
         self._kept = values
-        text = config_file.dump(self.config())
+        try:
+            self._keeping = in_thread(functools.partial(_keep, config, self._autosave))
+        except OSError as error:
+            log.warning(NOT_KEPT, error.strerror)
 
-        def write() -> None:
-            try:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                config_file.write_text(text, path)
-            except (ConfigError, OSError) as error:
-                log.warning("The session is not kept: %s", error)
-
-        return write
+    def close(self) -> None:
+        """Keep the last state, if the disk responds soon."""
+        deadline = time.monotonic() + ENDING_S
+        for _ in range(2):  # what is under way may be older
+            if self._keeping is not None:
+                wait([self._keeping], max(deadline - time.monotonic(), 0.0))
+            self.keep()
+        if self._keeping is not None and wait([self._keeping], ENDING_S).not_done:
+            log.warning(NOT_KEPT, "the disk does not respond")
 
     def file(self) -> File:
         """Where this is saved, as a panel shows it."""
+        if self._listing is not None and self._listing.done():
+            self._others, self._listing = self._listing.result(), None
         path = str(self._path) if self._path else ""
         return File(path, self._is_changed, str(self._folder), self._others)
 
     def look_around(self) -> None:
-        """Find the config files of the folder."""
-        try:
-            names = [p.name for p in self._folder.iterdir() if p.suffix.lower() in SUFFIXES]
-        except OSError:
-            names = []
-        self._others = tuple(sorted(names)[:MAX_OTHERS])
+        """Begin to look for the config files of the folder; `file` has them a moment later."""
+        if self._listing is None:
+            with contextlib.suppress(OSError):
+                self._listing = in_thread(functools.partial(_config_files, self._folder))
 
     def set(self, key: str, value: Any) -> None:
         """Change a setting.
@@ -159,39 +177,59 @@ class Session:
         values = msgspec.to_builtins(self.settings) | {key: value}
         self.settings = msgspec.convert(values, Settings)
 
-    def _open(self, path: str) -> str:
+    def _open(self, path: str) -> Job[Config]:
         wanted = self._folder / path
-        self._show(config_file.load(wanted))
-        self._path = wanted
-        return f"Opened {wanted.name}."
 
-    def _load(self, text: str, name: str) -> str:
-        if config_file.is_rviz(Path(name)):
-            config = rviz.read(text, name)[0]
-        else:
-            config = config_file.parse(text, name)
-        self._show(config)
-        self._path = None
-        self._is_changed = True
-        self._saved = {}
-        return f"Opened {name}, which is not saved here yet."
+        def then(config: Config) -> str:
+            self._show(config)
+            self._path = wanted
+            self._opened()
+            return f"Opened {wanted.name}."
 
-    def _save(self, path: str) -> str:
-        if not path and self._path is None:
+        return Job(lambda: config_file.load(wanted), then)
+
+    def _load(self, text: str, name: str) -> Job[Config]:
+        def work() -> Config:
+            if config_file.is_rviz(Path(name)):
+                return rviz.read(text, name)[0]
+            return config_file.parse(text, name)
+
+        def then(config: Config) -> str:
+            self._show(config)
+            self._path = None
+            self._is_changed = True
+            self._saved = {}
+            self._opened()
+            return f"Opened {name}, which is not saved here yet."
+
+        return Job(work, then)
+
+    def _save(self, path: str) -> Job[None]:
+        target = self._folder / path if path else self._path
+        if target is None:
             raise ConfigError("This config has no file yet: give it a name.")
-        target = self._path if not path else self._folder / path
-        assert target is not None
-        config_file.save(self.config(), target)
-        self._path = target
-        self._saved = config_file.document(self.config())
-        self._is_changed = False
-        return f"Saved {target.name}."
-
-    def _text(self, name: str) -> str:
         config = self.config()
-        return (
-            rviz.write(config)[0] if config_file.is_rviz(Path(name)) else config_file.dump(config)
-        )
+
+        def then(_: None) -> str:
+            self._path = target
+            self._saved = config_file.document(config)
+            return f"Saved {target.name}."
+
+        return Job(lambda: config_file.save(config, target), then)
+
+    def _export(self, deliver: Callable[[str], None], name: str) -> Job[str]:
+        config = self.config()
+
+        def work() -> str:
+            if config_file.is_rviz(Path(name)):
+                return rviz.write(config)[0]
+            return config_file.dump(config)
+
+        def then(text: str) -> str:
+            deliver(text)
+            return ""
+
+        return Job(work, then)
 
     def _show(self, config: Config) -> None:
         self.displays.clear()
@@ -201,6 +239,23 @@ class Session:
         self.report = config.report
         self._saved = config_file.document(self.config())
         self._is_changed = False
+
+
+def _keep(config: Config, path: Path) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        config_file.write_text(config_file.dump(config), path)
+    except (ConfigError, OSError) as error:
+        log.warning(NOT_KEPT, error)
+
+
+def _config_files(folder: Path) -> tuple[str, ...]:
+    """The names of the config files in a folder, sorted, not more than can be offered."""
+    try:
+        names = [path.name for path in folder.iterdir() if path.suffix.lower() in SUFFIXES]
+    except OSError:
+        names = []
+    return tuple(sorted(names)[:MAX_OTHERS])
 
 
 def _new(type_name: str, values: dict[str, Any]) -> Display:
