@@ -117,6 +117,15 @@ def test_nested_properties_have_their_own_value() -> None:
     assert (grid.line_style, grid.line_width, grid.offset) == ("Billboards", 0.1, (1.0, 2.0, 3.0))
 
 
+def test_nested_properties_may_have_their_own_value_alone() -> None:
+    config, report = opened(
+        "- {Class: rviz_default_plugins/Odometry, Name: Odometry, Shape: Axes, Covariance: false}\n"
+    )
+    odometry: Any = config.displays[0]
+    assert (odometry.shape.value, odometry.covariance.value) == ("Axes", False)
+    assert said(report) == ""
+
+
 def test_frames_and_links_are_switched_by_name() -> None:
     tf: TF = one("Frames: {All Enabled: false, odom: {Value: true}, tb3/a b: {Value: false}}", "TF")
     assert (tf.all_enabled, tf.frames) == (False, {"odom": True, "tb3/a b": False})
@@ -250,12 +259,12 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
         ("Alpha: 7", "Alpha: 7 is out of range here, 1 is used"),
         ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: `deep` is no number"),
         ("Glow: true", "Glow: there is no such property here yet"),
-        ("Selectable: false", "Selectable: there is no such property here yet"),
+        ("Selectable: false", "Selectable: nothing can be selected in the scene yet"),
     ],
 )
 def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
-    at_line = "Scan" if what.endswith("here yet") else "Scan (line 3)"
+    at_line = "Scan" if what.endswith("yet") else "Scan (line 3)"
     assert f"{at_line}: {what}" in said(report)
 
 

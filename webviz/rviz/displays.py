@@ -16,6 +16,7 @@ from webviz.registry import display_types, type_name
 from webviz.rviz import values
 from webviz.rviz.quiet import is_without_effect
 from webviz.rviz.report import Report
+from webviz.rviz.rest import SELECTS
 from webviz.rviz.structs import Reading, struct_tree
 from webviz.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.rviz.values import Unfit
@@ -23,6 +24,8 @@ from webviz.rviz.values import Unfit
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
 NO_DISPLAY = "there is no such display here yet, it is kept for export"
 NO_PROPERTY = "there is no such property here yet, it is kept for export"
+NOT_USED = {"Selectable": SELECTS}
+"""Why properties of all displays are not used, by key."""
 
 
 @dataclass
@@ -90,7 +93,7 @@ def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Plac
     for path in _effective(tree):
         report.count("properties", path in reading.used, 1)
         if path not in reading.used and not any(path[: len(each)] == each for each in told):
-            report.note(display.name, "/".join(path), NO_PROPERTY)
+            report.note(display.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
     return display
 
 

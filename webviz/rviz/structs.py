@@ -52,6 +52,8 @@ class Reading:
     def _value(self, place: Property, raw: Any, path: Path, all: tuple[Property, ...]) -> Any:
         origin = typing.get_origin(place.kind)
         if isinstance(place.kind, type) and issubclass(place.kind, msgspec.Struct):
+            if not isinstance(raw, Mapping):  # of an old file
+                self.used.add(path)
             return self.struct(place.kind, _opened(raw), path)
         if origin is dict:
             others = {p.path[1] for p in all if p.path[0] == place.path[0] and len(p.path) > 1}
