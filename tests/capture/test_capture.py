@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 import webviz
 from webviz import Level
 from webviz.config import parse
+from webviz.nodes import Labels
 from webviz.pictures.capture import Capture
 from webviz.views import Orbit
 
@@ -169,6 +170,22 @@ def test_what_cannot_be_is_one_sentence(capture, options, sentence):
 def test_a_config_that_shows_nothing_is_refused(capture, displays):
     with pytest.raises(webviz.Error, match="The config shows nothing"):
         capture(f"fixed_frame: map\n{displays}")
+
+
+def test_a_picture_waits_for_all_letters_of_labels(studio):
+    # viser makes the letters that are new for some milliseconds a frame.
+    texts = tuple(chr(letter) * 2 for letter in range(0x3B1, 0x3F0))
+    places = np.array([(i % 8 - 4, i // 8 - 4, 0) for i in range(len(texts))], np.float32)
+    studio.look(Orbit(distance=12.0))
+    empty = studio.capture()
+    studio.scene.upsert("labels", "letters", Labels(places, texts, 0.5))
+    studio.scene.flush()
+    first = studio.capture()
+    studio.page.draw(3 * len(texts))
+    last = studio.capture()
+    studio.clear()
+    assert (last != empty).any(axis=2).sum() > 1000
+    assert (first == last).all()
 
 
 def test_a_topic_can_be_remapped(capture):

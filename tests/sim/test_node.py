@@ -403,7 +403,7 @@ def test_a_params_file_sets_parameters(robot, tmp_path):
 @pytest.mark.parametrize(
     ("args", "status", "sentence"),
     [
-        (["--ros-args", "-p", "world:=none.yaml"], 1, "Cannot read the world none.yaml: No such"),
+        (["--ros-args", "-p", "world:=none.yaml"], 1, "Cannot read the map none.yaml: No such"),
         (["--ros-args", "-p", "rate:=fast"], 1, "rate must be a number, not 'fast'."),
         (["--ros-args", "-p", "start_pose:=[1.0]"], 1, "start_pose must be [x, y, yaw] or []"),
         (["--ros-args", "--nonsense"], 1, "ROS does not start (UnknownROSArgsError)"),

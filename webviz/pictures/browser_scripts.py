@@ -37,15 +37,23 @@ HOLD = """
 """
 
 # What is unpacked makes React render, which makes effects, which may unpack more: so several quiet
-# frames in a row, each with a task of its own for React.
+# frames in a row, each with a task of its own for React. A frame that requests another is not
+# quiet: viser draws new letters of labels for at most 5 ms a frame.
 SETTLE = """
 async (milliseconds) => {
-  const {messageQueue, scene} = window.__viserMutable;
-  const {advance} = scene.__r3f.root.getState();
+  const page = window.__viserMutable;
+  const {advance} = page.scene.__r3f.root.getState();
   const deadline = performance.now() + milliseconds;
   for (let quiet = 0; quiet < 4; ) {
+    let busy = false;
+    const {requestRender} = page;
+    page.requestRender = () => {
+      busy = true;
+      requestRender();
+    };
     advance(performance.now());
-    const busy = messageQueue.length > 0 || window.webvizUnpacking.size > 0;
+    page.requestRender = requestRender;
+    busy ||= page.messageQueue.length > 0 || window.webvizUnpacking.size > 0;
     quiet = busy ? 0 : quiet + 1;
     if (performance.now() > deadline) return false;
     await new Promise((resume) => setTimeout(resume, busy ? 5 : 0));

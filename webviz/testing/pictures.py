@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +23,6 @@ from webviz.views import View
 __tracebackhide__ = True  # failures are shown where the test calls
 
 UPDATE = "--update-pictures"
-PATIENCE_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -97,8 +95,13 @@ class Photographer:
                 f"There is no {album.shown(path)}: run pytest with {UPDATE}, look at the picture, "
                 "and commit it."
             )
-        expected = masked(load(path), mask) if path.exists() else None
-        actual, share = self._compared(expected, mask, tolerance)
+        actual = masked(self.capture(), mask)
+        expected = load(path) if path.exists() else None
+        if expected is not None:
+            expected = masked(expected, mask)
+        share = 1.0
+        if expected is not None and expected.shape == actual.shape:
+            share = share_of_difference(actual, expected)
         # What still passes stays as it is: every version of a picture weighs on a clone.
         if expected is None or (album.update and share > tolerance):
             store(actual, path, few_colors=True)
@@ -106,23 +109,6 @@ class Photographer:
         elif share > tolerance:
             raise AssertionError(self._complaint(name, path, share, actual, expected))
         self._check_each(name, displays, mask, tolerance, expected)
-
-    def _compared(
-        self, expected: Pixels | None, mask: Sequence[Box], tolerance: float
-    ) -> tuple[Pixels, float]:
-        """What is drawn, and the share of it that differs at last.
-
-        Browsers make the letters of labels in a worker, and nothing tells when they are there: so
-        what differs is drawn again for a while.
-        """
-        deadline = time.monotonic() + PATIENCE_S
-        while True:
-            actual = masked(self.capture(), mask)
-            share = 1.0
-            if expected is not None and expected.shape == actual.shape:
-                share = share_of_difference(actual, expected)
-            if share <= tolerance or expected is None or time.monotonic() > deadline:
-                return actual, share
 
     def _check_each(
         self,
