@@ -161,8 +161,17 @@ class Group:
 class Background(Protocol):
     """Runs slow work beside the frame loop."""
 
-    def __call__(self, key: object, fn: Callable[..., Any], *args: Any) -> Any:
-        """The result of `fn(*args)` if it is there, else None."""
+    def __call__(
+        self,
+        key: object,
+        fn: Callable[..., Any],
+        *args: Any,
+        stop: Callable[[], None] | None = None,
+    ) -> Any:
+        """The result of `fn(*args)` if it is there, else None.
+
+        `stop` is called from any thread once the result is not wanted any more, to end `fn`.
+        """
         ...
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import msgspec
 
 from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
-from webviz_displays.robot_loading import Description, Loading, describe_file
+from webviz_displays.robot_loading import load, progress, request_file
 from webviz_displays.robot_parts import Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_displays.robot_statuses import (
     NAMED,
@@ -20,7 +20,7 @@ from webviz_displays.robot_statuses import (
     report_strangers,
 )
 from webviz_displays.trails import Trails
-from webviz_urdf import Robot, RobotDescriptionError
+from webviz_urdf import Request, Robot, RobotDescriptionError
 
 SECOND = 1_000_000_000
 
@@ -80,7 +80,10 @@ class RobotModel(Display):
     ] = ""
     package_paths: Annotated[
         list[str],
-        Prop(help="Folders with ROS packages; searched for meshes before AMENT_PREFIX_PATH."),
+        Prop(
+            help="Folders with ROS packages, in which meshes are searched before those on "
+            "AMENT_PREFIX_PATH. Files outside packages need --mesh-root."
+        ),
     ] = msgspec.field(default_factory=list)
     visual_enabled: Annotated[bool, Prop(help="Draw the links' visual shapes.")] = True
     collision_enabled: Annotated[bool, Prop(help="Draw the links' collision shapes.")] = False
@@ -116,8 +119,8 @@ class RobotModel(Display):
         Which were lost when it was drawn counts too: a robot just loaded has never been asked.
         """
         model: _Model | None = ctx.state.get("model")
-        progress = [loading.text for loading in ctx.state.get("loading", {}).values()]
-        return progress, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
+        loading = [progress(loading) for loading in ctx.state.get("loading", {}).values()]
+        return loading, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the robot there is; each link moves with its frame."""
@@ -186,12 +189,14 @@ class RobotModel(Display):
     def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
         """The robot as described; until a new one is loaded, the one there was."""
         before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
-        description = self._description(samples, ctx)
-        if description is None:
+        request = self._request(samples, ctx)
+        if request is None:
             return None
         try:
-            robot = _load(description, False, before, ctx)
-            full = _load(description, True, before, ctx) if self.collision_enabled else None
+            robot = load(request, before, ctx)
+            full = None
+            if self.collision_enabled:
+                full = load(replace(request, collisions=True), before, ctx)
         except RobotDescriptionError as error:
             ctx.error("URDF", str(error))
             return None
@@ -205,27 +210,14 @@ class RobotModel(Display):
         shown = tuple(link for link in robot.links if choices.of(link).enabled)
         return _Model(robot, full, prefix, shown)
 
-    def _description(self, samples: Sequence[Sample], ctx: Context) -> Description | None:
+    def _request(self, samples: Sequence[Sample], ctx: Context) -> Request | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
             if self.description_file:
-                return describe_file(self.description_file, paths)
+                return request_file(self.description_file, paths)
             ctx.warn("URDF", "No description file is chosen.")
             return None
         if samples:
-            return Description(text=samples[-1].message.data, package_paths=paths)
+            return Request(text=samples[-1].message.data, package_paths=paths)
         ctx.warn("URDF", f"No robot description yet on {self.description_topic.name}.")
         return None
-
-
-def _load(
-    description: Description, collisions: bool, before: dict[object, Loading], ctx: Context
-) -> Robot | None:
-    """The robot, None while it is being loaded; `before` is what was being loaded so far."""
-    key = (description, collisions)
-    loading = before.get(key) or Loading()
-    robot = ctx.background(key, description.load, collisions, loading)
-    if robot is None:
-        ctx.state["loading"][key] = loading
-        ctx.warn("Loading", loading.text)
-    return robot

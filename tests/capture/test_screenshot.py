@@ -15,7 +15,8 @@ import PIL.Image
 import PIL.ImageSequence
 import psutil
 import pytest
-from bags import strings
+import trimesh
+from bags import Bag, strings
 from program import Program
 
 from webviz.cli import main as cli
@@ -125,6 +126,23 @@ def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path):
     assert table[0].startswith("  WARN   Scan  Nobody publishes /scann; ")
 
 
+def test_meshes_below_a_mesh_root_are_drawn(tmp_path):
+    mesh = tmp_path / "meshes" / "box.stl"
+    mesh.parent.mkdir()
+    trimesh.creation.box().export(mesh)
+    geometry = f"<geometry><mesh filename='file://{mesh}'/></geometry>"
+    bag = Bag()
+    bag.add("/robot_description", "std_msgs/msg/String", latched=True)
+    text = f"<robot name='r'><link name='box'><visual>{geometry}</visual></link></robot>"
+    bag.put(0.0, "/robot_description", {"data": text})
+    bag.transform(0.0, "map", "box", static=True)
+    config = tmp_path / "robot.yaml"
+    config.write_text("{fixed_frame: map, displays: [{type: RobotModel, name: Robot}]}")
+    given = ["-d", str(config), "--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
+    result = run_in(tmp_path, *given, "--mesh-root", str(mesh.parent))
+    assert result.returncode == 0, result.stderr
+
+
 def test_help_tells_every_exit_status(capsys):
     assert cli(["screenshot", "--help"]) == 0
     text = capsys.readouterr().out
@@ -140,6 +158,7 @@ def test_help_tells_every_exit_status(capsys):
         (["--bag", "RUN", "-o", "nowhere/a.png"], "Cannot write nowhere/a.png"),
         (["--bag", "RUN", "-o", "a.bmp"], "no ending of a picture"),
         (["--bag", "RUN", "--wait-for", "Scam"], "did you mean `Scan`?"),
+        (["--bag", "RUN", "--mesh-root", "nowhere"], "--mesh-root nowhere is not a folder"),
     ],
 )
 def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, sentence):

@@ -1,16 +1,17 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
-import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from psutil import Process, wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
 
 import webviz_urdf
-from webviz_displays import robot_loading
+from webviz.pipeline.background import Workers
 from webviz_displays.robot_model import RobotModel
+from webviz_urdf import Loading, LoadingStopped, Request
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 PACKAGES = [str(Path(webviz_urdf.__file__).parent.parent)]
@@ -24,6 +25,22 @@ MESHES = """
   </link>
 </robot>
 """
+
+
+@pytest.fixture
+def slow_arm(tmp_path, monkeypatch) -> str:
+    """The arm with a mesh that takes more than a second to read."""
+    monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
+    corners = np.random.default_rng(0).random((60_000, 9)).round(3)
+    lines = [
+        f"v {a} {b} {c}\nv {d} {e} {f}\nv {g} {h} {i}" for a, b, c, d, e, f, g, h, i in corners
+    ]
+    lines += [f"f {n} {n + 1} {n + 2}" for n in range(1, 3 * len(corners), 3)]
+    (tmp_path / "slow.obj").write_text("\n".join(lines))
+    return ARM.replace(
+        '<origin xyz="0 0 2"/><geometry><box size="1 1 1"/>',
+        f"<geometry><mesh filename='{tmp_path}/slow.obj'/>",
+    )
 
 
 def test_links_stand_where_their_transforms_say_and_shapes_where_the_links_say(bench) -> None:
@@ -68,24 +85,39 @@ def test_until_a_description_comes_the_topic_is_named(bench) -> None:
     assert at.statuses()["URDF"] == ("WARN", "No robot description yet on /robot_description.")
 
 
-def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, monkeypatch) -> None:
-    go_on = threading.Event()
-
-    def load_slowly(text, resolver, progress, collisions):
-        progress(1, 2, "tool")
-        assert go_on.wait(20)
-        return webviz_urdf.load_robot(text, resolver, progress, collisions)
-
-    monkeypatch.setattr(robot_loading, "load_robot", load_slowly)
+def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, slow_arm) -> None:
     at = bench(RobotModel())
     place_arm(at)
-    at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+    at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
     wait(at, lambda: "tool" in at.statuses()["Loading"][1])
     assert at.statuses()["Loading"] == ("WARN", "Loading: 1 of 2 shapes, at link 'tool'.")
     assert at.nodes() == {}
-    go_on.set()
     wait(at, lambda: is_loaded(at))
     assert len(at.nodes()) == 2
+
+
+def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
+    wait(at, lambda: "tool" in at.statuses()["Loading"][1])
+    hanging = [child for child in Process().children() if "loader" in str(child.cmdline())]
+    for process in hanging:
+        process.suspend()
+    describe(at, ARM)
+    assert "tool visual grip" in at.nodes()
+    _, alive = wait_procs(hanging, timeout=20)
+    assert not alive
+
+
+def test_no_loading_outlives_the_viewer(slow_arm) -> None:
+    workers = Workers(lambda: None)
+    loading = Loading(Request(text=slow_arm))
+    future = workers.submit(loading.run, stop=loading.stop)
+    while loading.at[2] != "tool":
+        time.sleep(0.005)
+    workers.close()
+    assert isinstance(future.exception(), LoadingStopped)
 
 
 def test_an_identical_description_is_not_loaded_again(bench) -> None:

@@ -59,7 +59,7 @@ def glb(tmp_path: Path) -> Glb:
     robot = load_robot(
         "<robot name='m'><link name='base'><visual><geometry><mesh filename='two.obj'/></geometry>"
         "</visual></link></robot>",
-        Resolver(base=tmp_path),
+        Resolver([tmp_path], base=tmp_path),
     )
     (shape,) = robot.links["base"].visuals
     assert isinstance(shape.node, Glb)

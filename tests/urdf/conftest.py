@@ -77,13 +77,23 @@ def tetrahedron_dae() -> Callable[..., str]:
 
 
 @pytest.fixture
+def slow_dae(tmp_path: Path, tetrahedron_dae: Callable[..., str]) -> Path:
+    """A COLLADA file that takes more than a second to read."""
+    corners = "0 0 2 2 1 1 0 0 1 1 3 3 0 0 3 3 2 2 1 1 2 2 3 3 "
+    text = tetrahedron_dae().replace(corners.strip(), corners * 100_000)
+    path = tmp_path / "slow.dae"
+    path.write_text(text.replace('count="4">\n      <input', 'count="400000">\n      <input'))
+    return path
+
+
+@pytest.fixture
 def textured_effect() -> str:
     return TEXTURED
 
 
 @pytest.fixture
 def load() -> Callable[..., Robot]:
-    """Loads URDF text with no packages but those of the given roots."""
+    """Loads URDF text with no files but those of the given mesh roots."""
 
     def load(text: str, *roots: Path) -> Robot:
         return load_robot(text, Resolver(roots, ament_prefix_path=""))
@@ -98,7 +108,8 @@ def one_mesh(load: Callable[..., Robot]) -> Callable[..., Robot]:
     def make(path: Path, mesh: str = "", material: str = "") -> Robot:
         return load(
             f'<robot name="r"><link name="l"><visual><geometry><mesh filename="{path}" {mesh}/>'
-            f"</geometry>{material}</visual></link></robot>"
+            f"</geometry>{material}</visual></link></robot>",
+            path.parent,
         )
 
     return make

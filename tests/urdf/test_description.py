@@ -245,7 +245,7 @@ def test_a_file_finds_meshes_beside_it(tmp_path, as_trimesh):
     path = tmp_path / "r.urdf"
     mesh = "<visual><geometry><mesh filename='m.obj'/></geometry></visual>"
     path.write_text(f"\ufeff<robot name='r'><link name='l'>{mesh}</link></robot>", "utf-8")
-    (shape,) = load_file(path).links["l"].visuals
+    (shape,) = load_file(path, Resolver([tmp_path])).links["l"].visuals
     assert as_trimesh(shape.node).extents.tolist() == [1, 1, 0]
 
 

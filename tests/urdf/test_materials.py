@@ -51,6 +51,19 @@ def test_a_material_that_is_defined_nowhere_is_red_and_named(load, colors):
     assert "'ghost' of link 'l0'" in load(text).warnings[0]
 
 
+def test_no_default_colour_is_announced_for_a_mesh_that_brings_its_own(
+    load, tmp_path, tetrahedron_dae
+):
+    path = tmp_path / "t.dae"
+    path.write_text(tetrahedron_dae())
+    mesh = f"<geometry><mesh filename='{path}'/></geometry><material name='gone'/>"
+    robot = load(links(f"<visual>{mesh}</visual>"), tmp_path)
+    assert robot.links["l0"].visuals[0].node.color == GREEN
+    assert robot.warnings == ()
+    path.write_text(tetrahedron_dae(bound=False))
+    assert "'gone'" in load(links(f"<visual>{mesh}</visual>"), tmp_path).warnings[0]
+
+
 def test_a_material_of_the_robot_is_used_by_name_before_and_after_it_is_defined(colors):
     blue = material("m", "0 0 1 1")
     assert colors(links(visual(material("m")), before=blue)) == [BLUE]
@@ -106,7 +119,7 @@ def test_a_texture_covers_a_box_and_colours_a_sphere(load, tmp_path):
     Image.new("RGB", (4, 4), BLUE).save(tmp_path / "blue.png")
     texture = f"<material name='m'><texture filename='file://{tmp_path}/blue.png'/></material>"
     ball = f"<visual><geometry><sphere radius='1'/></geometry>{texture}</visual>"
-    box, sphere = load(links(visual(texture) + ball)).links["l0"].visuals
+    box, sphere = load(links(visual(texture) + ball), tmp_path).links["l0"].visuals
     assert isinstance(box.node, Glb)
     assert b"image/png" in box.node.data
     assert isinstance(sphere.node, Mesh)
@@ -120,6 +133,6 @@ def test_a_texture_that_is_not_there_or_no_picture_leaves_the_colour_and_is_name
             f"<material name='m'><color rgba='0 1 0 1'/><texture filename='{tmp_path}/{name}'/>"
             "</material>"
         )
-        robot = load(links(visual(text)))
+        robot = load(links(visual(text)), tmp_path)
         assert robot.links["l0"].visuals[0].node.color == GREEN
         assert name in robot.warnings[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import zipfile
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from trimesh.exchange.ply import export_ply
 from trimesh.visual import ColorVisuals
 
 from webviz.nodes import Glb, Mesh
-from webviz_urdf import Resolver, load_robot
+from webviz_urdf import Resolver, build, load_robot, meshes
 
 URDF_BLUE = "<material name='b'><color rgba='0 0 1 1'/></material>"
 
@@ -184,7 +185,7 @@ def test_vertex_colours_are_kept_in_a_glb(tmp_path, one_mesh, only_node):
 def test_a_mesh_used_again_is_the_same_node(load, stl):
     mesh = f"<visual><geometry><mesh filename='{stl}'/></geometry></visual>"
     other = f"<visual><geometry><mesh filename='{stl}' scale='2 2 2'/></geometry></visual>"
-    robot = load(f"<robot name='r'><link name='l'>{mesh}{mesh}{other}</link></robot>")
+    robot = load(f"<robot name='r'><link name='l'>{mesh}{mesh}{other}</link></robot>", stl.parent)
     first, second, third = (shape.node for shape in robot.links["l"].visuals)
     assert first is second
     assert first is not third
@@ -213,6 +214,63 @@ def test_a_broken_mesh_file_is_missing_with_a_reason_in_one_line(tmp_path, one_m
     (missing,) = one_mesh(path).missing
     assert name in missing.reason
     assert "\n" not in missing.reason
+
+
+@pytest.mark.parametrize("name", ["a.zae", "a.zip", "a.3mf", "a.stl.gz"])
+def test_archives_are_refused_and_the_formats_named(tmp_path, one_mesh, name):
+    path = tmp_path / name
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("a.dae", "<COLLADA/>")
+    (missing,) = one_mesh(path).missing
+    assert "unsupported mesh format" in missing.reason
+    assert "Convert it to one of dae, stl, obj" in missing.reason
+
+
+def test_a_mesh_of_too_many_bytes_or_triangles_is_missing(tmp_path, one_mesh, stl, monkeypatch):
+    monkeypatch.setattr(meshes, "MAX_TRIANGLES", 11)
+    assert "has 12 triangles; the limit is 11" in one_mesh(stl).missing[0].reason
+    with stl.open("ab") as file:
+        file.truncate(meshes.MAX_BYTES + 1)
+    assert "is larger than 128 MB" in one_mesh(stl).missing[0].reason
+
+
+def test_shapes_beyond_the_size_of_a_robot_are_missing(load, stl, monkeypatch):
+    node = f"<visual><geometry><mesh filename='{stl}'/></geometry></visual>"
+    text = f"<robot name='r'><link name='l'>{3 * node}</link></robot>"
+    (shape, *_) = load(text, stl.parent).links["l"].visuals
+    size = shape.node.vertices.nbytes + shape.node.faces.nbytes
+    monkeypatch.setattr(build, "MAX_BYTES", 2 * size)
+    robot = load(text, stl.parent)
+    assert len(robot.links["l"].visuals) == 2
+    assert "Simplify its meshes" in robot.missing[0].reason
+
+
+def test_a_picture_of_too_many_pixels_is_not_decoded_and_the_body_is_shown(
+    tmp_path, load, only_node, tetrahedron_dae, textured_effect
+):
+    Image.new("1", (12000, 12000)).save(tmp_path / "p.png")
+    path = tmp_path / "t.dae"
+    path.write_text(tetrahedron_dae(effects=textured_effect, image="p.png"))
+    wall = f"<material name='w'><texture filename='{tmp_path}/p.png'/></material>"
+    for visual in (
+        f"<visual><geometry><mesh filename='{path}'/></geometry></visual>",
+        f"<visual><geometry><box size='1 1 1'/></geometry>{wall}</visual>",
+    ):
+        robot = load(f"<robot name='r'><link name='l'>{visual}</link></robot>", tmp_path)
+        assert isinstance(only_node(robot), Mesh)
+        assert "has 144 megapixels; the limit is 67 megapixels" in robot.warnings[0]
+
+
+def test_a_texture_outside_of_packages_and_mesh_roots_is_refused_with_the_remedy(
+    tmp_path, one_mesh, only_node, tetrahedron_dae, textured_effect
+):
+    (tmp_path / "root").mkdir()
+    Image.new("RGB", (3, 5)).save(tmp_path / "p.png")
+    path = tmp_path / "root/t.dae"
+    path.write_text(tetrahedron_dae(effects=textured_effect, image="../p.png"))
+    robot = one_mesh(path)
+    assert isinstance(only_node(robot), Mesh)
+    assert f"Start webviz with --mesh-root {tmp_path} to allow it." in robot.warnings[0]
 
 
 def test_a_mesh_with_corners_at_infinity_is_missing(tmp_path, one_mesh):

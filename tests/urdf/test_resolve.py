@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -106,10 +107,71 @@ def test_symbolic_links_of_a_symlink_install_are_followed(tmp_path):
     assert resolver.resolve("package://pkg/meshes/a.stl").is_file()
 
 
-def test_file_uris_and_absolute_paths_name_files_of_this_machine(tmp_path):
+@pytest.mark.parametrize("name", ["{}/secret", "file://{}/secret", "file://{}/pkg/../secret"])
+def test_what_lies_outside_is_refused_and_the_remedy_named(tmp_path, name):
+    package(tmp_path / "pkg", "pkg")
+    (tmp_path / "secret").write_text("secret")
+    resolver = Resolver([tmp_path / "pkg"], ament_prefix_path="")
+    with pytest.raises(ResolveError, match=f"--mesh-root {tmp_path} to allow it") as caught:
+        resolver.resolve(name.format(tmp_path))
+    (tmp_path / "secret").unlink()
+    with pytest.raises(ResolveError) as again:
+        resolver.resolve(name.format(tmp_path))
+    assert str(caught.value) == str(again.value)  # whether it exists is not said
+
+
+@pytest.mark.parametrize("name", ["package://pkg/link", "{}/pkg/link", "{}/pkg/folder/secret"])
+def test_a_symbolic_link_out_of_a_package_is_refused(tmp_path, name):
+    package(tmp_path / "pkg", "pkg")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere/secret").write_text("secret")
+    (tmp_path / "pkg/link").symlink_to(tmp_path / "elsewhere/secret")
+    (tmp_path / "pkg/folder").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(ResolveError, match=r"a link to .*/secret, lies outside"):
+        Resolver([tmp_path / "pkg"], ament_prefix_path="").resolve(name.format(tmp_path))
+
+
+def test_files_of_a_known_package_are_opened_and_those_of_a_strange_one_are_not(tmp_path):
+    package(tmp_path / "src/pkg", "pkg")
+    package(tmp_path / "src/strange", "strange")
+    package(tmp_path / "prefix/share/pkg", "pkg")
+    resolver = Resolver(ament_prefix_path=str(tmp_path / "prefix"))
+    assert resolver.resolve(f"file://{tmp_path}/src/pkg/meshes/a.stl").is_file()
+    with pytest.raises(ResolveError, match="lies outside"):
+        resolver.resolve(f"file://{tmp_path}/src/strange/meshes/a.stl")
+
+
+def test_a_package_path_leads_to_packages_and_to_nothing_else(tmp_path):
+    package(tmp_path / "src/pkg", "pkg")
+    (tmp_path / "src/private").mkdir()
+    (tmp_path / "src/private/a.stl").touch()
+    resolver = Resolver([], ament_prefix_path="", package_paths=[tmp_path / "src"])
+    assert resolver.resolve("package://pkg/meshes/a.stl").is_file()
+    with pytest.raises(ResolveError, match="'private' is neither"):
+        resolver.resolve("package://private/a.stl")
+    with pytest.raises(ResolveError, match="lies outside"):
+        resolver.resolve(str(tmp_path / "src/private/a.stl"))
+
+
+def test_the_environment_gives_the_mesh_roots_by_default(tmp_path, monkeypatch):
+    (tmp_path / "a.stl").touch()
+    monkeypatch.setenv("WEBVIZ_MESH_ROOT", f"/nowhere:{tmp_path}")
+    assert Resolver().resolve(str(tmp_path / "a.stl")).is_file()
+
+
+def test_a_fifo_is_neither_a_mesh_nor_the_description_of_a_package(tmp_path):
+    package(tmp_path / "pkg", "pkg")
+    os.mkfifo(tmp_path / "pkg/meshes/pipe.stl")
+    (tmp_path / "odd").mkdir()
+    os.mkfifo(tmp_path / "odd/package.xml")
+    with pytest.raises(ResolveError, match="There is no file"):
+        Resolver([tmp_path], ament_prefix_path="").resolve("package://pkg/meshes/pipe.stl")
+
+
+def test_file_uris_and_absolute_paths_name_files_of_mesh_roots(tmp_path):
     file = tmp_path / "with space.stl"
     file.touch()
-    resolver = Resolver(ament_prefix_path="")
+    resolver = Resolver([tmp_path], ament_prefix_path="")
     assert resolver.resolve(str(file)) == file
     assert resolver.resolve(f"file://{file}") == file
     assert resolver.resolve(file.as_uri()) == file  # %20
@@ -119,7 +181,7 @@ def test_file_uris_and_absolute_paths_name_files_of_this_machine(tmp_path):
 def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
     (tmp_path / "a.stl").touch()
     (tmp_path / "urdf").mkdir()
-    resolver = Resolver(ament_prefix_path="")
+    resolver = Resolver([tmp_path], ament_prefix_path="")
     assert resolver.relative_to(tmp_path / "urdf").resolve("../a.stl").is_file()
     with pytest.raises(ResolveError, match="came by topic"):
         resolver.resolve("a.stl")
@@ -133,8 +195,8 @@ def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
         ("model://a/b.dae", "begins with model://"),
         ("", "empty"),
         ("package://nowhere/a.stl", "'nowhere' is neither on AMENT_PREFIX_PATH"),
-        ("/nowhere/a.stl", "There is no file /nowhere/a.stl"),
-        ("/", "no file /"),
+        ("/nowhere/a.stl", "lies outside all ROS packages and mesh roots. Start webviz with"),
+        ("/", "lies outside"),
         ("/" + "x" * 5000, "not a usable path"),
         ("file://[/a", "not a usable path"),
     ],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import yourdfpy
@@ -20,12 +20,21 @@ from webviz_urdf.robot import Inertial, Link, Missing, Robot, Shape
 Progress = Callable[[int, int, str], None]
 """Called with the number of shapes done, their total, and the name of the link at work."""
 
+MAX_BYTES = 256 << 20
+"""Of all shapes of a robot, as every browser is sent them."""
+
+MAX_SHAPES = 10_000
+
 
 def build_robot(
-    description: Description, resolver: Resolver, progress: Progress | None, collisions: bool
+    description: Description,
+    resolver: Resolver,
+    progress: Progress | None,
+    collisions: bool,
+    skip: Mapping[int, str],
 ) -> Robot:
     """Read every mesh that the description names; what fails is listed in `Robot.missing`."""
-    return _Builder(description, resolver, progress, collisions).build()
+    return _Builder(description, resolver, progress, collisions, skip).build()
 
 
 class _Builder:
@@ -35,6 +44,7 @@ class _Builder:
         resolver: Resolver,
         progress: Progress | None,
         collisions: bool,
+        skip: Mapping[int, str],
     ) -> None:
         self._description = description
         self._collisions = collisions
@@ -46,6 +56,9 @@ class _Builder:
         self._missing = [m for m in description.missing if collisions or m.kind == "visual"]
         self._warnings: dict[str, None] = {}
         self._progress = progress or (lambda done, total, link: None)
+        self._skip = skip
+        self._refused: dict[str, str] = {}
+        self._bytes = 0
         self._done = 0
         self._total = sum(
             len(link.visuals) + (len(link.collisions) if collisions else 0)
@@ -90,33 +103,61 @@ class _Builder:
     ) -> tuple[Shape, ...]:
         shapes: dict[str, Shape] = {}
         for index, (element, material) in enumerate(elements):
-            self._progress(self._done, self._total, link)
+            number = self._done
+            self._progress(number, self._total, link)
             self._done += 1
             name = element.name or f"{kind}_{index}"
             while name in shapes:
                 name = f"{name}_{index}"
             geometry = element.geometry or yourdfpy.Geometry()
+            uri = geometry.mesh.filename if geometry.mesh is not None else ""
             try:
+                self._refuse(number, uri)
                 node = self._node(geometry, material)
+                self._count(node)
             except (ResolveError, MeshError) as error:
-                uri = geometry.mesh.filename if geometry.mesh is not None else ""
                 self._missing.append(Missing(link, uri, str(error), kind))
                 continue
             shapes[name] = Shape(name, pose_of(element.origin), node)
         return tuple(shapes.values())
 
+    def _refuse(self, number: int, uri: str) -> None:
+        """Raise for what shall not be read: a shape, and all others with the same mesh."""
+        reason = self._skip.get(number) or self._refused.get(uri)
+        if reason is not None:
+            if uri:
+                self._refused[uri] = reason
+            raise MeshError(f"{uri or 'The shape'} is left out. {reason}")
+        if number >= MAX_SHAPES:
+            raise MeshError(f"The robot has more than {MAX_SHAPES} shapes.")
+
+    def _count(self, node: Mesh | Glb) -> None:
+        """Raise if the robot is larger with a node than a robot may be."""
+        size = len(node.data) if isinstance(node, Glb) else node.vertices.nbytes + node.faces.nbytes
+        if self._bytes + size > MAX_BYTES:
+            raise MeshError(
+                f"With this shape the robot has more than {MAX_BYTES >> 20} MB of triangles and "
+                "textures. Simplify its meshes."
+            )
+        self._bytes += size
+
     def _node(self, geometry: yourdfpy.Geometry, material: Material) -> Mesh | Glb:
         """The node of a geometry; one object for all that look alike."""
         if geometry.mesh is None:
-            return self._dresser.dress((_primitive(geometry),), material)
+            part = _primitive(geometry)
+            self._warn(material.warning)
+            return self._dresser.dress((part,), material)
         path = self._resolver.resolve(geometry.mesh.filename)
         file = self._library.load(path, _scale(geometry.mesh.scale))
-        self._warnings.update(dict.fromkeys(file.warnings))
         brings_its_own = all(part.surface for part in file.parts)
+        self._warn(*file.warnings, *(() if brings_its_own else (material.warning,)))
         key = (id(file), DEFAULT if brings_its_own else material)
         if key not in self._nodes:
             self._nodes[key] = self._dresser.dress(file.parts, material)
         return self._nodes[key]
+
+    def _warn(self, *sentences: str) -> None:
+        self._warnings.update(dict.fromkeys(filter(None, sentences)))
 
 
 def _primitive(geometry: yourdfpy.Geometry) -> Part:

@@ -11,7 +11,7 @@ from webviz.nodes import Glb, Mesh
 from webviz_urdf.glb import OPAQUE, Part, Surface, write_glb
 from webviz_urdf.materials import Material
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.textures import encode, mean_color, open_image
+from webviz_urdf.textures import TextureError, encode, mean_color, open_image
 
 
 class Dresser:
@@ -57,10 +57,8 @@ class Dresser:
             try:
                 image = open_image(self._resolver.resolve(uri))
                 self._pictures[uri] = encode(image), mean_color(image)
-            except ResolveError as error:
-                self.warnings.append(f"A material's texture is not drawn: {error}")
-            except (OSError, ValueError) as error:
-                self.warnings.append(f"The texture '{uri}' is no readable picture ({error}).")
+            except (ResolveError, TextureError) as error:
+                self.warnings.append(f"A material's texture is not drawn. {error}")
         return self._pictures[uri]
 
 

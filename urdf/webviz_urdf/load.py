@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from webviz_urdf.build import Progress, build_robot
 from webviz_urdf.description import parse_description
+from webviz_urdf.files import read_file
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
+
+MAX_BYTES = 16 << 20
+"""Of a description's file."""
 
 
 def load_robot(
@@ -15,6 +21,7 @@ def load_robot(
     resolver: Resolver,
     progress: Progress | None = None,
     collisions: bool = True,
+    skip: Mapping[int, str] = MappingProxyType({}),
 ) -> Robot:
     """Load a robot from URDF text, as `/robot_description` has it.
 
@@ -25,11 +32,12 @@ def load_robot(
         resolver: finds meshes and textures.
         progress: called before each shape and once at the end.
         collisions: False leaves collision shapes unread.
+        skip: why shapes are not to be read, by the numbers that `progress` is given.
 
     Raises:
         RobotDescriptionError: the text is not a robot; one sentence says why.
     """
-    return build_robot(parse_description(description), resolver, progress, collisions)
+    return build_robot(parse_description(description), resolver, progress, collisions, skip)
 
 
 def load_file(
@@ -37,6 +45,7 @@ def load_file(
     resolver: Resolver | None = None,
     progress: Progress | None = None,
     collisions: bool = True,
+    skip: Mapping[int, str] = MappingProxyType({}),
 ) -> Robot:
     """Load a robot from a URDF file, or a xacro file if the `xacro` package is there.
 
@@ -46,12 +55,12 @@ def load_file(
     path = Path(path)
     text = _expand(path) if path.suffix.lower() == ".xacro" else _read(path)
     resolver = (resolver or Resolver()).relative_to(path.absolute().parent)
-    return load_robot(text, resolver, progress, collisions)
+    return load_robot(text, resolver, progress, collisions, skip)
 
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return read_file(path, MAX_BYTES).decode("utf-8-sig")
     except OSError as error:
         raise RobotDescriptionError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:

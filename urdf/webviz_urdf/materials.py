@@ -8,7 +8,7 @@ drawn in RViz's ShadedRed; where urdfdom refuses the whole robot for the latter,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import yourdfpy
 
@@ -23,10 +23,12 @@ class Material:
     Args:
         rgba: 0 to 1, sRGB.
         texture: URI of an image, empty without one.
+        warning: a sentence for whoever wears it, empty if all is well.
     """
 
     rgba: Rgba = SHADED_RED
     texture: str = ""
+    warning: str = field(default="", compare=False)
 
 
 DEFAULT = Material()
@@ -56,13 +58,10 @@ class Materials:
             return DEFAULT
         if material.name in self._by_name:
             return self._by_name[material.name]
-        own = _definition(material)
-        if own is None:
-            self.warnings.append(
-                f"Material '{material.name or ''}' of link '{link}' is defined nowhere; "
-                "it is drawn red."
-            )
-        return own or DEFAULT
+        return _definition(material) or Material(
+            warning=f"Material '{material.name or ''}' of link '{link}' is not defined. The "
+            "default red is used."
+        )
 
     def of_collisions(self, link: yourdfpy.Link) -> Material:
         """What the collisions of a link wear: RViz gives them its first visual's material."""

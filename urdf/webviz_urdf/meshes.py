@@ -13,14 +13,21 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from webviz.nodes import U8
 from webviz_urdf.dae import without_broken_materials
+from webviz_urdf.files import read_file
 from webviz_urdf.glb import Part, Surface
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.textures import TextureFolder, encode
 
 Scale = tuple[float, float, float]
 
-MAX_FILE_SIZE = 512 * 2**20
-"""Bytes of a mesh file; a larger one is refused rather than stalling the viewer."""
+MAX_BYTES = 128 << 20
+"""Of a mesh file; a larger one is refused rather than stalling the viewer."""
+
+MAX_TRIANGLES = 2_000_000
+"""Of a mesh file, five times as many as the finest robots of the wild have altogether."""
+
+FORMATS = ("dae", "stl", "obj", "ply", "off", "glb", "gltf")
+"""No archives: a small one may hold any amount."""
 
 
 class MeshError(Exception):
@@ -73,31 +80,41 @@ class MeshLibrary:
 
 
 def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
-    """Read a mesh file of any format that trimesh knows.
+    """Read a mesh file of one of `FORMATS`.
 
     A COLLADA file's unit is applied and its up axis is not, as in RViz, which tells Assimp to
     ignore it. Faces keep the shading that their file gives them.
 
     Raises:
-        MeshError: it cannot be read, or has no triangles.
+        MeshError: it cannot be read, has no triangles or too many, or is an archive.
     """
     suffix = path.suffix.lower().lstrip(".")
-    if suffix not in trimesh.available_formats():
-        raise MeshError(f"{path} has the unknown mesh format '.{suffix}'.")
+    if suffix not in FORMATS:
+        raise MeshError(
+            f"{path} has the unsupported mesh format '.{suffix}'. "
+            f"Convert it to one of {', '.join(FORMATS)}."
+        )
     textures = TextureFolder(path.parent, resolver)
     try:
-        size = path.stat().st_size
-        if size > MAX_FILE_SIZE:
-            raise MeshError(f"{path} has {size / 2**20:.0f} MB, more than the viewer loads.")
-        parts, broken = _read(path.read_bytes(), suffix, textures)
-    except MeshError:
-        raise
+        parts, broken = _read(read_file(path, MAX_BYTES), suffix, textures)
+    except OSError as error:
+        raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
+    except MemoryError as error:
+        raise MeshError(f"{path} needs more memory than loading may take.") from error
     except Exception as error:
         # Third-party parsers answer a broken file with any exception there is.
         raise MeshError(f"{path} cannot be read as a mesh: {_one_line(error)}.") from error
     if not parts:
         raise MeshError(f"{path} has no triangles.")
-    warnings = [f"'{name}', which {path} names, is not found." for name in textures.not_found]
+    triangles = sum(len(part.faces) for part in parts)
+    if triangles > MAX_TRIANGLES:
+        raise MeshError(
+            f"{path} has {triangles} triangles; the limit is {MAX_TRIANGLES}. Simplify the mesh."
+        )
+    warnings = [
+        f"'{name}', which {path} names, is not drawn. {reason}"
+        for name, reason in textures.refused.items()
+    ]
     warnings += [f"Material '{name}' of {path} is not completely defined." for name in broken]
     return MeshFile(tuple(parts), tuple(warnings))
 
@@ -134,7 +151,7 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[Part]:
         transform, name = scene.graph[node]
         mesh = scene.geometry[name]
         if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
-            unit = _unit_metres(mesh) if suffix in ("dae", "zae") else 1.0
+            unit = _unit_metres(mesh) if suffix == "dae" else 1.0
             parts.append(_part(mesh, np.asarray(transform, np.float64), unit))
     return parts
 

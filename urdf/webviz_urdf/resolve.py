@@ -7,6 +7,7 @@ this machine call out.
 
 from __future__ import annotations
 
+import copy
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -14,8 +15,12 @@ from functools import cached_property
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from webviz_urdf.files import read_file
+
 _SKIPPED_FOLDERS = {"build", "install", "log", "node_modules", "__pycache__"}
-_PACKAGE_NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_PACKAGE_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+_PACKAGE_XML_BYTES = 1 << 20
+_LONGEST = 4096  # characters of a path on Linux
 
 
 class ResolveError(Exception):
@@ -23,30 +28,37 @@ class ResolveError(Exception):
 
 
 class Resolver:
-    """Finds the files that a robot description names.
+    """Finds the files that a robot description names, in ROS packages and mesh roots only.
 
-    A `package://` URI is looked up in the user's roots first, then on AMENT_PREFIX_PATH, then in
-    the folders above the description's own file. Its path may not leave the package by `..`, but
-    symbolic links are followed, since `colcon build --symlink-install` makes packages of them.
-    `file://` URIs and absolute paths may name any file that the user may read: a description is
-    trusted to choose what is *read as a mesh*, and nothing but triangles leaves the process.
+    A `package://` URI is looked up below the mesh roots and package paths first, then on
+    AMENT_PREFIX_PATH, then in the folders above the description's own file. A file is opened if,
+    with all symbolic links followed, it lies in a mesh root or in a ROS package: that of the URI,
+    or one of those places whose `package.xml` stands above the file. Links of
+    `colcon build --symlink-install` lead into such a package.
 
     Args:
-        roots: folders given by the user: a package, or anything that holds packages
-            (a `package.xml` is searched below, at most `MAX_DEPTH` folders deep).
+        roots: mesh roots, folders in which the user allows every file; by default those of the
+            environment variable `MESH_ROOT`.
         ament_prefix_path: prefixes separated by `os.pathsep`; by default the environment's.
         base: folder that relative paths begin at, that of the description's file.
+        package_paths: folders in which packages are searched, by their `package.xml`, at most
+            `MAX_DEPTH` folders deep, as they are in mesh roots.
     """
 
     MAX_DEPTH = 6
+    MESH_ROOT = "WEBVIZ_MESH_ROOT"
 
     def __init__(
         self,
-        roots: Sequence[str | Path] = (),
+        roots: Sequence[str | Path] | None = None,
         ament_prefix_path: str | None = None,
         base: str | Path | None = None,
+        package_paths: Sequence[str | Path] = (),
     ) -> None:
+        if roots is None:
+            roots = [*filter(None, os.environ.get(self.MESH_ROOT, "").split(os.pathsep))]
         self.roots = tuple(Path(root).expanduser().absolute() for root in roots)
+        self.package_paths = tuple(Path(path).expanduser().absolute() for path in package_paths)
         if ament_prefix_path is None:
             ament_prefix_path = os.environ.get("AMENT_PREFIX_PATH", "")
         self.ament_prefix_path = ament_prefix_path
@@ -54,7 +66,9 @@ class Resolver:
 
     def relative_to(self, base: str | Path) -> Resolver:
         """The same resolver for a description that lies in the folder `base`."""
-        return Resolver(self.roots, self.ament_prefix_path, base)
+        resolver = copy.copy(self)
+        resolver.base = Path(base).absolute()
+        return resolver
 
     def resolve(self, uri: str) -> Path:
         """The file that `uri` names.
@@ -70,6 +84,8 @@ class Resolver:
     def _resolve(self, uri: str) -> Path:
         if not uri:
             raise ResolveError("The file name is empty.")
+        if len(uri) > _LONGEST:
+            raise ValueError("it is too long")
         scheme, separator, rest = uri.partition("://")
         if not separator:
             return self._plain(uri)
@@ -78,7 +94,7 @@ class Resolver:
         if scheme == "file":
             parts = urlsplit(uri)
             host = "" if parts.netloc == "localhost" else parts.netloc
-            return _existing(Path("/", host + uri.partition("://")[2][len(parts.netloc) :]))
+            return self._allowed(Path("/", host + uri.partition("://")[2][len(parts.netloc) :]))
         if scheme in ("http", "https", "ftp"):
             raise ResolveError(
                 f"'{uri}' lies on a network, and the viewer reads files of this machine only: "
@@ -88,13 +104,13 @@ class Resolver:
 
     def _plain(self, path: str) -> Path:
         if os.path.isabs(path):
-            return _existing(Path(path))
+            return self._allowed(Path(path))
         if self.base is None:
             raise ResolveError(
                 f"'{path}' is a relative path, and a description that came by topic has no folder "
                 "to begin at: name it by package:// or file://."
             )
-        return _existing(self.base / path)
+        return self._allowed(self.base / path)
 
     def _package(self, rest: str) -> Path:
         # Some files in the wild have a third slash: package:///name/mesh.stl.
@@ -105,19 +121,47 @@ class Resolver:
         folders = list(dict.fromkeys(self._package_folders(package))) if package.strip(".") else []
         if not folders:
             raise ResolveError(
-                f"Package '{package}' is neither on AMENT_PREFIX_PATH nor below the given package "
-                "folders: source its workspace before starting, or give the folder it lies in."
+                f"Package '{package}' is neither on AMENT_PREFIX_PATH nor below a mesh root or "
+                "package path. Source its workspace before starting webviz, or add its folder with "
+                "--mesh-root."
             )
         reasons = []
         for folder in folders:
             try:
-                return _existing(folder / path)
+                return self._allowed(folder / path, folder)
             except ResolveError as error:
                 reasons.append(str(error))
         raise ResolveError(reasons[0])
 
+    def _allowed(self, path: Path, package: Path | None = None) -> Path:
+        """`path` as it stands or with its %20 decoded, whichever is a file that may be opened."""
+        refused = None
+        for candidate in (path, Path(unquote(str(path)))):
+            target = candidate.resolve()
+            if not self._may_open(target, package):
+                refused = refused or (candidate, target)
+            elif target.is_file():
+                return candidate
+        if refused is None:
+            raise ResolveError(f"There is no file {path}.")
+        # Whether it exists is none of the sender's business.
+        candidate, target = refused
+        link = "" if target == Path(os.path.normpath(candidate)) else f", a link to {target},"
+        raise ResolveError(
+            f"{candidate}{link} lies outside all ROS packages and mesh roots. "
+            f"Start webviz with --mesh-root {target.parent} to allow it."
+        )
+
+    def _may_open(self, target: Path, package: Path | None) -> bool:
+        trusted = (*self.roots, *((package,) if package else ()))
+        if any(target.is_relative_to(folder.resolve()) for folder in trusted):
+            return True
+        names = (_package_name(folder) for folder in target.parents)
+        name = next(filter(None, names), None)
+        return name is not None and any(self._package_folders(name))
+
     def _package_folders(self, package: str) -> Iterator[Path]:
-        yield from self._packages_below_roots.get(package, ())
+        yield from self._packages_below.get(package, ())
         for root in self.roots:
             for folder in (root, root / package):
                 if folder.name == package and folder.is_dir():
@@ -128,7 +172,7 @@ class Resolver:
                 yield share
         if self.base is not None:
             for folder in (self.base, *self.base.parents):
-                if folder.name == package or _package_name(folder) == package:
+                if _package_name(folder) == package:
                     yield folder
                 if (folder / package / "package.xml").is_file():
                     yield folder / package
@@ -136,9 +180,9 @@ class Resolver:
             yield Path(__file__).parent
 
     @cached_property
-    def _packages_below_roots(self) -> dict[str, list[Path]]:
+    def _packages_below(self) -> dict[str, list[Path]]:
         packages: dict[str, list[Path]] = {}
-        for root in self.roots:
+        for root in (*self.roots, *self.package_paths):
             for folder in _walk(root, self.MAX_DEPTH):
                 name = _package_name(folder)
                 if name is not None:
@@ -161,16 +205,8 @@ def _walk(root: Path, depth: int) -> Iterator[Path]:
 def _package_name(folder: Path) -> str | None:
     """The name in the folder's `package.xml`, None without one."""
     try:
-        text = (folder / "package.xml").read_text(encoding="utf-8", errors="replace")
+        text = read_file(folder / "package.xml", _PACKAGE_XML_BYTES)
     except OSError:
         return None
     match = _PACKAGE_NAME.search(text)
-    return match[1] if match else None
-
-
-def _existing(path: Path) -> Path:
-    """`path` as it stands or with its %20 decoded, whichever is a file."""
-    for candidate in (path, Path(unquote(str(path)))):
-        if candidate.is_file():
-            return candidate
-    raise ResolveError(f"There is no file {path}.")
+    return match[1].decode(errors="replace") if match else None

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import warnings
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 from trimesh.resolvers import Resolver as TrimeshResolver
 
+from webviz_urdf.files import read_file
 from webviz_urdf.resolve import ResolveError, Resolver
 
 MAX_EDGE = 4096
 """Pixels; larger pictures are shrunk, since browsers refuse much more."""
+
+MAX_PIXELS = 8192**2
+"""Of a picture; a larger one is refused before it is decoded."""
+
+MAX_BYTES = 64 << 20
+"""Of a picture's file."""
+
+_FORMATS = ("PNG", "JPEG", "TGA", "TIFF", "BMP", "GIF", "WEBP", "DDS", "PPM")
+
+
+class TextureError(Exception):
+    """A picture that is not drawn; the text is one sentence or two that say why."""
 
 
 class TextureFolder(TrimeshResolver):
@@ -24,24 +39,35 @@ class TextureFolder(TrimeshResolver):
 
     def __init__(self, folder: Path, resolver: Resolver) -> None:
         self._resolver = resolver.relative_to(folder)
-        self.not_found: dict[str, None] = {}
+        self.refused: dict[str, str] = {}
+        """Why, by name, files cannot be used; whole sentences."""
 
     def get(self, key: str) -> bytes:
         """Content of the file `key`.
 
         Raises:
-            ResolveError: it is not found; `not_found` then has it.
+            ResolveError: it cannot be used; `refused` then has it.
         """
+        reason = ""
         # Exporters on Windows write backslashes, and absolute paths of the author's machine.
         plain = key.replace("\\", "/")
         for candidate in (key, plain, plain.rpartition("/")[2]):
             try:
-                path = self._resolver.resolve(candidate)
-            except ResolveError:
-                continue
-            return path.read_bytes()
-        self.not_found[key] = None
-        raise ResolveError(f"There is no file '{key}'.")
+                return self._read(self._resolver.resolve(candidate))
+            except (ResolveError, TextureError) as error:
+                reason = reason or str(error)
+        self.refused[key] = reason
+        raise ResolveError(reason)
+
+    def _read(self, path: Path) -> bytes:
+        """Content of a picture, or of another part of a mesh such as a material library."""
+        try:
+            data = read_file(path, MAX_BYTES)
+        except OSError as error:
+            raise TextureError(f"{path} cannot be read: {error.strerror}.") from error
+        with contextlib.suppress(UnidentifiedImageError):
+            _open(path, data).close()
+        return data
 
     def keys(self) -> list[str]:
         """Nothing is listed: files are looked up by name only."""
@@ -60,11 +86,38 @@ def open_image(path: Path) -> Image.Image:
     """The picture at `path`.
 
     Raises:
-        OSError: it is no picture.
+        TextureError: it cannot be read, is not a picture, or has too many pixels.
     """
-    with Image.open(path) as image:
-        image.load()
-        return image
+    try:
+        with _open(path, read_file(path, MAX_BYTES)) as image:
+            image.load()
+            return image
+    except UnidentifiedImageError as error:
+        raise TextureError(f"{path} is not a readable picture.") from error
+    except (OSError, ValueError, SyntaxError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise TextureError(f"{path} is not a readable picture: {reason}.") from error
+
+
+def _open(path: Path, data: bytes) -> Image.Image:
+    """A picture of which only the head was read, so that its size is known before its pixels."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        try:
+            image = Image.open(io.BytesIO(data), formats=_FORMATS)
+        except Image.DecompressionBombError as error:
+            raise TextureError(f"{path} has more than {_megapixels(MAX_PIXELS)}.") from error
+    width, height = image.size
+    if width * height > MAX_PIXELS:
+        raise TextureError(
+            f"{path} has {_megapixels(width * height)}; the limit is {_megapixels(MAX_PIXELS)}. "
+            "Save it smaller."
+        )
+    return image
+
+
+def _megapixels(pixels: int) -> str:
+    return f"{pixels / 1e6:.0f} megapixels"
 
 
 def encode(image: Image.Image) -> bytes:

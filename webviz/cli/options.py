@@ -2,12 +2,15 @@
 
 # Annotations are no strings in modules of options: those of a base class are looked up in the
 # module of the class that inherits them.
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, TypeVar
 
 from cyclopts import Parameter
+
+from webviz.errors import Error
 
 T = TypeVar("T")
 Repeatable = Annotated[tuple[T, ...], Parameter(show_default=False)]
@@ -20,6 +23,8 @@ Plugins = Annotated[
 ]
 RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
 """The arguments for ROS, which `webviz.cli.main` splits off before parsing."""
+MESH_ROOT = "WEBVIZ_MESH_ROOT"
+"""The environment variable with the folders of --mesh-root, separated by colons."""
 ROS_ARGS_HELP = "Arguments from --ros-args to `--` or the end are for ROS."
 
 
@@ -35,3 +40,18 @@ class ConfigOptions:
     set: Annotated[Repeatable[str], Parameter(metavar="PATH=VALUE")] = ()
     """Override a value of the config, such as displays.Scan.size=0.1 (repeatable)."""
     plugin: Plugins = ()
+    mesh_root: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
+    """Open meshes and textures below this folder, too, besides ROS packages (repeatable)."""
+
+    def allow_meshes(self) -> None:
+        """Add the mesh roots to those of the environment, where every reader of meshes looks.
+
+        Raises:
+            Error: one is not a folder.
+        """
+        for root in self.mesh_root:
+            if not root.is_dir():
+                raise Error(f"--mesh-root {root} is not a folder.")
+        known = os.environ.get(MESH_ROOT, "")
+        roots = [str(root.absolute()) for root in self.mesh_root]
+        os.environ[MESH_ROOT] = os.pathsep.join([*roots, *filter(None, [known])])

@@ -68,6 +68,7 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
     output: Path = options.output
     is_animation = options.is_animation
     picture_files.check(output, is_animation=is_animation, transparent=options.transparent)
+    options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
     path = options.display_config

@@ -19,6 +19,7 @@ DEMO = Path(__file__).parent / "demo.yaml"
 
 def serve(options: ViewingOptions, ros: Sequence[str], standard: Path | None = None) -> None:
     """Show the page until Ctrl-C or SIGTERM; `standard` is the config if none is given."""
+    options.allow_meshes()
     with Viewer(
         options.display_config,
         read=functools.partial(_config, options, standard),

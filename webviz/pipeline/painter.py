@@ -66,8 +66,14 @@ class Painter:
         self.hide()
         self._state.clear()
 
+    def close(self) -> None:
+        """Remove everything from the scene, and end the slow work."""
+        self.hide()
+        self._tasks.close()
+
     def replace(self, display: Display) -> None:
         """Go on with an instance of another class, and with the picture there is."""
+        self._tasks.close()
         self._tasks = Tasks(self._workers)
         self._state.clear()
         self._statuses.clear()

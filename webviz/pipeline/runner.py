@@ -128,8 +128,8 @@ class Runner:
         self._painter.forget()
 
     def close(self) -> None:
-        """Remove everything from the scene."""
-        self._painter.hide()
+        """Remove everything from the scene, and end the slow work."""
+        self._painter.close()
 
     # One tick
 

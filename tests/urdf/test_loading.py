@@ -1,0 +1,173 @@
+"""Loading in a process: what hangs, dies or takes too much memory there costs one shape."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+
+import psutil
+import pytest
+
+from webviz_urdf import (
+    Loading,
+    LoadingStopped,
+    Request,
+    Robot,
+    RobotDescriptionError,
+    load_robot,
+    loading,
+)
+
+BOX = (
+    "<robot name='r'><link name='l'><visual><geometry><box size='1 1 1'/></geometry></visual>"
+    "</link></robot>"
+)
+
+
+def with_mesh(path: Path) -> str:
+    """A robot of three links; the second has the mesh."""
+    links = "".join(
+        f"<link name='{name}'><visual><geometry>{shape}</geometry></visual></link>"
+        for name, shape in (
+            ("first", "<sphere radius='1'/>"),
+            ("mesh", f"<mesh filename='{path}'/>"),
+            ("last", "<box size='1 1 1'/>"),
+        )
+    )
+    joints = "".join(
+        f"<joint name='{name}' type='fixed'><parent link='first'/><child link='{name}'/></joint>"
+        for name in ("mesh", "last")
+    )
+    return f"<robot name='r'>{links}{joints}</robot>"
+
+
+def processes() -> list[psutil.Process]:
+    """Those that load robots, living."""
+    return [
+        child
+        for child in psutil.Process().children()
+        if child.status() != psutil.STATUS_ZOMBIE and "webviz_urdf.loader" in str(child.cmdline())
+    ]
+
+
+@pytest.fixture
+def start(tmp_path, monkeypatch):
+    """Runs a `Loading` in a thread; every test begins without a spare process."""
+    monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
+    loading._end_spare()
+    with ThreadPoolExecutor() as pool:
+        begun: list[Loading] = []
+
+        def start(text: str) -> tuple[Loading, Future[Robot]]:
+            begun.append(Loading(Request(text=text)))
+            return begun[-1], pool.submit(begun[-1].run)
+
+        yield start
+        for each in begun:
+            each.stop()
+    loading._end_spare()
+
+
+def wait_for_mesh(begun: Loading) -> psutil.Process:
+    """The process, at work on the mesh."""
+    deadline = time.monotonic() + 60
+    while begun.at[2] != "mesh":
+        assert time.monotonic() < deadline, begun.at
+        time.sleep(0.002)
+    (process,) = processes()
+    return process
+
+
+def test_a_process_gives_the_same_robot_and_is_kept_for_the_next(start, tmp_path, slow_dae):
+    text = with_mesh(slow_dae)
+    robot = start(text)[1].result(60)
+    expected = load_robot(text, loading.Resolver([tmp_path]))
+    assert [s.node for link in robot.links.values() for s in link.visuals] == [
+        s.node for link in expected.links.values() for s in link.visuals
+    ]
+    (process,) = processes()
+    start(BOX)[1].result(60)
+    assert processes() == [process]
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_mesh_that_ends_or_halts_the_process_is_missing_and_the_rest_is_shown(
+    start, slow_dae, monkeypatch, number
+):
+    monkeypatch.setattr(loading, "DEADLINE_S", 5.0)
+    begun, future = start(with_mesh(slow_dae))
+    process = wait_for_mesh(begun)
+    process.send_signal(number)
+    robot = future.result(60)
+    assert [name for name, link in robot.links.items() if link.visuals] == ["first", "last"]
+    (missing,) = robot.missing
+    assert (missing.link, missing.uri) == ("mesh", str(slow_dae))
+    assert ("ended the process" if number == signal.SIGKILL else "took longer") in missing.reason
+
+
+def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, tmp_path):
+    bomb = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"uri": "data:application/octet-stream;base64,AAAA", "byteLength": 3}],
+        "bufferViews": [{"buffer": 0, "byteLength": 3}],
+        "accessors": [{"componentType": 5126, "count": 1 << 30, "type": "VEC3"}],
+    }
+    path = tmp_path / "bomb.gltf"
+    path.write_text(json.dumps(bomb))
+    robot = start(with_mesh(path))[1].result(60)
+    assert "needs more memory" in robot.missing[0].reason
+    assert robot.links["last"].visuals
+
+
+def test_a_description_at_which_the_process_hangs_is_refused(start, monkeypatch):
+    monkeypatch.setattr(loading, "START_S", 0.0)
+    with pytest.raises(RobotDescriptionError, match="took longer than 0 s"):
+        start(BOX)[1].result(60)
+    assert processes() == []
+
+
+def test_what_is_wrong_with_a_description_is_said_and_the_process_kept(start):
+    with pytest.raises(RobotDescriptionError, match="is empty"):
+        start("")[1].result(60)
+    assert len(processes()) == 1
+
+
+def test_loading_that_is_stopped_ends_at_once_with_its_process(start, slow_dae):
+    begun, future = start(with_mesh(slow_dae))
+    process = wait_for_mesh(begun)
+    os.kill(process.pid, signal.SIGSTOP)
+    begun.stop()
+    with pytest.raises(LoadingStopped):
+        future.result(20)
+    assert not process.is_running()
+
+
+def test_loading_that_was_stopped_before_it_began_never_begins(start):
+    begun = Loading(Request(text=BOX))
+    begun.stop()
+    with pytest.raises(LoadingStopped):
+        begun.run()
+
+
+def test_robots_are_loaded_side_by_side(start, slow_dae):
+    begun, slow = start(with_mesh(slow_dae))
+    process = wait_for_mesh(begun)
+    process.suspend()
+    assert start(BOX)[1].result(60).name == "r"
+    assert not slow.done()
+    process.resume()
+    assert not slow.result(60).missing
+    assert len(processes()) == 1
+
+
+def test_a_description_file_is_a_regular_file(tmp_path):
+    os.mkfifo(tmp_path / "robot.urdf")
+    with pytest.raises(RobotDescriptionError, match="not a regular file"):
+        Loading(Request(path=str(tmp_path / "robot.urdf"))).run()

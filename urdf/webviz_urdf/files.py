@@ -1,0 +1,28 @@
+"""Reading files that a stranger may have named."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+
+def read_file(path: Path, limit: int) -> bytes:
+    """Content of a regular file; a FIFO or device is refused without waiting for it.
+
+    Args:
+        path: of the file.
+        limit: bytes.
+
+    Raises:
+        OSError: it cannot be read, is not a regular file, or is larger than `limit`; `strerror`
+            says which.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    with open(descriptor, "rb") as file:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise OSError(0, "it is not a regular file", str(path))
+        data = file.read(limit + 1)
+    if len(data) > limit:
+        raise OSError(0, f"it is larger than {limit / 2**20:g} MB", str(path))
+    return data

@@ -1,0 +1,208 @@
+"""Loading robots in a process, where what hangs or takes too much memory can be ended."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import multiprocessing
+import signal
+import subprocess
+import sys
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+from webviz_urdf.build import Progress
+from webviz_urdf.load import load_file, load_robot
+from webviz_urdf.resolve import Resolver
+from webviz_urdf.robot import Robot, RobotDescriptionError
+
+DEADLINE_S = 30.0
+"""For one shape. The slowest of the robots in the wild takes 1 s on a desktop."""
+
+START_S = 60.0
+"""For a process to start and to read the description."""
+
+IDLE_S = 60.0
+"""How long a process is kept for the next robot; its imports take as long as a robot does."""
+
+MAX_MEMORY = 3 << 30
+"""Bytes of address space of a process; half a gigabyte of it is taken by its imports."""
+
+MOST_FAILURES = 3
+"""Shapes at which the process may end before the robot is given up."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A robot to load; equal ones need not be loaded again.
+
+    Args:
+        text: URDF, if it came as a message.
+        path: of the file, if it did not.
+        changed_ns: when the file was last written, 0 if it cannot be told.
+        package_paths: folders that hold ROS packages.
+        collisions: whether to read collision shapes.
+    """
+
+    text: str = ""
+    path: str = ""
+    changed_ns: int = 0
+    package_paths: tuple[str, ...] = ()
+    collisions: bool = False
+
+    def load(self, resolver: Resolver, progress: Progress, skip: dict[int, str]) -> Robot:
+        """The robot, read by this process.
+
+        Raises:
+            RobotDescriptionError: it cannot be drawn; one sentence says why.
+        """
+        if self.path:
+            path = Path(self.path).expanduser()
+            return load_file(path, resolver, progress, self.collisions, skip)
+        return load_robot(self.text, resolver, progress, self.collisions, skip)
+
+
+class LoadingStopped(Exception):
+    """A robot was not loaded because nobody wants it any more."""
+
+
+class Loading:
+    """One robot being loaded: `run` in a thread, the rest in any other."""
+
+    def __init__(self, request: Request) -> None:
+        self.at = (0, 0, "")
+        """Shapes done, their total, and the link at work."""
+        self._request = request
+        self._resolver = Resolver(package_paths=request.package_paths)
+        self._stopped = threading.Event()
+        self._process: _Process | None = None
+
+    def run(self) -> Robot:
+        """The robot. A shape at which the process hangs or ends is missing from it.
+
+        Raises:
+            RobotDescriptionError: it cannot be drawn; one sentence says why.
+            LoadingStopped: `stop` was called.
+        """
+        skip: dict[int, str] = {}
+        while True:
+            self._process = process = _take()
+            try:
+                robot = self._converse(process, skip)
+            except _Ended as ended:
+                process.end()
+                done, total, link = self.at
+                if done in skip or len(skip) == MOST_FAILURES or done == total:
+                    where = f" It got as far as link '{link}'." if link else ""
+                    raise RobotDescriptionError(
+                        f"Loading the robot failed. {ended}{where}"
+                    ) from None
+                skip[done] = str(ended)
+            except RobotDescriptionError:
+                _keep(process)
+                raise
+            except BaseException:
+                process.end()
+                raise
+            else:
+                _keep(process)
+                return robot
+
+    def stop(self) -> None:
+        """End `run`, also while it waits."""
+        self._stopped.set()
+        if process := self._process:
+            process.kill()
+
+    def _converse(self, process: _Process, skip: dict[int, str]) -> Robot:
+        try:
+            process.connection.send((self._request, self._resolver, skip))
+            patience = START_S
+            while not self._stopped.is_set():
+                if not process.connection.poll(patience):
+                    raise _Ended(f"It took longer than {patience:g} s.")
+                patience = DEADLINE_S
+                answer = process.connection.recv()
+                if isinstance(answer, Robot):
+                    return answer
+                if isinstance(answer, Exception):
+                    raise answer
+                self.at = answer
+        except (EOFError, OSError):
+            if not self._stopped.is_set():
+                raise _Ended("It ended the process that loads robots.") from None
+        raise LoadingStopped
+
+
+_PROGRAM = """
+import sys
+sys.modules["scipy"] = sys.modules["networkx"] = None
+from webviz_urdf.loader import main
+main()
+"""
+"""trimesh reads meshes without these two, whose import takes longer than most robots."""
+
+
+class _Ended(Exception):
+    """The process is of no use any more."""
+
+
+class _Process:
+    """A process that loads one robot after another; it ends with the connection."""
+
+    def __init__(self) -> None:
+        self.connection, theirs = multiprocessing.Pipe()
+        with theirs:
+            number = theirs.fileno()
+            self._process = subprocess.Popen(
+                [sys.executable, "-P", "-c", _PROGRAM, str(number)],
+                pass_fds=(number,),
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                process_group=0,  # Ctrl-C is for us; it goes when we go
+            )
+
+    def is_alive(self) -> bool:
+        return self._process.poll() is None
+
+    def kill(self) -> None:
+        self._process.send_signal(signal.SIGKILL)
+
+    def end(self) -> None:
+        self.kill()
+        self.connection.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it waits for a dead disk
+            self._process.wait(1.0)
+
+
+_spare: list[_Process] = []
+_lock = threading.Lock()
+
+
+def _take() -> _Process:
+    """The process that is idle, or a new one."""
+    with _lock:
+        while _spare:
+            process = _spare.pop()
+            if process.is_alive():
+                return process
+            process.end()
+    return _Process()
+
+
+def _keep(process: _Process) -> None:
+    """Keep one process for the next robot."""
+    with _lock:
+        if not _spare:
+            _spare.append(process)
+            return
+    process.end()
+
+
+@atexit.register
+def _end_spare() -> None:
+    with _lock:
+        while _spare:
+            _spare.pop().end()
