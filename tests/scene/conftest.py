@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -173,6 +174,20 @@ def call(server: viser.ViserServer) -> Iterator[Callable[..., Peer]]:
     yield call
     for peer in peers:
         peer.close()
+
+
+@pytest.fixture
+def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]]:
+    """Sends the bytes of a request; returns status, headers and body of the answer."""
+
+    def ask(request: bytes) -> tuple[int, bytes, bytes]:
+        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=10) as stranger:
+            stranger.sendall(request)
+            answer = b"".join(iter(lambda: stranger.recv(1 << 16), b""))
+        head, _, body = answer.partition(b"\r\n\r\n")
+        return int(head.split()[1]), head, body
+
+    return ask
 
 
 @pytest.fixture

@@ -38,7 +38,22 @@ def test_the_page_is_served_under_the_names_of_this_machine(
     assert status(server, ("Host", host), ("Origin", f"http://{host}")) == 200
 
 
-@pytest.mark.parametrize("host", ["evil.example:PORT", "10.0.0.7:PORT", "", "[", "localhost.evil"])
+@pytest.mark.parametrize(
+    "host",
+    [
+        "evil.example:PORT",
+        "10.0.0.7:PORT",
+        "",
+        "[",
+        "localhost.evil",
+        "x@127.0.0.1:PORT",
+        "127.0.0.1/x",
+        "127.0.0.1#x",
+        "127.0.0.1?x",
+        "127.0.0.1:",
+        "[::1",
+    ],
+)
 def test_the_page_is_refused_under_another_name(server: viser.ViserServer, host: str) -> None:
     assert status(server, ("Host", host)) == 403
 
@@ -269,6 +284,16 @@ def test_buttons_can_be_pressed(
         {"type": "NoSuchMessage"},
         {"type": "GuiUpdateMessage", "uuid": [], "updates": {"value": 1}},
         {"type": "GuiUpdateMessage"},
+        {"type": "GuiUpdateMessage", "uuid": "a", "updates": {"value": 1}, "more": 1},
+        {"type": "GetRenderResponseMessage", "payload": b"", "render_uuid": "a"},
+        {"type": "ViewerCameraMessage", "wxyz": "abcd"},
+        {"type": "CommandTriggerMessage", "uuid": 3},
+        {
+            "type": "TransformControlsUpdateMessage",
+            "name": "a",
+            "wxyz": [1, 0, 0, 0],
+            "position": [0, 0, float("nan")],
+        },
     ],
 )
 def test_a_message_that_webviz_does_not_know_is_dropped_and_the_next_one_heard(

@@ -11,9 +11,9 @@ from viser import _messages as wire
 
 from webviz.nodes import Points, Pose
 from webviz.scene import Scene
+from webviz.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
 from webviz.scene.outbox import WINDOW_BYTES, Outbox, bulk
 from webviz.scene.points import PART
-from webviz.scene.server import SEND_BUFFER_BYTES, UNSENT_BYTES
 
 
 class Queue:

@@ -255,6 +255,20 @@ class Adapter:
                 self._socket._live_connections[client_id].transport.abort()
 
 
+def message_type(kind: str) -> type[Any]:
+    """viser's dataclass of the messages of that name."""
+    return getattr(wire, kind)
+
+
+def has_form(server: viser.ViserServer, handle_uuid: str, shared: bool = False) -> bool:
+    """Whether there is a form of that id, in the shared GUI or in any browser's own."""
+    guis = [server.gui]
+    if not shared:
+        guis += [client.gui for client in server.get_clients().values()]
+    found = (gui._container_handle_from_uuid.get(handle_uuid) for gui in guis)
+    return any(isinstance(handle, viser.GuiFormHandle) for handle in found)
+
+
 def gui_input(server: viser.ViserServer, handle_uuid: str) -> Any:
     """The input widget of that id in the shared or any browser's own GUI, or None."""
     for gui in (server.gui, *(client.gui for client in server.get_clients().values())):

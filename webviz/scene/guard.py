@@ -7,54 +7,31 @@ checked before viser sees it, and every message before viser handles it.
 
 from __future__ import annotations
 
+import asyncio
+import functools
 import http
-import ipaddress
-import socket
-from collections.abc import Callable, Iterable
+from collections.abc import Awaitable, Callable
 from typing import Any
-from urllib.parse import urlsplit
 
-import msgspec
+import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
-from websockets.typing import Data
 
-from webviz.scene import uploads
+from webviz.scene.connections import Connection, Gate
+from webviz.scene.hosts import HostList
+from webviz.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
+from webviz.scene.listener import Listener
+from webviz.scene.messages import MAX_BYTES, Accepts
+from webviz.scene.sparing_log import sparing_log
 
-# A full-screen capture comes back as one message; everything else is small.
-MAX_MESSAGE_BYTES = 32 * 2**20
+MAX_WAITING_FRAMES = 4
+"""Of a connection, received and not yet handled; the rest waits in the browser."""
 
-# What viser's page sends of its own accord or in answer to us. Not here: ShareUrlRequest, which
-# opens a public tunnel.
-ALLOWED_MESSAGES = frozenset(
-    {
-        "CommandTriggerMessage",
-        uploads.PART,
-        uploads.START,
-        "GetRenderResponseMessage",
-        "GuiButtonHoldMessage",
-        "GuiFormDirtyMessage",
-        "GuiFormSubmitMessage",
-        "GuiUpdateMessage",
-        "LocalStorageGetItemResponseMessage",
-        "SceneNodeClickMessage",
-        "SceneNodeDragMessage",
-        "ScenePointerMessage",
-        "TransformControlsDragEndMessage",
-        "TransformControlsDragStartMessage",
-        "TransformControlsUpdateMessage",
-        "ViewerCameraMessage",
-    }
-)
-
-# Of these the content is checked as well.
-CHECKED_MESSAGES = frozenset({"GuiUpdateMessage", uploads.START})
-
-Accepts = Callable[[dict[str, Any]], bool]
+Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 
 
 def guarded_serve(
-    serve: Callable[..., Any], listener: socket.socket, hosts: HostList, accepts: Accepts
+    serve: Callable[..., Any], listener: Listener, gate: Gate, hosts: HostList, accepts: Accepts
 ) -> Callable[..., Any]:
     """Wraps `websockets.asyncio.server.serve` as viser calls it.
 
@@ -62,104 +39,71 @@ def guarded_serve(
         serve: the original.
         listener: the bound socket to serve instead of the host and port that viser asks for, so
             that viser neither moves to another port nor obeys its environment variable.
+        gate: for the connections.
         hosts: names under which the server may be addressed.
-        accepts: whether a decoded message that sets a value or announces a file may pass.
+        accepts: whether a decoded message that sets a value, changes a form or announces a file
+            may pass.
     """
+    log = listener.log = sparing_log("webviz.server")
 
-    class Connection(websocket.ServerConnection):
-        def __init__(self, *arguments: Any, **options: Any) -> None:
-            super().__init__(*arguments, **options)
-            self._uploads = uploads.Uploads()
+    def process_request(
+        serve_file: Callable[[Connection, Request], Response | None],
+        connection: Connection,
+        request: Request,
+    ) -> Response | None:
+        reason = hosts.refusal(request.headers)
+        if reason is not None:
+            return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
+        connection.host = request.headers["Host"].lower()
+        if gate.is_full:
+            return connection.respond(
+                http.HTTPStatus.SERVICE_UNAVAILABLE,
+                f"{gate.limit} browsers are connected, and webviz serves no more at a time. Close "
+                "one of its pages.\n",
+            )
+        if is_upgrade(request):
+            return None
+        if request.path.partition("?")[0] not in PAGES:
+            status, text = NOT_FOUND
+            return connection.respond(status, text + "\n")
+        # viser asks for the one header of that name.
+        encodings = request.headers.get_all("Accept-Encoding")
+        if len(encodings) > 1:
+            del request.headers["Accept-Encoding"]
+            request.headers["Accept-Encoding"] = ", ".join(encodings)
+        return serve_file(connection, request)
 
-        async def recv(self, decode: bool | None = None) -> Any:
-            while True:
-                data = await super().recv(decode)
-                if _may_pass(data, accepts, self._uploads):
-                    return data
+    def process_response(connection: Connection, _: Request, response: Response) -> None:
+        if response.status_code != http.HTTPStatus.SWITCHING_PROTOCOLS:
+            add_policy(response.headers, connection.host)
+        if connection.wants_head:
+            response.body = b""
+
+    async def welcome(handler: Handler, connection: Connection) -> None:
+        if connection.subprotocol != f"viser-v{viser.__version__}":
+            # The code upon which the page says why, and stops.
+            await connection.close(1002, "This page is of another version of webviz: reload it")
+            return
+        with gate.inside(connection):
+            await handler(connection)
 
     def guarded(handler: Any, host: str, port: int, **options: Any) -> Any:
         if not handler.__module__.startswith("viser."):
             return serve(handler, host, port, **options)
-        serve_file = options.pop("process_request")
-
-        def process_request(
-            connection: websocket.ServerConnection, request: Request
-        ) -> Response | None:
-            reason = hosts.refusal(request)
-            if reason is not None:
-                return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
-            return serve_file(connection, request)
-
-        options["max_size"] = MAX_MESSAGE_BYTES
-        return serve(
-            handler,
-            sock=listener,
-            process_request=process_request,
-            create_connection=Connection,
-            **options,
+        asyncio.get_running_loop().set_exception_handler(
+            lambda _, context: log.error(
+                str(context["message"]).partition(":")[0], exc_info=context.get("exception")
+            )
         )
+        options |= {
+            "process_request": functools.partial(process_request, options["process_request"]),
+            "process_response": process_response,
+            "create_connection": functools.partial(Connection, gate, accepts),
+            "max_size": MAX_BYTES,
+            "max_queue": MAX_WAITING_FRAMES,
+            "logger": log,
+            "server_header": None,
+        }
+        return serve(functools.partial(welcome, handler), sock=listener, **options)
 
     return guarded
-
-
-class HostList:
-    """The host names under which a server may be addressed.
-
-    A page of another site cannot choose the Host header, yet can make its own name resolve to this
-    machine (DNS rebinding): hence the list. The port is not compared, so that a tunnel from another
-    local port works. A numeric address cannot be rebound, so a server that listens on every
-    interface may be addressed by any.
-
-    Args:
-        bound: the address the server is bound to.
-        names: further names, without port.
-    """
-
-    def __init__(self, bound: str, names: Iterable[str] = ()) -> None:
-        self._names = {"127.0.0.1", "localhost", "::1"}
-        self._names |= {name.strip("[]").lower() for name in (bound, *names)}
-        self._any_address = bound in ("", "0.0.0.0", "::")
-
-    def refusal(self, request: Request) -> str | None:
-        """Why a request is refused, in one sentence, or None if it may pass."""
-        hosts = request.headers.get_all("Host")
-        host = hosts[0].lower() if len(hosts) == 1 else ""
-        name = _hostname(host)
-        if name is None or not (name in self._names or (self._any_address and _is_address(name))):
-            return (
-                f"This server does not answer to the name {name!r}; allow it when starting webviz."
-            )
-        origins = request.headers.get_all("Origin")
-        if any(urlsplit(origin.lower()).netloc != host for origin in origins):
-            return "A page of another site may not use this server."
-        return None
-
-
-def _hostname(host: str) -> str | None:
-    try:
-        return urlsplit("//" + host).hostname
-    except ValueError:
-        return None
-
-
-def _is_address(name: str) -> bool:
-    try:
-        ipaddress.ip_address(name)
-    except ValueError:
-        return False
-    return True
-
-
-def _may_pass(data: Data, accepts: Accepts, sent: uploads.Uploads) -> bool:
-    if not isinstance(data, bytes):
-        return False
-    try:
-        message = msgspec.msgpack.decode(data)
-    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
-        return False
-    kind = message.get("type") if isinstance(message, dict) else None
-    if not isinstance(kind, str) or kind not in ALLOWED_MESSAGES:
-        return False
-    if kind in CHECKED_MESSAGES and not accepts(message):
-        return False
-    return kind not in (uploads.START, uploads.PART) or sent.accepts(message)

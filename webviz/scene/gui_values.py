@@ -1,4 +1,4 @@
-"""Which values and files a browser may give to an input widget."""
+"""Which values and files a browser may give to an input widget, and which forms it may submit."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import viser
 
-from webviz.scene.adapter import gui_input, gui_props, gui_value
+from webviz.scene.adapter import gui_input, gui_props, gui_value, has_form
 from webviz.scene.uploads import START
 
 MAX_TEXT = 100_000
@@ -17,8 +17,11 @@ def accepts_update(server: viser.ViserServer, message: dict[str, Any]) -> bool:
     """Whether a browser may do this to a widget.
 
     A GuiUpdateMessage may set only the value, to one that the widget offers; a file may be
-    announced only for a button that takes files.
+    announced only for a button that takes files. That a form has changes is passed on to the other
+    browsers and kept for those that join, so it must be one that they have.
     """
+    if message["type"] in ("GuiFormDirtyMessage", "GuiFormSubmitMessage"):
+        return has_form(server, message["uuid"], shared=message["type"] == "GuiFormDirtyMessage")
     if message.get("type") == START:
         uuid = message.get("source_component_uuid")
         handle = gui_input(server, uuid) if isinstance(uuid, str) else None

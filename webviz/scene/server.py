@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import errno
 import math
-import socket
 import threading
 from collections.abc import Iterable, Iterator
 from typing import Any
@@ -16,29 +14,16 @@ import viser
 import websockets.asyncio.server as websocket
 
 from webviz.nodes import Rgb
-from webviz.scene.guard import HostList, guarded_serve
+from webviz.scene.connections import Gate
+from webviz.scene.guard import guarded_serve
 from webviz.scene.gui_values import accepts_update
+from webviz.scene.hosts import HostList
+from webviz.scene.listener import listen
 
 BACKGROUND: Rgb = (48, 48, 48)
 """RViz's default."""
 
-MAX_PORT = 65535
-
-SEND_BUFFER_BYTES = 1 << 19
-"""Of a connection, sent and not yet acknowledged: 5 MB/s at a round trip of 100 ms."""
-
-UNSENT_BYTES = 1 << 16
-"""Of a connection, ready to be sent."""
-
 _opening = threading.Lock()
-
-
-class CannotListen(OSError):
-    """The server cannot be reached at the address it was given; the text says why."""
-
-
-class PortInUse(CannotListen):
-    """Another program listens on the port."""
 
 
 def open_server(
@@ -59,15 +44,16 @@ def open_server(
         PortInUse: another program listens there.
         CannotListen: `host` is no address of this machine, or the port is not allowed.
     """
-    listener = _listen(host, port)
+    listener = listen(host, port)
     server: viser.ViserServer | None = None
 
     def accepts(message: dict[str, Any]) -> bool:
         return server is not None and accepts_update(server, message)
 
-    serve = guarded_serve(websocket.serve, listener, HostList(host, allowed_hosts), accepts)
+    gate, hosts = Gate(), HostList(host, allowed_hosts)
+    serve = guarded_serve(websocket.serve, listener, gate, hosts, accepts)
     with _opening, _replaced(websocket, "serve", serve):
-        server = _Server(host=host, port=port, verbose=False)
+        server = _Server(gate, host=host, port=port, verbose=False)
     _prepare(server)
     return server
 
@@ -78,42 +64,18 @@ def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
 
 
 class _Server(viser.ViserServer):
-    """viser's server without its greetings on the terminal."""
+    """viser's server without its greetings on the terminal, that waits for nobody when it stops."""
 
-    def __init__(self, **options: Any) -> None:
+    def __init__(self, gate: Gate, **options: Any) -> None:
+        self._gate = gate
         with _quiet():
             super().__init__(**options)
 
     def stop(self) -> None:
+        with contextlib.suppress(RuntimeError):  # it has stopped before
+            self.get_event_loop().call_soon_threadsafe(self._gate.close)
         with _quiet():
             super().stop()
-
-
-def _listen(host: str, port: int) -> socket.socket:
-    if not 0 <= port <= MAX_PORT:  # the system would take what is left of 16 bits
-        raise CannotListen(f"{port} is no port: give one from 1 to {MAX_PORT}, or 0 for any.")
-    try:
-        family, _, _, _, address = socket.getaddrinfo(
-            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        )[0]
-        listener = socket.create_server(address[:2], family=family)
-    except OSError as error:
-        if error.errno == errno.EADDRINUSE:
-            raise PortInUse(
-                f"Port {port} of {host} is in use; end the program that listens there or choose "
-                "another port."
-            ) from None
-        reason = error.strerror or str(error)
-        raise CannotListen(f"Cannot listen on port {port} of {host}: {reason}.") from None
-    _let_newest_win(listener)
-    return listener
-
-
-def _let_newest_win(listener: socket.socket) -> None:
-    """Leaves little in the kernel's buffers, where the newest cannot overtake (for connections)."""
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
-    if hasattr(socket, "TCP_NOTSENT_LOWAT"):
-        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
 
 
 def _prepare(server: viser.ViserServer) -> None:

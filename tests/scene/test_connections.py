@@ -1,0 +1,179 @@
+"""How many may connect, and how much each may send."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import viser
+import websockets.exceptions
+from websockets.frames import Frame, Opcode
+
+from webviz.scene import connections
+from webviz.scene.connections import MAX_BROWSERS, Allowance
+
+PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
+
+
+def test_one_browser_more_than_are_served_is_told_so(
+    ask: Callable[..., Any],
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+) -> None:
+    peers = [call() for _ in range(MAX_BROWSERS)]
+    with pytest.raises(websockets.exceptions.InvalidStatus, match="503"):
+        call()
+    status, _, body = ask(PAGE)
+    assert (status, body.split(b",")[0]) == (503, b"64 browsers are connected")
+    peers[0].close()
+    wait_until(lambda: ask(PAGE)[0] == 200)
+
+
+def test_connections_that_never_ask_keep_no_browser_out(
+    server: viser.ViserServer, ask: Callable[..., Any]
+) -> None:
+    address = ("127.0.0.1", server.get_port())
+    strangers = [socket.create_connection(address, timeout=30) for _ in range(3 * MAX_BROWSERS)]
+    for stranger in strangers:
+        stranger.sendall(b"GET / HT")
+    assert ask(PAGE)[0] == 200
+    assert strangers[0].recv(1) == b""
+    for stranger in strangers:
+        stranger.close()
+
+
+FEW_FILES = """
+import os, resource, socket
+from webviz.scene import open_server
+server = open_server(port=0)
+address = ("127.0.0.1", server.get_port())
+request = b"GET / HTTP/1.1\\r\\nHost: localhost\\r\\n\\r\\n"
+resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64))
+asking, again = socket.socket(), socket.socket()
+asking.settimeout(20), again.settimeout(20)
+taken = []
+try:
+    while True:
+        taken.append(os.open(os.devnull, os.O_RDONLY))
+except OSError:
+    pass
+asking.connect(address)
+asking.sendall(request)
+print(asking.recv(12).decode(), flush=True)
+for number in taken:
+    os.close(number)
+again.connect(address)
+again.sendall(request)
+print(again.recv(12).decode(), flush=True)
+server.stop()
+"""
+
+
+def test_without_file_descriptors_browsers_are_refused_and_served_again_later() -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", FEW_FILES], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert run.stdout.split() == ["HTTP/1.1", "503", "HTTP/1.1", "200"]
+    assert run.stderr == "Connections are turned away: Too many open files.\n"
+
+
+def test_a_browser_may_send_a_burst_and_then_a_steady_rate() -> None:
+    allowance = Allowance(rate=10.0, burst=5.0)
+    waits = [allowance.spend(1.0, now=100.0) for _ in range(7)]
+    assert waits == pytest.approx([0, 0, 0, 0, 0, 0.1, 0.2])
+    assert allowance.spend(1.0, now=101.0) == 0.0
+    assert allowance.spend(10.0, now=200.0) == pytest.approx(0.5)
+
+
+def test_a_browser_that_sends_too_much_waits_and_others_do_not(
+    server: viser.ViserServer,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(connections, "Allowance", lambda: Allowance(rate=1e-9, burst=3.5))
+    sent, done = server.gui.add_number("sent", 0), server.gui.add_checkbox("done", False)
+    eager, other = call(), call()
+    for number in range(1, 6):
+        update = {"updates": {"value": number}, "uuid": sent._impl.uuid}
+        eager.send({"type": "GuiUpdateMessage"} | update)
+    wait_until(lambda: sent.value >= 3)
+    other.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
+    wait_until(lambda: done.value)
+    assert sent.value == 3
+
+
+@pytest.mark.parametrize(
+    "frame", [Frame(Opcode.PING, 125 * b"x"), Frame(Opcode.CONT, b"x", fin=False)], ids=str
+)
+def test_who_floods_with_what_cannot_wait_is_let_go(
+    server: viser.ViserServer, call: Callable[..., Any], frame: Frame
+) -> None:
+    peer = call()
+    raw = peer._socket.socket
+    if frame.opcode is Opcode.CONT:
+        raw.sendall(Frame(Opcode.BINARY, b"x", fin=False).serialize(mask=True))
+    flood = 1000 * frame.serialize(mask=True)
+    with contextlib.suppress(OSError):
+        for _ in range(1000):
+            raw.sendall(flood)
+        pytest.fail("the server took a million frames")
+
+
+def test_word_of_a_form_that_nobody_has_is_not_kept(
+    server: viser.ViserServer,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+) -> None:
+    form, done = server.gui.add_form("form"), server.gui.add_checkbox("done", False)
+    sender = call()
+    for number in range(50):
+        sender.send({"type": "GuiFormDirtyMessage", "uuid": f"{number}"})
+    sender.send({"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid})
+    sender.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
+    wait_until(lambda: done.value)
+    told = [m["uuid"] for m in call().replay() if m["type"] == "GuiFormDirtyMessage"]
+    assert told == [form._impl.uuid]
+
+
+def test_a_message_that_is_too_large_for_its_kind_is_dropped(
+    server: viser.ViserServer,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+) -> None:
+    text, done = server.gui.add_text("text", ""), server.gui.add_checkbox("done", False)
+    form = server.gui.add_form("form")
+    peer = call()
+    uuid = {"uuid": text._impl.uuid}
+    peer.send({"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid, "x": 10_000 * "x"})
+    peer.send({"type": "GuiUpdateMessage", "updates": {"value": 600_000 * "x"}} | uuid)
+    peer.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
+    wait_until(lambda: done.value)
+    assert text.value == ""
+    assert "GuiFormDirtyMessage" not in {m["type"] for m in call().replay()}
+    peer.send({"type": "GuiUpdateMessage", "updates": {"value": 2_000_000 * "x"}} | uuid)
+
+    def hear() -> None:
+        while True:
+            peer.receive()
+
+    with pytest.raises(websockets.exceptions.ConnectionClosed, match="message too big"):
+        hear()
+
+
+def test_a_server_that_stops_waits_for_no_browser(
+    call: Callable[..., Any], server: viser.ViserServer, ask: Callable[..., Any]
+) -> None:
+    call()  # does not read, so that it never answers a farewell
+    with socket.create_connection(("127.0.0.1", server.get_port())) as stranger:
+        stranger.sendall(b"GET / HT")
+        assert ask(PAGE)[0] == 200
+        thread = server._websock_server._server_thread
+        server.stop()
+        assert thread is not None
+        assert not thread.is_alive()

@@ -1,0 +1,121 @@
+"""What the server answers to requests that are not a browser's."""
+
+from __future__ import annotations
+
+import logging
+import socket
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+import viser
+import websockets.sync.server
+
+from webviz.scene import Scene
+from webviz.scene.sparing_log import sparing_log
+
+Ask = Callable[[bytes], tuple[int, bytes, bytes]]
+HOST = b"Host: localhost\r\n"
+
+
+def test_head_is_answered_like_get_without_the_page(ask: Ask) -> None:
+    status, head, body = ask(b"HEAD / HTTP/1.1\r\n" + HOST + b"\r\n")
+    full_status, full_head, full_body = ask(b"GET / HTTP/1.1\r\n" + HOST + b"\r\n")
+    assert (status, body) == (full_status, b"") == (200, b"")
+    assert head == full_head
+    assert f"Content-Length: {len(full_body)}".encode() in head
+
+
+@pytest.mark.parametrize(
+    ("request_", "expected"),
+    [
+        (b"POST / HTTP/1.1\r\n" + HOST + b"Content-Length: 5\r\n\r\nhello", 405),
+        (b"OPTIONS * HTTP/1.1\r\n" + HOST + b"\r\n", 405),
+        (b"GET /etc/passwd HTTP/1.1\r\n" + HOST + b"\r\n", 404),
+        (b"GET /%00 HTTP/1.1\r\n" + HOST + b"\r\n", 404),
+        (b"GET /" + 1000 * b"a" + b" HTTP/1.1\r\n" + HOST + b"\r\n", 404),
+        (b"GET /" + 8000 * b"a" + b" HTTP/1.1\r\n" + HOST + b"\r\n", 414),
+        (b"GET /" + 80_000 * b"a", 414),
+        (b"GET / HTTP/1.1\r\n" + HOST + 50_000 * b"a", 431),
+        (b"GET / HTTP/1.1\r\n" + HOST + 200 * b"A: b\r\n" + b"\r\n", 400),
+        (b"GET / HTTP/1.1\r\n" + HOST + b"Transfer-Encoding: chunked\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\nHost: localhost\n\n", 400),
+        (b"GET / HTTP/1.0\r\n\r\n", 505),
+        (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 400),
+        (b"GET / HTTP/1.1\r\n\r\n", 403),
+        (b"GET / HTTP/1.1\r\n" + HOST + b"Origin: http://[::1\r\n\r\n", 403),
+        (b"GET / HTTP/1.1\r\n" + HOST + b"Upgrade: websocket\r\nConnection: Upgrade\r\n\r\n", 400),
+    ],
+    ids=lambda value: str(value)[:60],
+)
+def test_what_cannot_be_answered_is_refused_in_a_sentence(
+    ask: Ask, request_: bytes, expected: int
+) -> None:
+    status, head, body = ask(request_)
+    assert status == expected
+    assert body.decode().strip().endswith(".")
+    assert b"\r\nX-Content-Type-Options: nosniff" in head
+
+
+def test_two_headers_of_one_name_are_no_error(ask: Ask) -> None:
+    twice = b"Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"
+    status, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + twice + b"\r\n")
+    assert status == 200
+    assert b"Content-Encoding: gzip" in head
+
+
+def test_the_page_may_be_in_no_other_page_and_tells_no_other_site_of_itself(ask: Ask) -> None:
+    _, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + b"\r\n")
+    assert b"frame-ancestors 'none'" in head
+    assert b"connect-src 'self' ws://localhost wss://localhost data: blob:" in head
+    assert b"\r\nReferrer-Policy: no-referrer" in head
+
+
+def test_a_link_cannot_make_the_page_obey_another_server(
+    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+) -> None:
+    called = threading.Event()
+    with websockets.sync.server.serve(lambda _: called.set(), "127.0.0.1", 0) as other:
+        threading.Thread(target=other.serve_forever).start()
+        port = other.socket.getsockname()[1]
+        page = browser.new_page()
+        page.goto(f"http://127.0.0.1:{server.get_port()}/?websocket=ws://127.0.0.1:{port}")
+        # The page tries once a second; a worker that may not connect says so nowhere.
+        page.wait_for_timeout(3000)
+        page.close()
+        other.shutdown()
+    assert not called.is_set()
+
+
+def test_strangers_who_only_connect_do_not_fill_the_log(
+    server: viser.ViserServer,
+    caplog: pytest.LogCaptureFixture,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+) -> None:
+    for _ in range(20):
+        socket.create_connection(("127.0.0.1", server.get_port())).close()
+    peer = call()
+    for _ in range(20):
+        peer.send({"type": "ViewerCameraMessage", "wxyz": "a"})
+    peer.look()
+    wait_until(lambda: len(server.get_clients()) == 1)
+    assert len(caplog.records) <= 2
+    assert all(len(record.getMessage()) < 200 for record in caplog.records)
+    assert not any(record.exc_info for record in caplog.records)
+
+
+def test_a_sparing_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixture) -> None:
+    log = sparing_log("webviz.server")
+
+    def at(seconds: float, message: str) -> None:
+        record = log.makeRecord(log.name, logging.WARNING, "", 0, message, (), None)
+        record.created = seconds
+        log.handle(record)
+
+    for second in (0.0, 1.0, 59.0, 60.5):
+        at(second, "It rains")
+    at(61.0, "It snows")
+    assert caplog.messages == ["It rains", "It rains (2 more like it before)", "It snows"]

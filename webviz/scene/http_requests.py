@@ -1,0 +1,114 @@
+"""HTTP requests: which are answered at all, and what every answer says to the browser.
+
+websockets reads nothing but GET and closes the connection on anything else without a word; viser
+looks up any path on the disk. Here the head of a request is judged before either sees it.
+"""
+
+from __future__ import annotations
+
+import http
+
+from websockets.datastructures import Headers
+from websockets.exceptions import SecurityError
+from websockets.http11 import Request
+from websockets.streams import StreamReader
+
+MAX_HEAD_BYTES = 16 << 10
+MAX_PATH_BYTES = 2 << 10
+PAGES = ("/", "/index.html")
+"""All that is served; viser's page is one file."""
+
+Refusal = tuple[http.HTTPStatus, str]
+
+NOT_FOUND: Refusal = http.HTTPStatus.NOT_FOUND, "Nothing is here. The page of webviz is at /."
+
+
+def is_complete(head: bytes) -> bool:
+    """Whether the bytes received so far are enough to judge a request."""
+    is_text = head[:1].isalpha()  # a TLS greeting is not, and never has an end of line
+    return not is_text or b"\n\r\n" in head or b"\n\n" in head or len(head) > MAX_HEAD_BYTES
+
+
+def refusal(head: bytes) -> Refusal | None:
+    """Why a request is not answered, or None if it is.
+
+    Args:
+        head: the request line and the headers, perhaps followed by a body.
+    """
+    line = head.split(b"\n", 1)[0]
+    words = line.rstrip(b"\r").split(b" ")
+    if len(words) > 1 and len(words[1]) > MAX_PATH_BYTES:
+        return http.HTTPStatus.REQUEST_URI_TOO_LONG, "The address is too long."
+    if len(head) > MAX_HEAD_BYTES:
+        too_large = http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
+        return too_large, "The headers of the request are too long."
+    if len(words) != 3 or not words[0].isalpha() or not words[2].startswith(b"HTTP/"):
+        return (
+            http.HTTPStatus.BAD_REQUEST,
+            "This is not an HTTP request. Use http://, not https://.",
+        )
+    if words[2] != b"HTTP/1.1":
+        return http.HTTPStatus.HTTP_VERSION_NOT_SUPPORTED, "Only HTTP/1.1 is supported."
+    if words[0] not in (b"GET", b"HEAD"):
+        return http.HTTPStatus.METHOD_NOT_ALLOWED, "Only GET and HEAD are supported."
+    if not _is_readable(as_get(head)):
+        return http.HTTPStatus.BAD_REQUEST, "The request has invalid headers or a body."
+    return None
+
+
+def is_head(head: bytes) -> bool:
+    """Whether only the headers of the answer are wanted."""
+    return head.startswith(b"HEAD ")
+
+
+def as_get(head: bytes) -> bytes:
+    """The same request with the method GET."""
+    return b"GET" + head[4:] if is_head(head) else head
+
+
+def is_upgrade(request: Request) -> bool:
+    """Whether a request opens a websocket."""
+    return "websocket" in (value.lower() for value in request.headers.get_all("Upgrade"))
+
+
+def add_policy(headers: Headers, host: str) -> None:
+    """Tells the browser what the page may do: talk to this server, and be in no other page.
+
+    viser's page is one file of inline scripts and styles, decodes in workers that it makes from
+    blobs, and runs the scripts that webviz sends it, hence the three exceptions.
+
+    Args:
+        headers: of the answer.
+        host: as the browser addressed the server, if that is known to be valid.
+    """
+    websockets = f"ws://{host} wss://{host}" if host else ""
+    headers["Content-Security-Policy"] = "; ".join(
+        (
+            "default-src 'none'",
+            "script-src 'unsafe-inline' 'unsafe-eval' blob:",
+            "worker-src blob:",
+            "style-src 'unsafe-inline'",
+            "img-src data: blob:",
+            "font-src data:",
+            f"connect-src 'self' {websockets} data: blob:",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors 'none'",
+        )
+    )
+    headers["X-Frame-Options"] = "DENY"
+    headers["X-Content-Type-Options"] = "nosniff"
+    headers["Referrer-Policy"] = "no-referrer"
+
+
+def _is_readable(head: bytes) -> bool:
+    """Whether websockets can read a request, which it would otherwise not answer."""
+    reader = StreamReader()
+    reader.feed_data(head)
+    try:
+        next(Request.parse(reader.read_line))
+    except StopIteration:
+        return True
+    except (ValueError, EOFError, SecurityError, NotImplementedError):
+        return False
+    return False

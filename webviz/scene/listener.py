@@ -1,0 +1,119 @@
+"""The socket that a server listens on."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import http
+import logging
+import os
+import socket
+
+MAX_PORT = 65535
+
+SEND_BUFFER_BYTES = 1 << 19
+"""Of a connection, sent and not yet acknowledged: 5 MB/s at a round trip of 100 ms."""
+
+UNSENT_BYTES = 1 << 16
+"""Of a connection, ready to be sent."""
+
+_TURNED_AWAY = "webviz has no file descriptor left for another connection. Try again later.\n"
+
+
+class CannotListen(OSError):
+    """The server cannot be reached at the address it was given; the text says why."""
+
+
+class PortInUse(CannotListen):
+    """Another program listens on the port."""
+
+
+class Listener(socket.socket):
+    """A listening socket that turns connections away while the process cannot open files.
+
+    asyncio would try a hundred times a second and log each attempt, while browsers wait. Hence one
+    file is kept open: its descriptor serves to accept a connection and to refuse it.
+    """
+
+    _spare: int | None = None
+    log: logging.Logger | None = None
+
+    def accept(self) -> tuple[socket.socket, object]:
+        """Accepts a connection, or raises BlockingIOError if there is none or no room for one."""
+        self._keep_spare()
+        try:
+            return super().accept()
+        except OSError as error:
+            if error.errno not in (errno.EMFILE, errno.ENFILE) or self._spare is None:
+                raise
+            if self.log is not None:
+                self.log.warning("Connections are turned away: %s.", error.strerror)
+            self._turn_away()
+            raise BlockingIOError from None
+
+    def close(self) -> None:
+        """Closes the socket."""
+        self._close_spare()
+        super().close()
+
+    def _turn_away(self) -> None:
+        self._close_spare()
+        with contextlib.suppress(OSError):
+            stranger, _ = super().accept()
+            with stranger:
+                stranger.setblocking(False)
+                stranger.send(_refusal())
+
+    def _keep_spare(self) -> None:
+        if self._spare is None:
+            with contextlib.suppress(OSError):
+                self._spare = os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC)
+
+    def _close_spare(self) -> None:
+        if self._spare is not None:
+            os.close(self._spare)
+            self._spare = None
+
+
+def listen(host: str, port: int) -> Listener:
+    """Binds a socket.
+
+    Raises:
+        PortInUse: another program listens there.
+        CannotListen: `host` is no address of this machine, or the port is not allowed.
+    """
+    if not 0 <= port <= MAX_PORT:  # the system would take what is left of 16 bits
+        raise CannotListen(f"{port} is no port: give one from 1 to {MAX_PORT}, or 0 for any.")
+    try:
+        family, _, _, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        bound = socket.create_server(address[:2], family=family)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise PortInUse(
+                f"Port {port} of {host} is in use; end the program that listens there or choose "
+                "another port."
+            ) from None
+        reason = error.strerror or str(error)
+        raise CannotListen(f"Cannot listen on port {port} of {host}: {reason}.") from None
+    listener = Listener(bound.family, bound.type, bound.proto, bound.detach())
+    listener._keep_spare()
+    _let_newest_win(listener)
+    return listener
+
+
+def _let_newest_win(listener: socket.socket) -> None:
+    """Leaves little in the kernel's buffers, where the newest cannot overtake (for connections)."""
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    if hasattr(socket, "TCP_NOTSENT_LOWAT"):
+        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
+
+
+def _refusal() -> bytes:
+    status = http.HTTPStatus.SERVICE_UNAVAILABLE
+    return (
+        f"HTTP/1.1 {status.value} {status.phrase}\r\nConnection: close\r\n"
+        f"Content-Type: text/plain; charset=utf-8\r\nContent-Length: {len(_TURNED_AWAY)}\r\n\r\n"
+        f"{_TURNED_AWAY}"
+    ).encode()
