@@ -1,9 +1,9 @@
 """Nodes with their pose worked into their coordinates.
 
-A browser applies a new pose in the next frame it draws, and new data one frame later, when its
-page has rebuilt the node. A scan that turns with its robot would flicker between the two. So what
-changes data and pose together is sent in coordinates of the fixed frame, relative to an origin
-that stays while the data is near it.
+The page takes poses and data of one websocket frame in one step (`scene/page.py`), but large data
+comes in a later frame than poses, which are small (`scene/outbox.py`). A scan that turns with its
+robot would flicker between the two. So what changes data and pose together is sent in coordinates
+of the fixed frame, relative to an origin that stays while the data is near it.
 """
 
 from __future__ import annotations

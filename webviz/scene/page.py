@@ -21,6 +21,21 @@ PAGE_SCRIPT = """
     if (event.ctrlKey || event.metaKey || event.altKey) event.stopPropagation();
   });
 
+  // Poses and data in one step. viser takes messages while it draws a frame: poses are in that
+  // frame, but data only when React has rebuilt the nodes, in the next. So messages are taken in a
+  // callback of their own right before: what React has to do is done when it ends. The first batch
+  // of a connection, which makes the nodes, is left to viser.
+  const mutable = window.__viserMutable;
+  const request = window.requestAnimationFrame.bind(window);
+  const take = () => {
+    if (mutable.firstMessageBatch || !mutable.messageQueue.length) return;
+    if (mutable.drainMessageQueue) mutable.drainMessageQueue();
+  };
+  window.requestAnimationFrame = (draw) => {
+    request(take);
+    return request(draw);
+  };
+
   // The tab of the browser is called as the panel is.
   setInterval(() => {
     const panel = document.querySelector("[data-page-title]");
