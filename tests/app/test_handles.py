@@ -71,6 +71,11 @@ def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer, refuse
     assert refused(misspell) == hint
     assert refused(lambda: scan.siez) == hint
     assert refused(lambda: viewer.add("LaserScan", siez=0.1)) == hint
+    several = refused(lambda: viewer.add("LaserScan", siez=0.1, alpha=2, topc="/scan", size=1))
+    assert several == (
+        f"{hint} alpha: expected <= 1, got 2. "
+        "LaserScan has no property `topc`, did you mean `topic`?"
+    )
     assert refused(lambda: viewer.add("LaserScn")).endswith("did you mean `LaserScan`?")
     assert not hasattr(scan, "siez")
 

@@ -199,7 +199,13 @@ def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused:
         return lambda: setattr(viewer, "view", view)
 
     assert "did you mean `Above`" in refused(look("Abve"))
-    assert refused(look({"type": "Orbit", "distance": -1})).startswith("That is no view: distance:")
+    assert refused(look({"type": "Orbit", "distance": -1})).startswith(
+        "Not a valid view: distance: expected > 0, got -1."
+    )
+    assert refused(look({"type": "TopDown"})) == (
+        "Not a valid view: type: "
+        "expected Orbit, XYOrbit, ThirdPersonFollower, FPS or TopDownOrtho, got `TopDown`."
+    )
     viewer.remove_view("Above")
     assert viewer.views == {}
     assert refused(lambda: viewer.save_view("Here")).startswith("No browser is open")

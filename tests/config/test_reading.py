@@ -100,7 +100,7 @@ def test_what_is_said_once_can_be_used_again() -> None:
         ("frame_rate: fast", "x.yaml:1: frame_rate: expected a number, got `fast`."),
         ("view: {\n pitch: 3}", "x.yaml:2: view.pitch: expected <= 1.5698, got 3."),
         ("view: {pich: 1}", "x.yaml:1: view.pich: unknown key, did you mean `pitch`?"),
-        ("view: {type: Orbitt}", "x.yaml:1: view.type: no such choice as `Orbitt`, "),
+        ("view: {type: Orbitt}", "x.yaml:1: view.type: expected Orbit, XYOrbit, "),
         ("displays: 5", "x.yaml:1: displays: expected a list, each entry with a `type`."),
         ("a: !!python/object:os.system {}", "x.yaml:1 is not valid YAML"),
         ("a: 2001-13-45", "x.yaml is not valid YAML: month must be in 1..12."),
@@ -131,7 +131,7 @@ def test_a_mistake_is_one_sentence_with_its_line_and_place(text: str, sentence: 
         ("{type: LaserScan, topic: 5}", "displays[1].topic: expected the name of a topic, got 5."),
         ("{type: LaserScan, topic: {depth: x}}", "topic.depth: expected a whole number, got `x`."),
         ("{type: LaserScan, topic: {dept: 1}}", "topic.dept: unknown key, did you mean `depth`?"),
-        ("{type: LaserScan, style: Sqares}", "no such choice as `Sqares`, did you mean `Squares`?"),
+        ("{type: LaserScan, style: Sqares}", "Boxes or Tiles, got `Sqares`."),
         ("{type: LaserScan, color: [1, 2]}", "color: expected 3 values, got [1, 2]."),
         ("{type: LaserScan, enabled: on}", "enabled: expected true or false, got `on`."),
         ("{type: Grid, plane_cell_count: 2.5}", "expected a whole number, got 2.5."),
@@ -156,6 +156,25 @@ def test_a_bad_display_keeps_its_text_and_harms_no_other(entry: str, reason: str
     again = getattr(again, "displays", [again])[0]
     assert isinstance(again, Unreadable)
     assert again.values == bad.values
+
+
+def test_all_mistakes_of_a_display_are_reported() -> None:
+    text = (
+        "displays:\n- type: LaserScan\n  size: -1\n  sise: 1\n  topic: {depth: x}\n"
+        "- {type: Group, enable: true, name: 5, displays: []}\n- type: Grid\n"
+    ) + "".join(f"  x{i}: 1\n" for i in range(12))
+    scan, group, grid = (getattr(each, "reason", "") for each in parse(text, "x.yaml").displays)
+    assert scan == (
+        "x.yaml:3: displays[0].size: expected > 0, got -1. "
+        "x.yaml:4: displays[0].sise: unknown key, did you mean `size`? "
+        "x.yaml:5: displays[0].topic.depth: expected a whole number, got `x`."
+    )
+    assert group == (
+        "x.yaml:6: displays[1].enable: unknown key, did you mean `enabled`? "
+        "x.yaml:6: displays[1].name: expected text, got 5."
+    )
+    assert grid.count("unknown key") == 10
+    assert grid.endswith(" There are 2 more mistakes.")
 
 
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from webviz.config import nearest
+import msgspec
+
+from webviz.config import mistakes, nearest, sentences
+from webviz.display import make
 from webviz.errors import Error
 from webviz.registry import display_types
 
@@ -23,12 +26,22 @@ def check_properties(type: str, properties: Mapping[str, Any]) -> None:
     """Refuse what a display type lacks; of a type that does not exist others tell.
 
     Raises:
-        NoSuchProperty: it has not one of these.
+        NoSuchProperty: it has not one of these; the sentences tell of all that is wrong.
     """
-    if cls := display_types().get(type):
-        for name in properties:
-            if name not in cls.__struct_fields__:
-                raise NoSuchProperty(no_property(type, name, cls.__struct_fields__))
+    cls = display_types().get(type)
+    fields = cls.__struct_fields__ if cls else properties
+    if cls is None or properties.keys() <= set(fields):
+        return
+    try:
+        make(cls, dict(properties))
+    except msgspec.ValidationError as error:
+        told = [
+            sentences([(path, clause)])
+            if path[0] in fields
+            else no_property(type, str(path[0]), fields)
+            for path, clause in mistakes(cls, properties, error)
+        ]
+        raise NoSuchProperty(" ".join(told)) from error
 
 
 def by_topic(

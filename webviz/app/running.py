@@ -238,10 +238,12 @@ def checked_view(view: View | Mapping[str, Any]) -> View:
     Raises:
         Error: one does not; a sentence.
     """
+    values = with_type(msgspec.to_builtins(view))
     try:
-        return msgspec.convert(with_type(msgspec.to_builtins(view)), View)
+        return msgspec.convert(values, View)
     except msgspec.ValidationError as error:
-        raise Error(f"That is no view: {config_file.describe(error)}.") from error
+        found = config_file.explain(error, View, values)
+        raise Error(f"Not a valid view: {config_file.sentences([found])}") from error
 
 
 def ros_source(ros_args: Sequence[str] = ()) -> RosSource:

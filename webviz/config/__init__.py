@@ -2,7 +2,7 @@
 
 from webviz.config.atomic import write_text
 from webviz.config.errors import ConfigError, nearest
-from webviz.config.explain import describe, explain
+from webviz.config.explain import explain, mistakes, sentences
 from webviz.config.files import is_rviz, read_text
 from webviz.config.model import (
     STANDARD,
@@ -30,17 +30,18 @@ __all__ = [
     "Settings",
     "Source",
     "Unreadable",
-    "describe",
     "document",
     "dump",
     "explain",
     "is_rviz",
     "load",
+    "mistakes",
     "nearest",
     "parse",
     "read_display",
     "read_text",
     "save",
+    "sentences",
     "standard",
     "write_text",
 ]

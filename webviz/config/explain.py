@@ -6,17 +6,18 @@ import json
 import re
 import types
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 import msgspec
 
 from webviz.config.errors import nearest
 from webviz.config.source import Path, Place
-from webviz.display import Topic
+from webviz.display import Display, Topic, make
 
 MOST = 60
 """Characters of a value that are repeated in an error."""
+MOST_MISTAKES = 10
 
 WORDS = {
     "float": "a number",
@@ -34,15 +35,13 @@ _UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 _MISSING = re.compile(r"Object missing required field `(.*)`")
 
 
-def explain(
-    error: msgspec.ValidationError, hint: Any = None, values: Any = msgspec.UNSET
-) -> tuple[Path, str]:
+def explain(error: msgspec.ValidationError, hint: Any, values: Any) -> tuple[Path, str]:
     """Where a value is that does not fit, and what is wrong with it.
 
     Args:
         error: of converting `values` to `hint`.
         hint: a type, such as a display's class.
-        values: plain values, as in a config file; without them no clause repeats one.
+        values: plain values, as in a config file.
 
     Returns:
         The path from `values`, and a clause such as "expected > 0, got -1".
@@ -67,10 +66,39 @@ def unknown_key(key: str, valid: Iterable[str]) -> str:
     return f"unknown key, {nearest(key, valid)}"
 
 
-def describe(error: msgspec.ValidationError) -> str:
-    """An error with its place first, where the values are not at hand: `size: expected > 0`."""
-    path, clause = explain(error)
-    return Place(path).says(clause).removesuffix(".")
+def mistakes(
+    cls: type[Display],
+    values: Mapping[str, Any],
+    error: msgspec.ValidationError,
+    others: Iterable[str] = (),
+) -> list[tuple[Path, str]]:
+    """All that is wrong with the properties of a display, each with its path and a clause.
+
+    Args:
+        cls: of the display.
+        values: plain values, as in a config file.
+        error: of making the display; it names only the first mistake.
+        others: keys that are valid without being properties.
+    """
+    fields = [*cls.__struct_fields__, *others]
+    found: list[tuple[Path, str]] = []
+    for key, value in values.items():
+        if key not in fields:
+            found.append(((key,), unknown_key(key, fields)))
+        elif key not in others:
+            try:
+                make(cls, {key: value})
+            except msgspec.ValidationError as single:
+                found.append(explain(single, cls, {key: value}))
+    return found or [explain(error, cls, values)]  # perhaps values do not fit one another
+
+
+def sentences(found: Sequence[tuple[Path, str]], place: Place = Place()) -> str:  # noqa: B008
+    """Mistakes with their places; of very many the first."""
+    told = [place.at(*path).says(clause) for path, clause in found[:MOST_MISTAKES]]
+    if len(found) > MOST_MISTAKES:
+        told.append(f"There are {len(found) - MOST_MISTAKES} more mistakes.")
+    return " ".join(told)
 
 
 def shown(value: Any) -> str:
@@ -152,7 +180,7 @@ def _misfit(hint: Any, values: Any) -> str:
 
 
 def _clause(text: str, hint: Any, value: Any) -> str:
-    got = "" if value is msgspec.UNSET else f", got {shown(value)}"
+    got = _got(value)
     if found := _BOUND.match(text):
         return f"expected {found[1]} {float(found[2]):g}{got}"
     if found := _LENGTH.match(text):
@@ -167,7 +195,13 @@ def _clause(text: str, hint: Any, value: Any) -> str:
 
 
 def _no_choice(value: Any, choices: Iterable[Any]) -> str:
-    return f"no such choice as {shown(value)}, {nearest(str(value), map(str, choices))}"
+    *most, last = map(str, choices)
+    expected = f"{', '.join(most)} or {last}" if most else last
+    return f"expected {expected}{_got(value)}"
+
+
+def _got(value: Any) -> str:
+    return "" if value is msgspec.UNSET else f", got {shown(value)}"
 
 
 def _expected(words: str, hint: Any) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from webviz.config.errors import ConfigError, nearest
-from webviz.config.explain import explain, unknown_key
+from webviz.config.explain import explain, mistakes, sentences, unknown_key
 from webviz.config.files import is_rviz, read_text
 from webviz.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
 from webviz.config.source import Place, Source
@@ -166,13 +166,9 @@ def _read(
     """A display without what is in it, which has other keys than its properties."""
     values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
     try:
-        _refuse_unknown(values, [*cls.__struct_fields__, *others], place)
         return make(cls, values)
-    except ConfigError as error:
-        return Unreadable(entry, str(error))
     except msgspec.ValidationError as error:
-        path, clause = explain(error, cls, values)
-        return Unreadable(entry, place.at(*path).says(clause))
+        return Unreadable(entry, sentences(mistakes(cls, values, error, others), place))
 
 
 def _refuse_unknown(values: Iterable[str], valid: Iterable[str], place: Place) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import itertools
 import logging
 import re
@@ -10,9 +11,11 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
+import msgspec
+
 from webviz import config as config_file
 from webviz import rviz
-from webviz.config import Branch, Item, Place, Settings, Unreadable
+from webviz.config import Branch, ConfigError, Item, Place, Settings, Unreadable
 from webviz.display import Display, make, set_property, to_values
 from webviz.group import Group
 from webviz.pipeline import Runner, Services
@@ -161,15 +164,22 @@ class DisplayList:
         """Change a property of a display or a group.
 
         Raises:
-            msgspec.ValidationError: the value does not fit; nothing was changed.
+            ConfigError: the value does not fit; nothing was changed.
             AttributeError: there is no such property.
         """
         entry = self.find(id)
+        content = entry.content if entry else None
         before = set(self.active())
-        if entry and isinstance(entry.content, Runner):
-            entry.content.set(path, value)
-        elif entry and isinstance(entry.content, Group):
-            set_property(entry.content, path, value)
+        try:
+            if isinstance(content, Runner):
+                content.set(path, value)
+            elif isinstance(content, Group):
+                set_property(content, path, value)
+        except msgspec.ValidationError as error:
+            own = content.display if isinstance(content, Runner) else content
+            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
+            found = config_file.explain(error, type(own), nested)
+            raise ConfigError(f"Not changed: {config_file.sentences([found])}") from error
         for runner in before - set(self.active()):
             runner.hide()
 

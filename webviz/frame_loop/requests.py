@@ -11,9 +11,6 @@ from concurrent.futures import Future, wait
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-import msgspec
-
-from webviz import config as config_file
 from webviz.commands import Command, FileCommand
 from webviz.config import ConfigError
 from webviz.config.disk import in_thread
@@ -169,8 +166,6 @@ class Requests:
             return act()
         except ConfigError as error:
             raise Refused(str(error)) from error
-        except msgspec.ValidationError as error:
-            raise Refused(f"Not changed: {config_file.describe(error)}.") from error
         except AttributeError as error:
             raise Refused(f"Not changed: {error}.") from error
         except (Exception, SystemExit) as error:

@@ -93,8 +93,7 @@ class Session:
             What there is to tell of it, "" for what can be seen; of files, the slow part.
 
         Raises:
-            ConfigError: it cannot be done; nothing was changed.
-            msgspec.ValidationError: a value does not fit; nothing was changed.
+            ConfigError: it cannot be done, or a value does not fit; nothing was changed.
             AttributeError: there is no such property.
         """
         match command:
@@ -172,10 +171,14 @@ class Session:
         """Change a setting.
 
         Raises:
-            msgspec.ValidationError: the value does not fit; nothing was changed.
+            ConfigError: the value does not fit; nothing was changed.
         """
         values = msgspec.to_builtins(self.settings) | {key: value}
-        self.settings = msgspec.convert(values, Settings)
+        try:
+            self.settings = msgspec.convert(values, Settings)
+        except msgspec.ValidationError as error:
+            found = config_file.explain(error, Settings, values)
+            raise ConfigError(f"Not changed: {config_file.sentences([found])}") from error
 
     def _open(self, path: str) -> Job[Config]:
         wanted = self._folder / path
@@ -263,4 +266,9 @@ def _new(type_name: str, values: dict[str, Any]) -> Display:
     if type_name not in types:
         hint = config_file.nearest(type_name, types)
         raise ConfigError(f"There is no display type `{type_name}`: {hint}")
-    return make(types[type_name], values)
+    cls = types[type_name]
+    try:
+        return make(cls, values)
+    except msgspec.ValidationError as error:
+        found = config_file.mistakes(cls, values, error)
+        raise ConfigError(f"Not added: {config_file.sentences(found)}") from error

@@ -20,7 +20,7 @@ from webviz.commands import (
     StartWithView,
     ViewCommand,
 )
-from webviz.config import ConfigError, Settings, nearest
+from webviz.config import ConfigError, Settings, explain, nearest, sentences
 from webviz.frames import Frames
 from webviz.nodes import Pose
 from webviz.status import Level, Status
@@ -177,8 +177,7 @@ class Viewing:
             The settings that are new.
 
         Raises:
-            ConfigError: it cannot be done; a sentence.
-            msgspec.ValidationError: a value does not fit; nothing was changed.
+            ConfigError: it cannot be done, or a value does not fit; a sentence.
         """
         saved = settings.views
         match command:
@@ -242,7 +241,11 @@ class Viewing:
         values = msgspec.to_builtins(view)
         if key not in values:
             raise ConfigError(f"{type_of(view)} has no `{key}`: {nearest(key, values)}")
-        return msgspec.convert(values | {key: value}, type(view))
+        try:
+            return msgspec.convert(values | {key: value}, type(view))
+        except msgspec.ValidationError as error:
+            found = explain(error, type(view), values | {key: value})
+            raise ConfigError(f"Not changed: {sentences([found])}") from error
 
     def _focus(self, within: Iterable[str], browser: int | None, frames: Frames) -> None:
         boxes = (self._scene.bounds(f"{id_}/") for id_ in within)
