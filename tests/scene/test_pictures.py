@@ -8,6 +8,7 @@ import numpy as np
 
 from webviz.nodes import Image, Lines, Pose
 from webviz.scene.server import BACKGROUND
+from webviz.views import Orbit, TopDownOrtho
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
@@ -91,14 +92,33 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
     assert {(red, blue) for red, _, blue in seen} == {(0, 255)}
 
 
-def test_lines_in_the_plane_of_a_picture_are_drawn_over_it(view: Any) -> None:
-    view.scene.upsert("grid", "line", Lines(floats(((-3, 0, 0), (3, 0, 0))), GREEN, 3.0))
+def greenness(view: Any) -> list[int]:
+    """Along a green line that crosses a red picture and passes by the camera."""
+    view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.5, 0.0)) == RED)
+    pixels = view.pixels()
+    places = [view.row_column((x, 0.0, 0.0)) for x in np.linspace(-1.0, 1.0, 9).tolist()]
+    return [int(pixels[y - 1 : y + 2, x - 1 : x + 2, 1].max()) for y, x in places]
+
+
+def test_lines_in_the_plane_of_a_picture_are_drawn_over_it_from_everywhere(view: Any) -> None:
+    view.scene.upsert("grid", "line", Lines(floats(((-30, 0, 0), (30, 0, 0))), GREEN))
     view.scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
     view.scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
-    view.look((4.0, -6.0, 2.0), (0.0, 0.0, 0.0))
-    view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 1.0, 0.0)) == RED)
-    along = [view.color_at((x, 0.0, 0.0)) for x in np.linspace(-2.5, 2.5, 9).tolist()]
-    assert along == [GREEN] * 9
+    for position in ((4.0, -6.0, 2.0), (0.0, -0.01, 8.0), (-20.0, -15.0, 10.0)):
+        view.look(position, (0.0, 0.0, 0.0))
+        assert min(greenness(view)) > 100
+    view.scene.cameras.show(TopDownOrtho(scale=30.0))
+    view.show()
+    assert min(greenness(view)) > 100
+    view.scene.cameras.show(Orbit())
+
+
+def test_a_picture_a_centimetre_above_a_line_hides_it(view: Any) -> None:
+    view.scene.upsert("grid", "line", Lines(floats(((-30, 0, -0.01), (30, 0, -0.01))), GREEN))
+    view.scene.set_pose("map", Pose((-3.0, -3.0, 0.0)))
+    view.scene.upsert("map", "grid", Image(np.full((8, 8, 4), (*RED, 255), np.uint8), 6.0, 6.0))
+    view.look((1.0, -1.0, 4.0), (0.0, 0.0, 0.0))
+    assert greenness(view) == [0] * 9
 
 
 def test_of_two_pictures_in_one_plane_the_higher_layer_is_on_top_from_everywhere(
