@@ -29,12 +29,14 @@ def test_a_text_hangs_below_its_position_when_asked_from_wherever_one_looks(view
             assert (rows.min() >= row) == below
 
 
-def test_capitals_are_0_6_of_the_height_of_a_line(view: Any) -> None:
-    view.scene.upsert("tf", "names", Labels(CENTER, ("H",), 5.0))
+def test_a_text_is_centred_and_its_capitals_are_0_6_of_the_height_of_a_line(view: Any) -> None:
+    view.scene.upsert("tf", "names", Labels(CENTER, ("HHH",), 4.0))
     view.show()
-    rows, _ = light(view)
-    top, bottom = (view.row_column((0.0, y, 0.0))[0] for y in (2.5, -2.5))
-    assert 0.56 < (np.ptp(rows) + 1) / (bottom - top) < 0.64
+    rows, columns = light(view)
+    top, _ = view.row_column((0.0, 2.0, 0.0))
+    bottom, middle = view.row_column((0.0, -2.0, 0.0))
+    assert 0.56 < (np.ptp(rows) + 1) / (bottom - top) < 0.64  # fonts differ
+    assert abs((columns.min() + columns.max()) / 2 - middle) < 2
 
 
 def test_letters_have_a_dark_outline_and_leave_the_scene_around_them_alone(view: Any) -> None:

@@ -31,6 +31,7 @@ from webviz.scene.images import ImageDrawn
 from webviz.scene.instances import InstancesDrawn
 from webviz.scene.label_script import LABEL_SCRIPT
 from webviz.scene.labels import LabelsDrawn
+from webviz.scene.line_script import LINE_SCRIPT
 from webviz.scene.lines import ArrowsDrawn, LinesDrawn
 from webviz.scene.meshes import GlbDrawn, MeshDrawn
 from webviz.scene.names import ROOT, node_path
@@ -73,7 +74,7 @@ class Scene:
         self._gone: list[_Group] = []
         server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
-        for script in (PAGE_SCRIPT, LABEL_SCRIPT):
+        for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT):
             self.link.run_javascript(script)
         self.cameras = Cameras(self.link)
 

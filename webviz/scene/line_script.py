@@ -1,0 +1,79 @@
+"""How lines look: a script that every browser runs when it joins.
+
+The ends of lines with a width in metres are square, as RViz's, where viser's are round; joints stay
+round. And a segment that passes by the camera is cut where it is well off the screen. viser cuts it
+next to the camera, where its projection is so long that the depth along it is wrong by centimetres:
+what lies in one plane with the floor came and went.
+"""
+
+from __future__ import annotations
+
+# Shaders and attributes are those of LineMaterial and LineSegmentsGeometry in three-stdlib.
+LINE_SCRIPT = """
+(function install() {
+  const scene = window.__viserMutable && window.__viserMutable.scene;
+  if (!scene || !scene.webviz) return requestAnimationFrame(install);
+  if (scene.webvizLines) return;
+  scene.webvizLines = true;
+
+  // Where the segment leaves a pyramid four times as wide as what is seen.
+  const cut = (source) =>
+    source.replace(
+      "end.xyz = mix( start.xyz, end.xyz, alpha );",
+      `vec2 wide = vec2(4.0 / projectionMatrix[0][0], 4.0 / projectionMatrix[1][1]);
+       for (float side = -1.0; side < 2.0; side += 2.0) {
+         vec2 from = side * start.xy - wide * start.z;
+         vec2 to = side * end.xy - wide * end.z;
+         if (from.x > 0.0 && to.x < 0.0) alpha = min(alpha, from.x / (from.x - to.x));
+         if (from.y > 0.0 && to.y < 0.0) alpha = min(alpha, from.y / (from.y - to.y));
+       }
+       end.xyz = mix(start.xyz, end.xyz, alpha);`,
+    );
+
+  const passing = (source) =>
+    "attribute vec2 webvizOpen; varying vec2 vOpen;" +
+    cut(source).replace("void main() {", "void main() { vOpen = webvizOpen;");
+
+  const square = (source) =>
+    "varying vec2 vOpen; float along = 0.5;" +
+    source
+      .replace("mua = clamp(", "along = mua; mua = clamp(")
+      .replace(
+        "vec3 p1 = worldStart",
+        `if (along < 0.0 && vOpen.x > 0.5 || along > 1.0 && vOpen.y > 0.5) discard;
+         vec3 p1 = worldStart`,
+      );
+
+  // An end is open unless the segment before or after goes on from there.
+  function markOpenEnds(geometry) {
+    const { instanceStart } = geometry.attributes;
+    const xyz = instanceStart.data.array;
+    const count = xyz.length / 6;
+    const meet = (i, j) => [0, 1, 2].every((k) => xyz[i + k] === xyz[j + k]);
+    const open = new Float32Array(2 * count);
+    for (let i = 0; i < count; i++) {
+      const [before, after] = [(i + count - 1) % count, (i + 1) % count];
+      open[2 * i] = meet(6 * i, 6 * before + 3) ? 0 : 1;
+      open[2 * i + 1] = meet(6 * i + 3, 6 * after) ? 0 : 1;
+    }
+    const buffer = new instanceStart.data.constructor(open, 2, 1);
+    geometry.setAttribute("webvizOpen", new instanceStart.constructor(buffer, 2, 0));
+  }
+
+  const before = scene.onBeforeRender;
+  scene.onBeforeRender = function (...args) {
+    scene.traverse(({ isLineSegments2, geometry, material }) => {
+      if (!isLineSegments2) return;
+      if (geometry.attributes.instanceStart && !geometry.attributes.webvizOpen) {
+        markOpenEnds(geometry);
+      }
+      if (material.webviz) return;
+      material.webviz = true;
+      material.vertexShader = passing(material.vertexShader);
+      material.fragmentShader = square(material.fragmentShader);
+      material.needsUpdate = true;
+    });
+    return before.apply(this, args);
+  };
+})();
+"""
