@@ -44,9 +44,9 @@ def test_a_file_goes_to_yaml_and_back(
 ) -> None:
     yaml, back = tmp_path / "a.yaml", tmp_path / "b.rviz"
     assert convert(small, yaml) == 0
-    printed = capsys.readouterr().out
-    assert "Mine: my_plugins/Laser: there is no such display here yet" in printed
-    assert printed.endswith(f"webviz: wrote {yaml}\n")
+    printed = capsys.readouterr()
+    assert "Mine: my_plugins/Laser: unsupported display class" in printed.err
+    assert printed.out == f"webviz: wrote {yaml}\n"
     assert "- {type: Grid, cell_size: 0.5, name: Floor}" in yaml.read_text()
     assert convert(yaml, back) == 0
     assert list(lost(texts(SMALL), texts(back.read_text()))) == []
@@ -63,7 +63,7 @@ def test_mistakes_are_one_sentence(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert convert(small, small) == 1
-    assert "is the file to be converted: give another name." in capsys.readouterr().err
+    assert "is the file to convert. Choose another TARGET." in capsys.readouterr().err
     assert convert(tmp_path / "none.rviz", tmp_path / "a.yaml") == 1
     assert "No such file or directory." in capsys.readouterr().err
     (tmp_path / "bad.rviz").write_text("a: 1")
@@ -77,9 +77,9 @@ def test_a_command_without_a_target_says_what_is_missing(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert convert(small) == 2
-    assert "Give a TARGET to write, or --report." in capsys.readouterr().err
+    assert "Give the TARGET to write, or --report." in capsys.readouterr().err
     assert convert("--report", tmp_path / "a.yaml") == 2
-    assert "--report counts what is carried over from a .rviz file" in capsys.readouterr().err
+    assert "--report is for a .rviz file" in capsys.readouterr().err
 
 
 def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:

@@ -72,7 +72,7 @@ def test_kept_displays_are_read_once_their_type_is_there(install: Callable[[], N
     assert twin.beam_count == 3
     assert isinstance(radar, Unreadable)
     assert "Twin: Beam Count: `many` is no number; the default is used." in after.report
-    assert "Front, Twin: Glow: there is no such property here yet" in "\n".join(after.report)
+    assert "Front, Twin: Glow: unsupported" in "\n".join(after.report)
 
 
 def test_no_key_is_lost_by_coming_alive(install: Callable[[], None]) -> None:

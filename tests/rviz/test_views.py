@@ -94,7 +94,7 @@ def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
     [
         (
             "{Class: rviz_default_plugins/FrameAligned, Target Frame: base_link}",
-            "rviz_default_plugins/FrameAligned: there is no such view here",
+            "rviz_default_plugins/FrameAligned: unsupported view type",
         ),
         ("{Distance: far}", "current view: Distance: `far` is no number; the default is used"),
         ("{Focal Point: 1}", "Focal Point: it needs X, Y, Z; the default is used"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -27,9 +28,9 @@ def check(source: Path, target: Path | None = None, *, report: bool = False, **_
         ValueError: a sentence.
     """
     if target is None and not report:
-        raise ValueError("Give a TARGET to write, or --report.")
+        raise ValueError("Give the TARGET to write, or --report.")
     if report and not config_file.is_rviz(source):
-        raise ValueError("--report counts what is carried over from a .rviz file.")
+        raise ValueError("--report is for a .rviz file.")
 
 
 app = App("convert", help_epilogue=EXAMPLES)
@@ -49,7 +50,7 @@ def convert(
     Args:
         source: File to read.
         target: File to write, overwritten.
-        report: Count what of a .rviz file is carried over.
+        report: Print how much of a .rviz file is supported.
         plugin: Files with displays.
 
     Raises:
@@ -69,7 +70,7 @@ def convert(
     if target is None:
         return
     if target.exists() and target.samefile(source):
-        raise ConfigError(f"{target} is the file to be converted: give another name.")
+        raise ConfigError(f"{target} is the file to convert. Choose another TARGET.")
     if config_file.is_rviz(target):
         text, written = rviz.write(config)
         tell(target, written.sentences())
@@ -80,8 +81,8 @@ def convert(
 
 
 def tell(path: Path, sentences: Sequence[str]) -> None:
-    """Print what was not carried over from or into a file."""
+    """Print what was not carried over from or into a file, apart from any output."""
     if sentences:
-        print(f"webviz: {path}: not all of it has a counterpart:")
+        print(f"webviz: parts of {path} are unsupported:", file=sys.stderr)
         for sentence in sentences:
-            print(f"  {sentence}")
+            print(f"  {sentence}", file=sys.stderr)

@@ -16,14 +16,14 @@ from webviz.registry import display_types, type_name
 from webviz.rviz import values
 from webviz.rviz.quiet import is_without_effect
 from webviz.rviz.report import Report
-from webviz.rviz.rest import SELECTS
+from webviz.rviz.rest import KEPT, SELECTS
 from webviz.rviz.structs import Reading, struct_tree
 from webviz.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.rviz.values import Unfit
 
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
-NO_DISPLAY = "there is no such display here yet, it is kept for export"
-NO_PROPERTY = "there is no such property here yet, it is kept for export"
+NO_DISPLAY = f"unsupported display class; {KEPT}"
+NO_PROPERTY = f"unsupported; {KEPT}"
 NOT_USED = {"Selectable": SELECTS}
 """Why properties of all displays are not used, by key."""
 

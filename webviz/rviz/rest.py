@@ -15,7 +15,7 @@ SAME_HERE = {
 }
 """RViz's own that need no counterpart: these panels are tabs, and the mouse moves the camera."""
 
-KEPT = "it is kept for export"
+KEPT = "kept for export"
 PUBLISHES = f"nothing is published from the page yet; {KEPT}"
 SELECTS = f"nothing can be selected in the scene yet; {KEPT}"
 WHY_NOT = {
@@ -38,7 +38,7 @@ _TF = "rviz_default_plugins/TF"
 
 
 def note_rest(document: Tree, report: Report) -> None:
-    """Tell of panels, tools, the transformer and the window."""
+    """Report panels, tools and the transformer."""
     manager = document["Visualization Manager"]
     for kind, entries in (("Panels", document.get("Panels")), ("Tools", manager.get("Tools"))):
         for entry in entries if isinstance(entries, list) else []:
@@ -46,12 +46,11 @@ def note_rest(document: Tree, report: Report) -> None:
             reason = why_not(kind, cls)
             report.count(kind.lower(), reason is None, 1)
             if reason:
-                report.note(kind, cls, reason)
+                name = cls.removeprefix("rviz_common/").removeprefix("rviz_default_plugins/")
+                report.note("Panels and tools", name, f"unsupported; {KEPT}")
     transformer: Any = child(manager, "Transformation", "Current").get("Class", _TF)
     if transformer != _TF:
-        report.note("Transformation", values.text(transformer), f"here it is always tf2; {KEPT}")
-    if "Window Geometry" in document:
-        report.note("file", "Window Geometry", f"a page has no docks; {KEPT}")
+        report.note("Transformation", values.text(transformer), f"unsupported, tf2 is used; {KEPT}")
 
 
 def why_not(kind: str, cls: str) -> str | None:

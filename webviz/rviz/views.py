@@ -57,11 +57,11 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
     cls = kind_of(tree)
     report.count("views", cls is not None, 1)
     if cls is None:
-        reason = "there is no such view here, the default is used; it is kept for export"
+        reason = "unsupported view type, the default is used; kept for export"
         report.note(place, values.text(tree["Class"]), reason)
         return None
     if _switched_on(tree.get("Invert Z Axis")):
-        report.note(place, "Invert Z Axis", "the camera is always upright; it is kept for export")
+        report.note(place, "Invert Z Axis", "the camera is always upright; kept for export")
     given = {
         field.name: _read_field(field, tree[KEYS[field.name]], report, place)
         for field in msgspec.structs.fields(cls)
