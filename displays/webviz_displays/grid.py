@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import functools
 from collections.abc import Sequence
 from typing import Annotated, Literal
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Context, Display, Prop, Sample
+from webviz.transforms.geometry import REACH_M
 from webviz_displays.colors import faded_color
 from webviz_displays.frame_names import FIXED_FRAME, frame_of
 
@@ -69,14 +71,11 @@ class Grid(Display):
         if self.alpha == 0:
             ctx.warn("Grid", "Invisible: alpha is 0.")
             return
-        plane, normal = self.plane_cell_count, self.normal_cell_count
-        count = 2 * (plane + 1) * (normal + 1) + ((plane + 1) ** 2 if normal else 0)
-        if count > MOST_LINES:
-            ctx.error(
-                "Grid",
-                f"{count} lines are more than a browser can show ({MOST_LINES}): "
-                "choose fewer and larger cells.",
-            )
+        wanted = self.plane_cell_count, self.normal_cell_count
+        plane, normal = _inner(*wanted)
+        reach = self.cell_size * max(plane, normal) + max(map(abs, self.offset))
+        if reach > REACH_M:
+            ctx.error("Grid", f"It reaches {reach:g} m. Choose smaller cells or a smaller offset.")
             return
         segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
         color = faded_color(self.color, self.alpha)
@@ -85,7 +84,33 @@ class Grid(Display):
             group.lines("grid", segments, color)
         else:
             group.lines("grid", segments, color, self.line_width, "m")
-        ctx.ok("Grid", f"{count} lines.")
+        if (plane, normal) == wanted:
+            ctx.ok("Grid", f"{_count(plane, normal)} lines.")
+            return
+        cells = f"{plane} x {plane}" + (f" x {normal}" if normal else "")
+        ctx.warn(
+            "Grid",
+            f"More than {MOST_LINES} lines are too many for a browser: only the {cells} cells in "
+            "the middle are drawn. Choose fewer and larger cells.",
+        )
+
+
+def _count(plane: int, normal: int) -> int:
+    """How many lines a grid has, by its cells along the plane and along the normal."""
+    return 2 * (plane + 1) * (normal + 1) + ((plane + 1) ** 2 if normal else 0)
+
+
+def _inner(plane: int, normal: int) -> tuple[int, int]:
+    """The cells along the plane and along the normal that can be drawn around the middle."""
+
+    def within(most: int) -> tuple[int, int]:
+        # An even number less, so that the lines that stay are where they would be.
+        return min(plane, most - (plane - most) % 2), min(normal, most - (normal - most) % 2)
+
+    if _count(plane, normal) <= MOST_LINES:
+        return plane, normal
+    limits = range(2, MOST_LINES)
+    return within(bisect.bisect_right(limits, MOST_LINES, key=lambda n: _count(*within(n))) + 1)
 
 
 @functools.lru_cache(maxsize=4)

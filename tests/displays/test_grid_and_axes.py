@@ -57,10 +57,38 @@ def test_billboards_have_a_width_in_metres(bench: Benches) -> None:
     assert (node.width, node.unit) == (0.1, "m")
 
 
-def test_more_lines_than_a_browser_can_show_are_refused(bench: Benches) -> None:
-    made = grid(bench, plane_cell_count=2000, normal_cell_count=1)
+@pytest.mark.parametrize(
+    ("plane", "normal", "cells", "lines"),
+    [
+        (100_000, 0, "99998 x 99998", 199_998),
+        (1_000_001, 0, "99999 x 99999", 200_000),
+        (2000, 1, "444 x 444 x 1", 199_805),
+        (1000, 100, "356 x 356 x 100", 199_563),
+        (10, 1_000_000, "10 x 10 x 9084", 199_991),
+        (10**400, 10**400, "", 0),
+    ],
+)
+def test_of_too_many_lines_those_in_the_middle_are_drawn(
+    bench: Benches, plane: int, normal: int, cells: str, lines: int
+) -> None:
+    made = grid(bench, plane_cell_count=plane, normal_cell_count=normal, cell_size=0.5)
+    level, text = made.statuses()["Grid"]
+    assert level == "WARN"
+    assert f"only the {cells}" in text
+    segments = made.nodes()["grid"].segments
+    if cells:
+        assert len(segments) == lines
+    assert 150_000 < len(segments) <= 200_000
+    # The lines that stay are where the whole grid has them.
+    assert set(np.unique(segments[:, 0, 0] % 0.5)) == {plane % 2 * 0.25}
+
+
+@pytest.mark.parametrize("far", [{"cell_size": 1e308}, {"offset": (0.0, -1e308, 0.0)}])
+def test_a_grid_that_reaches_too_far_is_not_drawn(bench: Benches, far: Any) -> None:
+    made = grid(bench, **far)
     assert made.nodes() == {}
-    assert made.statuses()["Grid"][0] == "ERROR"
+    level, text = made.statuses()["Grid"]
+    assert (level, text[:11]) == ("ERROR", "It reaches ")
 
 
 @pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])
