@@ -1,14 +1,12 @@
 """Messages as serialised CDR: where a package is missing (tf2_msgs), or rclpy is slow (Path)."""
 
-import struct
 from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.messages import FrameTransform, PoseStampedSequence, encode
 from webviz_sim.description import Transform
-
-_LITTLE_ENDIAN = b"\x00\x01\x00\x00"  # encapsulation header of plain CDR
 
 
 def tf_message(stamped: Iterable[tuple[int, Transform]]) -> bytes:
@@ -20,23 +18,11 @@ def tf_message(stamped: Iterable[tuple[int, Transform]]) -> bytes:
     Returns:
         The CDR bytes, encapsulation header included.
     """
-    stamped = list(stamped)
-    body = bytearray(struct.pack("<I", len(stamped)))
-    for stamp, transform in stamped:
-        _align(body, 4)
-        body += struct.pack("<iI", *divmod(stamp, 1_000_000_000))
-        for frame in (transform.parent, transform.child):
-            text = frame.encode() + b"\0"
-            _align(body, 4)
-            body += struct.pack("<I", len(text)) + text
-        _align(body, 8)
-        body += struct.pack("<7d", *transform.translation, *transform.rotation)
-    return _LITTLE_ENDIAN + bytes(body)
-
-
-def _align(body: bytearray, size: int) -> None:
-    """Pads; CDR aligns each value to its size, counted from behind the header."""
-    body += bytes(-len(body) % size)
+    transforms = [
+        FrameTransform(each.parent, each.child, stamp, each.translation, each.rotation)
+        for stamp, each in stamped
+    ]
+    return encode("tf2_msgs/msg/TFMessage", {"transforms": transforms})
 
 
 def path_message(stamp: int, points: NDArray[np.float64]) -> bytes:
@@ -51,18 +37,14 @@ def path_message(stamp: int, points: NDArray[np.float64]) -> bytes:
     Returns:
         The CDR bytes, encapsulation header included.
     """
-    seconds, nanoseconds = divmod(stamp, 1_000_000_000)
-    header = struct.pack("<iII4s", seconds, nanoseconds, 4, b"map\0")
+    count = len(points)
     directions = np.gradient(points, axis=0)
     half = 0.5 * np.arctan2(directions[:, 1], directions[:, 0])
-    poses = np.zeros(len(points), dtype=[("header", "V16"), ("pose", "<f8", 7)])
-    poses["header"] = np.void(header)
-    poses["pose"][:, :2] = points
-    poses["pose"][:, 5] = np.sin(half)
-    poses["pose"][:, 6] = np.cos(half)
-    body = poses.tobytes()
-    # The first pose comes behind 16 + 4 + 16 bytes, so its doubles need 4 more to be aligned; each
-    # further pose is 72 bytes behind and needs none.
-    return b"".join(
-        (_LITTLE_ENDIAN, header, struct.pack("<I", len(points)), header, bytes(4), body[16:])
+    zeros = np.zeros(count)
+    poses = PoseStampedSequence(
+        np.column_stack([points, zeros]),
+        np.column_stack([zeros, zeros, np.sin(half), np.cos(half)]),
+        np.full(count, stamp),
+        ["map"] * count,
     )
+    return encode("nav_msgs/msg/Path", {"header": poses[0].header, "poses": poses})

@@ -15,7 +15,8 @@ import pytest
 import webviz
 from webviz import registry
 from webviz.commands import Refresh
-from webviz.testing import header, serialized
+from webviz.messages import encode
+from webviz.testing import header
 from webviz.testing.source import HandFedSource
 from webviz.views import Orbit, TopDownOrtho
 
@@ -116,7 +117,7 @@ def test_frames_and_topics_are_known(viewer: webviz.Viewer, source: HandFedSourc
         "transform": {"rotation": {"w": 1.0}},
     }
     name = "tf2_msgs/msg/TFMessage"
-    source.put("/tf_static", name, serialized(name, {"transforms": [transform]}))
+    source.put("/tf_static", name, encode(name, {"transforms": [transform]}))
     viewer.do(Refresh())
     assert viewer.frames == ("base", "map")
     assert viewer.topics == {"/tf_static": (name,)}

@@ -8,9 +8,9 @@ from pathlib import Path
 import playwright.sync_api as playwright
 import pytest
 from bags import START_NS, Bag, ns
-from ros_messages import header
 
 from webviz.pictures.studio import Studio
+from webviz.testing import header
 
 SIZE = (320, 240)
 SECONDS = 6

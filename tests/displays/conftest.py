@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from webviz import Display, Frames, Pose, Status
 from webviz.display import inputs
+from webviz.messages import encode
 from webviz.nodes import Node
 from webviz.pipeline.background import Workers
 from webviz.pipeline.runner import Runner, Services
 from webviz.sources import Offer, Publisher, Raw
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz.testing.recording import RecordingScene
 from webviz.testing.source import SECOND
 from webviz.transforms import TransformBuffer
@@ -80,7 +81,7 @@ class Bench:
         """
         if frame is not None:
             values = {**values, "header": header(frame, stamp_ns or self.now_ns)}
-        self.send_bytes(type_name, serialized(type_name, values), topic)
+        self.send_bytes(type_name, encode(type_name, values), topic)
 
     def send_bytes(self, type_name: str, cdr: bytes, topic: str = "") -> None:
         """Publish a message as it is in a bag."""

@@ -16,11 +16,12 @@ from hypothesis import strategies as st
 
 from webviz import Display
 from webviz.display import inputs_of
+from webviz.messages import encode
 from webviz.messages.classes import DTYPES
 from webviz.messages.typestore import Field, fields
 from webviz.nodes import Node, has_content
 from webviz.pipeline.runner import NOTHING_TO_DRAW
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz_displays.geometry import FARTHEST
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -138,7 +139,7 @@ def send(at: Any, name: str, values: Values) -> None:
     type_name = inputs_of(type(at.display))[name].type
     if fields(type_name)[0].base == "std_msgs/msg/Header":
         values.setdefault("header", header("sensor", at.now_ns))
-    cdr = serialized(type_name, values).replace(LAST.encode(), b"\xff")
+    cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
     topic = getattr(at.display, name).name or "/map_updates"
     at.send_bytes(type_name, cdr, topic)
     at.turn()

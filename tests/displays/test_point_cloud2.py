@@ -9,8 +9,9 @@ from clouds import CLOUD, FLOAT32, XYZ, cloud, xyz_cloud
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from webviz.messages import encode
 from webviz.nodes import Instances, Lines, Points
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz_displays import points_display
 from webviz_displays.decimation import evenly, one_per_voxel
 from webviz_displays.point_cloud2 import PointCloud2, spaced
@@ -96,7 +97,7 @@ def test_a_little_endian_cloud_that_claims_to_be_big_endian_is_refused(
 ) -> None:
     bench = lab(xyz_cloud([(0.0, 0.0, 0.0)]), decay_time=1.0)
     values = {**xyz_cloud(THREE), "header": header("lidar", bench.now_ns)}
-    little, big = (serialized(CLOUD, {**values, "is_bigendian": flag}) for flag in (False, True))
+    little, big = (encode(CLOUD, {**values, "is_bigendian": flag}) for flag in (False, True))
     (place,) = (i for i in range(len(big)) if big[i] != little[i])
     bench.send_bytes(CLOUD, big[:place] + bytes([byte]) + big[place + 1 :])
     bench.turn()

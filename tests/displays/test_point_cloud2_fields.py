@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from webviz import messages
-from webviz.testing.messages import serialized
+from webviz.messages import encode
 from webviz_displays.cloud import Cloud, CloudError, drawable
 from webviz_displays.cloud_colors import packed_colors
 
@@ -21,7 +21,7 @@ NEAR = {7: st.floats(-500, 500, width=32), 8: st.floats(-500, 500)}
 
 
 def decoded(values: dict[str, Any]) -> messages.PointCloud2:
-    return messages.decode(CLOUD, serialized(CLOUD, values))
+    return messages.decode(CLOUD, encode(CLOUD, values))
 
 
 def numbers(kind: int, floats: dict[int, Any]) -> st.SearchStrategy[Any]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from webviz.messages import TFMessage, decode
+from webviz.messages import TFMessage, decode, encode
 from webviz.pipeline.transform_layout import MIN_TRANSFORMS, SAME_SIZE, Layouts
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 
 TYPE = "tf2_msgs/msg/TFMessage"
 
@@ -27,7 +27,7 @@ def message(names: list[tuple[str, str]], seed: int = 0) -> bytes:
             "transform": transform,
         }
 
-    return serialized(TYPE, {"transforms": [stamped(*each) for each in names]})
+    return encode(TYPE, {"transforms": [stamped(*each) for each in names]})
 
 
 NAMES = [("map", "link é" + "x" * i) for i in range(MIN_TRANSFORMS)]

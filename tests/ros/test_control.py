@@ -28,12 +28,12 @@ from std_srvs.srv import Empty, Trigger
 import webviz
 from webviz.commands import Command
 from webviz.display import Topic
-from webviz.messages import decode
+from webviz.messages import decode, encode
 from webviz.ros.node import RosSource
 from webviz.ros.types import message_class
 from webviz.sources import Subscription
 from webviz.state import File, State
-from webviz.testing import header, serialized
+from webviz.testing import header
 
 TF = "tf2_msgs/msg/TFMessage"
 CONFIG = "fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]\n"
@@ -106,7 +106,7 @@ class Client:
             for frame in frames
         ]
         publisher = self.node.create_publisher(message_class(TF), "/tf_static", qos)
-        publisher.publish(serialized(TF, {"transforms": transforms}))
+        publisher.publish(encode(TF, {"transforms": transforms}))
 
 
 @pytest.fixture

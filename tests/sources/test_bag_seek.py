@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 from bags import START_NS, Bag, ns
-from ros_messages import header
 
 from webviz.config import parse
 from webviz.frame_loop.loop import FrameLoop
 from webviz.frames import Frames
 from webviz.sources.bag import BagSource
+from webviz.testing import header
 from webviz.testing.recording import RecordingScene
 
 CONFIG = """\

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ros_messages import SECOND, serialized
 from rosbags.interfaces import (
     Qos,
     QosDurability,
@@ -18,7 +17,8 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from webviz.messages import definition, type_exists, type_hash
+from webviz.messages import definition, encode, type_exists, type_hash
+from webviz.testing import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
 START_NS = 1_700_000_000 * SECOND
@@ -80,7 +80,7 @@ class Bag:
             }
             for at_s, name, values in sorted(self.messages, key=lambda message: message[0]):
                 is_raw = isinstance(values, bytes)
-                cdr = values if is_raw else serialized(self.topics[name].type, values)
+                cdr = values if is_raw else encode(self.topics[name].type, values)
                 writer.write(connections[name], START_NS + ns(at_s), cdr)
         return path
 

@@ -13,8 +13,9 @@ from webviz.commands import Command
 from webviz.config import Config, Item, Settings
 from webviz.frame_loop.loop import FrameLoop
 from webviz.frame_loop.viewing import Cameras, NoCameras
+from webviz.messages import encode
 from webviz.state import State
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz.testing.recording import RecordingScene
 from webviz.testing.source import HandFedSource
 
@@ -47,7 +48,7 @@ class Bench:
         self.turn()
 
     def publish(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
-        self.source.put(topic, type_name, serialized(type_name, values))
+        self.source.put(topic, type_name, encode(type_name, values))
 
     def transform(
         self, parent: str, child: str, stamp_ns: int, x: float = 0.0, *, static: bool = False

@@ -14,8 +14,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
+from webviz.messages import encode
 from webviz.ros.types import message_class
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz.testing.source import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
@@ -82,7 +83,7 @@ class Robot:
             self._publishers[topic] = self.node.create_publisher(
                 message_class(type_name), topic, qos
             )
-        self._publishers[topic].publish(serialized(type_name, values))
+        self._publishers[topic].publish(encode(type_name, values))
 
     def scan(self, topic: str, frame: str, stamp_ns: int) -> None:
         """Publish one scan of three points."""

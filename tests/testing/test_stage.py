@@ -80,9 +80,9 @@ def test_a_wrong_value_is_refused(stage: Stage) -> None:
 
 
 def test_an_unknown_field_or_type_is_refused(stage: Stage) -> None:
-    with pytest.raises(ValueError, match="no field `range`, did you mean `ranges`"):
+    with pytest.raises(ValueError, match=r"no field 'range'; did you mean ranges\?"):
         stage.publish("/scan", "sensor_msgs/msg/LaserScan", {"range": []})
-    with pytest.raises(ValueError, match="No message type sensor_msgs/msg/Laser is known"):
+    with pytest.raises(ValueError, match="type sensor_msgs/msg/Laser is known"):
         stage.publish("/scan", "sensor_msgs/msg/Laser", {})
 
 

@@ -1,15 +1,23 @@
-"""ROS 2 messages without ROS: definitions, and decoding of received bytes.
+"""ROS 2 messages without ROS: definitions, decoding of received bytes, and encoding.
 
 `decode` takes the type as text and the bytes as they came from DDS or a bag. The message it
 returns has the field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays
 are read-only numpy arrays, mostly views of the bytes, also where ROS has a sequence of points or
 poses (`webviz.messages.geometry` says which). Some messages have typed classes here; the class of
 any other is `message_class(type_name)`. All are built as in rclpy: `Header(frame_id="map")`.
+`encode` makes the bytes of any type from such messages, or from nested mappings.
 """
 
 from webviz.messages.classes import message_class
 from webviz.messages.decode import decode, peek_header, register
-from webviz.messages.errors import DecodeError, DefinitionError, MessageError, UnknownTypeError
+from webviz.messages.encode import encode
+from webviz.messages.errors import (
+    DecodeError,
+    DefinitionError,
+    EncodeError,
+    MessageError,
+    UnknownTypeError,
+)
 from webviz.messages.geometry import (
     Duration,
     FrameTransform,
@@ -50,6 +58,7 @@ __all__ = [
     "DecodeError",
     "DefinitionError",
     "Duration",
+    "EncodeError",
     "FrameTransform",
     "Header",
     "JointState",
@@ -80,6 +89,7 @@ __all__ = [
     "Vector3",
     "decode",
     "definition",
+    "encode",
     "message_class",
     "peek_header",
     "register",

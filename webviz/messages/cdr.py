@@ -15,6 +15,8 @@ import numpy as np
 from webviz.messages.errors import MessageError
 
 ENCAPSULATION_SIZE = 4
+LITTLE_ENDIAN = b"\0\1\0\0"
+"""The encapsulation of plain CDR in this byte order."""
 _BOOL = np.dtype(np.bool_)
 _ORDERS = {0: ">", 1: "<"}
 _NATIVE = "<" if sys.byteorder == "little" else ">"

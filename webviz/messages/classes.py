@@ -33,6 +33,10 @@ DTYPES = {
 }
 """ROS primitive to numpy type, for all primitives of fixed size."""
 
+CODES = {name: "?" if name == "bool" else dtype.char for name, dtype in DTYPES.items()}
+CODES |= {"int64": "q", "uint64": "Q"}
+"""ROS primitive to the code of `struct`; numpy's "l" and "L" have no fixed size there."""
+
 WRITTEN: dict[str, type] = {
     f"{package}/msg/{name}": getattr(module, name)
     for module, package, names in (

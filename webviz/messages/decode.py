@@ -11,6 +11,7 @@ from webviz.messages import typestore
 from webviz.messages.cdr import CdrError, Reader
 from webviz.messages.classes import WRITTEN, message_class
 from webviz.messages.decoders import decoder
+from webviz.messages.encoders import encoder
 from webviz.messages.errors import DecodeError
 
 T = TypeVar("T")
@@ -65,7 +66,7 @@ def register(type_name: str, text: str) -> None:
             contradicts a type that webviz has its own class for, such as Header.
     """
     typestore.add(type_name, text, fixed=WRITTEN)
-    for cached in (message_class, decoder, _has_header):
+    for cached in (message_class, decoder, encoder, _has_header):
         cached.cache_clear()
 
 

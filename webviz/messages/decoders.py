@@ -14,7 +14,7 @@ from struct import Struct
 from typing import Any
 
 from webviz.messages.cdr import ENCAPSULATION_SIZE, CdrError, Reader
-from webviz.messages.classes import DTYPES, VECTORS, message_class
+from webviz.messages.classes import CODES, DTYPES, VECTORS, message_class
 from webviz.messages.sequences import SEQUENCE_READERS
 from webviz.messages.typestore import Field, fields, full_name
 
@@ -23,9 +23,6 @@ Step = Callable[[Reader, list[Any]], None]
 Read = Callable[[Reader], Any]
 Build = Callable[[Iterator[Any]], Any]
 """Takes the numbers of one field from an iterator."""
-
-_CODES = {name: "?" if name == "bool" else dtype.char for name, dtype in DTYPES.items()}
-_CODES |= {"int64": "q", "uint64": "Q"}  # numpy says "l" and "L", whose size `struct` lets vary
 
 
 @cache
@@ -55,7 +52,7 @@ def _codes(field: Field) -> str | None:
     if field.size is not None:
         return None
     if not field.is_message:
-        return _CODES.get(field.base)
+        return CODES.get(field.base)
     inner = [_codes(f) for f in fields(field.base)]
     return None if None in inner else "".join(filter(None, inner))
 

@@ -9,6 +9,10 @@ class DecodeError(MessageError):
     """The bytes are not a message of the type they are said to be."""
 
 
+class EncodeError(MessageError):
+    """A value does not fit the field of a message that it is meant for."""
+
+
 class UnknownTypeError(MessageError):
     """No definition of this message type is known."""
 

@@ -28,12 +28,16 @@ class Field(NamedTuple):
         base: Name of a primitive ("float32", "string") or of a message type.
         is_message: Whether `base` is a message type.
         size: None for a single value, 0 for a sequence, else the length of a fixed array.
+        most: Elements that a sequence may have, 0 for any number.
+        longest: Bytes that a string may have, 0 for any number.
     """
 
     name: str
     base: str
     is_message: bool
     size: int | None
+    most: int = 0
+    longest: int = 0
 
 
 @cache
@@ -154,11 +158,15 @@ def _fields_of(definition: Any) -> list[Field]:
 
 
 def _field(name: str, kind: Nodetype, value: Any) -> Field:
-    size = None
-    if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-        (inner, base), limit = value
-        size = limit if kind == Nodetype.ARRAY else 0
+    size, most = None, 0
+    if kind == Nodetype.ARRAY:
+        (inner, base), size = value
+    elif kind == Nodetype.SEQUENCE:
+        (inner, base), most = value
+        size = 0
     else:
         inner, base = kind, value
     is_message = inner == Nodetype.NAME
-    return Field(name, base if is_message else base[0], is_message, size)
+    if is_message:
+        return Field(name, base, True, size, most)
+    return Field(name, base[0], False, size, most, base[1])

@@ -5,7 +5,7 @@ The fixtures of `webviz.pytest_plugin` make these; import them for annotations.
 
 from webviz.testing.comparing import NOTICEABLE, TOLERANCE, share_of_difference
 from webviz.testing.live import LiveViewer
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz.testing.rotation import turned
 from webviz.testing.shown import Shown
 from webviz.testing.source import SECOND
@@ -19,7 +19,6 @@ __all__ = [
     "Shown",
     "Stage",
     "header",
-    "serialized",
     "share_of_difference",
     "turned",
 ]

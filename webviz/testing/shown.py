@@ -8,9 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 from webviz.commands import SetFixedFrame, SetProperty
+from webviz.messages import encode
 from webviz.pictures.browser import Pixels
 from webviz.testing.comparing import TOLERANCE, Box
-from webviz.testing.messages import header, serialized
+from webviz.testing.messages import header
 from webviz.testing.pictures import Photographer
 from webviz.testing.recording import RecordingScene
 from webviz.testing.seen import Seen, Vector
@@ -75,7 +76,7 @@ class Shown(Seen, ABC):
         values = dict(values or {})
         if frame is not None:
             values["header"] = header(frame, self.now_ns())
-        self.publish_bytes(topic, message, serialized(message, values))
+        self.publish_bytes(topic, message, encode(message, values))
 
     def transform(
         self,

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from ros_messages import serialized
 
 from side_by_side import strip
 from side_by_side.marks import Lane
+from webviz.messages import encode
 
 STAMP = struct.Struct("<iI")
 # Values that no message has otherwise, found in its bytes to know where to write.
@@ -49,7 +49,7 @@ class Stream:
     @cached_property
     def templates(self) -> list[Template]:
         """The messages, serialised."""
-        return [Template(serialized(self.type, values)) for values in self.variants]
+        return [Template(encode(self.type, values)) for values in self.variants]
 
     @cached_property
     def stamp_at(self) -> int | None:
