@@ -88,20 +88,19 @@ class OpenFile(Dialog):
 
     Args:
         client: the browser that asked.
-        enqueue: takes commands, from any thread.
+        replace: called with the command that opens a file, from any thread.
         file: what the viewer says of its file.
     """
 
     def __init__(
-        self, client: viser.ClientHandle, enqueue: Callable[[Command], None], file: File
+        self, client: viser.ClientHandle, replace: Callable[[Open | Load], None], file: File
     ) -> None:
         super().__init__(client.gui, "Open")
-        self._enqueue = enqueue
+        self._replace = replace
         self._names: dict[str, str] = {}
         self._chosen: str | None = None
         gui = self.gui
         with self.modal:
-            self._warning = gui.add_html("", visible=False)
             # First, since the first control gets the focus, at which a choice would unfold.
             upload = gui.add_upload_button(
                 "Upload from this computer",
@@ -123,14 +122,10 @@ class OpenFile(Dialog):
             self._names = names
             self._choice.options = tuple(names)
         self._button.disabled = NOTHING in names
-        changed = state.file.is_changed
-        if self._warning.visible != changed:
-            self._warning.content = note_html("What was not saved will be lost.", is_warning=True)
-            self._warning.visible = changed
 
     def _open(self) -> None:
         if name := self._names.get(self._choice.value):
-            self._enqueue(Open(name))
+            self._replace(Open(name))
             self.finish()
 
     def _upload(self, event: viser.GuiEvent[viser.GuiUploadButtonHandle]) -> None:
@@ -143,8 +138,40 @@ class OpenFile(Dialog):
                     "Not opened", f"{plain(file.name)} is not UTF-8 text.", color="red"
                 )
             return
-        self._enqueue(Load(text, Path(file.name).name))
+        self._replace(Load(text, Path(file.name).name))
         self.finish()
+
+
+class Discard(Dialog):
+    """Asks before a file takes the place of changes that nobody has saved.
+
+    Args:
+        client: the browser that asked.
+        enqueue: takes commands, from any thread.
+        command: opens the file.
+    """
+
+    def __init__(
+        self, client: viser.ClientHandle, enqueue: Callable[[Command], None], command: Open | Load
+    ) -> None:
+        super().__init__(client.gui, "Unsaved changes")
+        self._enqueue = enqueue
+        self._command = command
+        gui = self.gui
+        name = command.path if isinstance(command, Open) else command.name
+        with self.modal:
+            text = f"Open {name} and discard unsaved changes? Everyone on this page loses them."
+            gui.add_html(note_html(text, is_warning=True))
+            # First, since the first control gets the focus, and Enter must not discard.
+            gui.add_button("Cancel", color="gray").on_click(lambda _: self.finish())
+            gui.add_button("Discard", icon=viser.Icon.TRASH, color="red").on_click(
+                lambda _: self._discard()
+            )
+
+    def _discard(self) -> None:
+        if not self.is_done:
+            self.finish()
+            self._enqueue(self._command)
 
 
 def _name_of(file: File) -> str:

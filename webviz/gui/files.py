@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import viser
 
-from webviz.commands import Command, Save, SaveImage
+from webviz.commands import Command, Load, Open, Save, SaveImage
 from webviz.gui.dialogs import Dialogs
-from webviz.gui.file_dialogs import OpenFile, SaveAs
+from webviz.gui.file_dialogs import Discard, OpenFile, SaveAs
 from webviz.state import File, State
 
 
@@ -41,8 +41,15 @@ class Files:
         self._dialogs.open(client, lambda client: SaveAs(client, self._enqueue, self._file))
 
     def open(self, client: viser.ClientHandle | None) -> None:
-        """Ask for a file, and open it."""
-        self._dialogs.open(client, lambda client: OpenFile(client, self._enqueue, self._file))
+        """Ask for a file, and open it; ask again if unsaved changes would be lost."""
+
+        def replace(command: Open | Load) -> None:
+            if self._file.is_changed:
+                self._dialogs.open(client, lambda client: Discard(client, self._enqueue, command))
+            else:
+                self._enqueue(command)
+
+        self._dialogs.open(client, lambda client: OpenFile(client, replace, self._file))
 
     def save_image(self, client: viser.ClientHandle | None) -> None:
         """Let a browser download what it shows."""
