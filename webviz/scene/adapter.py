@@ -22,12 +22,15 @@ from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
+from webviz.scene.contact_script import BEAT, CONTACT_SCRIPT
 from webviz.scene.late import Late
 from webviz.scene.outbox import Outbox
 
 # Removal messages that may wait in the buffer before browsers that do not read are let go.
 MAX_TOMBSTONES = 10_000
 _PRUNE_EVERY = 500
+BEAT_PERIOD = 1.0
+"""Seconds between two signs of life."""
 
 Position = tuple[float, float, float]
 Wxyz = tuple[float, float, float, float]
@@ -151,6 +154,23 @@ class Adapter:
         """
         message = wire.RunJavascriptMessage(source=source)
         (self._socket if client is None else client._websock_connection).queue_message(message)
+
+    def keep_in_contact(self) -> None:
+        """Gives every browser a sign of life now and then, and lets its page say if there is none.
+
+        To be called once. It ends with the server.
+        """
+        self.run_javascript(CONTACT_SCRIPT)
+        loop = self.server.get_event_loop()
+
+        def beat() -> None:
+            # Of a kind that the page obeys without drawing; unsent ones replace each other.
+            message = wire.RemoveNotificationMessage(uuid=BEAT)
+            for client in self.server.get_clients().values():
+                client._websock_connection.queue_message(message)
+            loop.call_later(BEAT_PERIOD, beat)
+
+        loop.call_soon_threadsafe(beat)
 
     def on_told(self, subject: str, listener: Callable[[int, str], None]) -> None:
         """Calls `listener` with the client id and the text of what a page tells on a subject.

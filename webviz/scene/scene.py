@@ -76,6 +76,7 @@ class Scene:
         keep_shaders(server.scene, ROOT)
         for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT):
             self.link.run_javascript(script)
+        self.link.keep_in_contact()
         self.cameras = Cameras(self.link)
 
     def has_watchers(self) -> bool:

@@ -1,0 +1,54 @@
+"""A picture that is no longer kept true says so."""
+
+from __future__ import annotations
+
+import re
+import threading
+
+import playwright.sync_api as playwright
+import viser
+
+from webviz.pictures.browser import Page
+from webviz.scene import Scene, open_server
+
+LOST = re.compile(
+    r"Connection to webviz lost\. The picture is \d+ s old\. "
+    r"Check that webviz is running; this page reconnects by itself\."
+)
+
+
+def test_a_page_says_that_its_server_is_gone_until_it_is_back(
+    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+) -> None:
+    port = server.get_port()
+    page = Page(browser, f"http://127.0.0.1:{port}", 600, 400)
+    banner = page.tab.get_by_role("alert").filter(has_text=LOST)
+    page.tab.wait_for_timeout(5000)
+    assert banner.count() == 0  # nothing happens, and all is well
+
+    hanging = threading.Event()
+    server.get_event_loop().call_soon_threadsafe(hanging.wait, 60.0)
+    banner.wait_for()
+    hanging.set()
+    banner.wait_for(state="detached")
+
+    server.stop()
+    banner.wait_for()
+    again = open_server(port=port)
+    try:
+        Scene(again)
+        banner.wait_for(state="detached")
+        page.wait_for(lambda: again.get_clients(), "the page is back")
+    finally:
+        page.close()
+        again.stop()
+
+
+def test_visers_word_of_software_rendering_does_not_cover_the_scene(
+    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+) -> None:
+    page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 600, 400)
+    word = page.tab.get_by_text("Software WebGL rendering detected")
+    word.wait_for(state="attached")
+    assert not word.is_visible()
+    page.close()
