@@ -147,14 +147,14 @@ def test_another_fixed_frame_is_told_where_it_is_not_known(capture):
     ("options", "sentence"),
     [
         ({"at": 7.0}, "7 s is outside of"),
-        ({"at": [1.0, "soon"]}, "'soon' is no time"),
+        ({"at": [1.0, "soon"]}, "'soon' is not a valid time"),
         ({"views": ["Farr"]}, "did you mean `Far`?"),
-        ({"wait_for": ["Scam"]}, "No enabled display is named 'Scam', did you mean `Scan`?"),
+        ({"wait_for": ["Scam"]}, "No enabled display is named 'Scam': did you mean `Scan`?"),
         ({"size": (8, 240)}, "16 to 8192 pixels a side, not 8 x 240"),
         ({"focus": "bass"}, "bass"),
         ({"timeout": 1e-9, "at": 2.0}, "played to 0.0 s of 2.0 s when the time-out passed"),
-        ({"bag": "nowhere.mcap"}, "There is no bag nowhere.mcap"),
-        ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' has no meaning for a bag"),
+        ({"bag": "nowhere.mcap"}, "Bag nowhere.mcap not found"),
+        ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' is not supported with a bag"),
     ],
 )
 def test_what_cannot_be_is_one_sentence(capture, options, sentence):

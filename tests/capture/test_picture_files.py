@@ -76,7 +76,7 @@ def test_a_contact_sheet_shows_every_picture_above_its_caption():
 
 
 def test_a_contact_sheet_that_is_too_large_is_refused():
-    with pytest.raises(OutputError, match="at most 16000 a side"):
+    with pytest.raises(OutputError, match="the limit is 16000 per side"):
         contact_sheet([("", plain(RED, (8000, 10)))] * 3, 3)
 
 
@@ -91,9 +91,9 @@ def test_names_of_several_pictures_sort_by_time():
 @pytest.mark.parametrize(
     ("name", "options", "sentence"),
     [
-        ("a.txt", {}, "no ending of a picture"),
-        ("a", {}, "no ending of a picture"),
-        ("a.jpg", {"transparent": True}, r"use .png or .webp"),
+        ("a.txt", {}, "no supported image extension"),
+        ("a", {}, "no supported image extension"),
+        ("a.jpg", {"transparent": True}, r"Use .png or .webp"),
         ("a.png", {"is_animation": True}, r"ends with .gif or .webp"),
         ("nowhere/a.png", {}, "No such file or directory"),
     ],

@@ -153,10 +153,10 @@ def test_help_tells_every_exit_status(capsys):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["--bag", "nowhere.mcap"], "There is no bag nowhere.mcap"),
-        (["--bag", "RUN", "--at", "20"], "20 s is outside of RUN: give 0 to 6 s"),
+        (["--bag", "nowhere.mcap"], "Bag nowhere.mcap not found"),
+        (["--bag", "RUN", "--at", "20"], "20 s is outside of RUN. Give 0 to 6 s"),
         (["--bag", "RUN", "-o", "nowhere/a.png"], "Cannot write nowhere/a.png"),
-        (["--bag", "RUN", "-o", "a.bmp"], "no ending of a picture"),
+        (["--bag", "RUN", "-o", "a.bmp"], "no supported image extension"),
         (["--bag", "RUN", "--wait-for", "Scam"], "did you mean `Scan`?"),
         (["--bag", "RUN", "--mesh-root", "nowhere"], "--mesh-root nowhere is not a folder"),
     ],
@@ -174,7 +174,7 @@ def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, senten
         ([], "--output requires an argument"),
         (["-o", "a.png", "--at", "3"], "--at is for a bag: give one with --bag"),
         (["-o", "a.png", "--map", "m.yaml"], "--map is for a bag"),
-        (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is no time"),
+        (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is not a valid time"),
         (["-o", "a.png", "--bag", "x", "--size", "big"], "Write it as 1280x720"),
         (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
         (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for several times"),
@@ -198,6 +198,7 @@ def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path):
     assert result.returncode == 3, result.stderr
     assert f"webviz: {folder}: /odd is skipped: " in result.stderr
     assert "/other" not in result.stderr
+    assert f"webviz: {folder}: The topics are /words." in result.stderr
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")

@@ -24,7 +24,7 @@ def refusal(path) -> str:
 
 
 def test_a_bag_that_is_not_there(tmp_path):
-    assert "There is no bag" in refusal(tmp_path / "nowhere.mcap")
+    assert "not found" in refusal(tmp_path / "nowhere.mcap")
 
 
 def test_a_folder_without_metadata(tmp_path):
@@ -105,7 +105,7 @@ def test_a_file_of_something_else(tmp_path):
     for file in (mcap, text):
         file.write_text("This is not what it seems to be, however long it may go on.\n" * 9)
     assert "mcap recover" in refusal(mcap)
-    assert "is no bag" in refusal(text)
+    assert "is not a bag" in refusal(text)
 
 
 def test_a_bag_of_ros_1(tmp_path):
@@ -117,7 +117,7 @@ def test_a_bag_of_ros_1(tmp_path):
 def test_an_empty_bag(tmp_path):
     empty = Bag()
     empty.add("/words", "std_msgs/msg/String")
-    assert "holds no messages" in refusal(empty.write(tmp_path / "bag"))
+    assert "contains no messages" in refusal(empty.write(tmp_path / "bag"))
 
 
 def test_damage_in_the_middle_is_told_after_what_comes_before(tmp_path, opened):

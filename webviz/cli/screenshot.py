@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from webviz.pictures.capture import Order, Picture
     from webviz.sources.bag import BagSource
 
+MOST_TOPICS = 40
+"""Of a bag that are listed."""
 SHEET_SIZE = (480, 270)
 """Of the pictures of a contact sheet, if nothing else is said."""
 NOT_OK, INTERRUPTED = 3, 130
@@ -97,8 +99,9 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
             timeout=options.timeout,
         )
         status = _write(options, order)
-        for remark in source.remarks if isinstance(source, BagSource) else ():
-            print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+        if isinstance(source, BagSource):
+            for remark in [*source.remarks, *([_topics(source)] if status else [])]:
+                print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
         return status
 
 
@@ -119,7 +122,9 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     times, views = len(order.positions()), len(order.looks())
     report = _Report()
     if options.is_animation and views > 1:
-        raise OutputError("An animation shows one view: give one --view, or another ending.")
+        raise OutputError(
+            "An animation shows a single view. Give one --view, or another file extension."
+        )
     columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
     if options.contact_sheet:
         picture_files.sheet_size(order.size, times * views, columns)
@@ -186,8 +191,17 @@ class _Report:
 def _table(statuses: dict[str, Status]) -> Iterator[str]:
     width = max(map(len, statuses))
     for name, status in statuses.items():
-        text = "" if status.level is Level.OK else status.text
-        yield f"{status.level.name:5}  {name:{width}}  {text}".rstrip()
+        first, *more = [""] if status.level is Level.OK else status.text.split("\n")
+        yield f"{status.level.name:5}  {name:{width}}  {first}".rstrip()
+        for text in more:
+            yield f"{'':5}  {'':{width}}  {text}"
+
+
+def _topics(bag: BagSource) -> str:
+    """A sentence on what displays can show of a bag."""
+    topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
+    more = f" and {len(topics) - MOST_TOPICS} more" if len(topics) > MOST_TOPICS else ""
+    return f"The topics are {', '.join(topics[:MOST_TOPICS])}{more}."
 
 
 def _caption(picture: Picture) -> str:

@@ -137,7 +137,7 @@ def read_display(entry: Any, place: Place) -> Item:
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, place.says(NO_TYPE))
     if "rviz" in entry:
-        reason = f"Unsupported display class {entry['type']}. The entry is kept in the file."
+        reason = f"Unsupported display class {entry['type']}."
         return Unreadable(entry, place.says(reason))
     types, broken = display_types(), broken_display_types()
     cls = types.get(entry["type"])

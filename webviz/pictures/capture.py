@@ -203,7 +203,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
         stack.callback(stage.close)
         awaited = stage.names() if order.wait_for is None else order.wait_for
         if not stage.names():
-            raise Error("The config shows nothing: add a display to it, or enable one.")
+            raise Error("The config shows nothing. Add a display to it, or enable one.")
         for position in positions:
             deadline = time.monotonic() + order.timeout
             at_s = None
@@ -228,7 +228,7 @@ def opened(
     if bag is not None:
         source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
     elif extras:
-        raise Error("A map and transforms can be added to a bag only: give a bag.")
+        raise Error("Maps and transforms can be added to a bag only. Give a bag.")
     else:
         source = ros_source(ros_args)
     with contextlib.closing(source):
@@ -272,7 +272,8 @@ def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]
     for number, view in enumerate(views):
         if isinstance(view, str):
             if view not in named:
-                raise Error(f"The config has no view {view!r}, {nearest(view, named)}")
+                hint = nearest(view, named) if named else "it has no saved views."
+                raise Error(f"The config has no view {view!r}: {hint}")
             looks.append((view, named[view]))
         else:
             looks.append((str(number), view))
@@ -287,8 +288,8 @@ def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
         theirs, mark, ours = argument.partition(":=")
         if not mark or not theirs.startswith("/"):
             raise Error(
-                f"{argument!r} has no meaning for a bag: of ROS arguments it knows "
-                "`-r /topic:=/other` only."
+                f"{argument!r} is not supported with a bag. The only ROS argument is "
+                "`-r /topic:=/other`."
             )
         result[theirs] = ours
     return result

@@ -39,11 +39,11 @@ def check(path: Path, *, is_animation: bool, transparent: bool) -> None:
     """
     suffix = path.suffix.lower()
     if suffix not in STILLS:
-        raise OutputError(f"{path} has no ending of a picture: use {', '.join(STILLS)}.")
+        raise OutputError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
     if is_animation and suffix not in ANIMATIONS:
         raise OutputError(f"An animation ends with {' or '.join(ANIMATIONS)}, not {suffix}.")
     if transparent and suffix not in WITH_ALPHA:
-        raise OutputError(f"{suffix} knows no transparency: use {' or '.join(WITH_ALPHA)}.")
+        raise OutputError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
     if not path.exists():
         with writing(path):
             pass
@@ -113,8 +113,8 @@ def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, in
     total = (columns * (size[0] + GAP) + GAP, rows * (size[1] + CAPTION) + GAP)
     if max(total) > MAX_EDGE:
         raise OutputError(
-            f"The contact sheet would have {total[0]} x {total[1]} pixels, at most {MAX_EDGE} a "
-            "side go: make fewer or smaller pictures."
+            f"The contact sheet would have {total[0]} x {total[1]} pixels; the limit is {MAX_EDGE} "
+            "per side. Make fewer or smaller pictures."
         )
     return total
 

@@ -45,7 +45,7 @@ class Shown:
         for name in self.awaited:
             if name not in self.statuses:
                 hint = nearest(name, self.statuses)
-                raise Error(f"No enabled display is named {name!r}, {hint}")
+                raise Error(f"No enabled display is named {name!r}: {hint}")
 
     @property
     def is_ok(self) -> bool:
@@ -180,10 +180,10 @@ class Stage:
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:
-    """The worst of some statuses, with what all that are as bad say."""
+    """The worst of some statuses, with what all that are as bad say, a line each."""
     level = max((status.level for status in statuses.values()), default=Level.OK)
     texts = [status.text for status in statuses.values() if status.level is level]
-    return Status(level, " ".join(texts))
+    return Status(level, "\n".join(texts))
 
 
 def _enabled(rows: Collection[Row]) -> Iterator[Row]:

@@ -45,7 +45,7 @@ def read_at(text: str) -> At:
     except ValueError:
         seconds = math.nan
     if not math.isfinite(seconds):
-        raise TimeError(f"{text!r} is no time: give seconds from the start of the bag, or `end`.")
+        raise TimeError(f"{text!r} is not a valid time. Give seconds, `start` or `end`.")
     return seconds
 
 
@@ -74,7 +74,7 @@ def position_ns(at: At, span: Span, name: str) -> int:
     if not span.start_ns - slack_ns <= wanted_ns <= span.end_ns + slack_ns:
         duration_s = seconds_from_start(span.end_ns, span)
         raise TimeError(
-            f"{at:g} s is outside of {name}: give 0 to {math.floor(duration_s * 1e3) / 1e3:g} s "
+            f"{at:g} s is outside of {name}. Give 0 to {math.floor(duration_s * 1e3) / 1e3:g} s "
             f"from its start, or a stamp from {span.start_ns / 1e9:.3f} to "
             f"{span.end_ns / 1e9:.3f}."
         )
@@ -94,8 +94,8 @@ def every(first: At, last: At, step_s: float, span: Span, name: str) -> Sequence
     """
     begin, end = (seconds_from_start(position_ns(at, span, name), span) for at in (first, last))
     if begin > end:
-        raise TimeError(f"--from {begin:g} s is later than --to {end:g} s: exchange them.")
+        raise TimeError(f"--from {begin:g} s is later than --to {end:g} s. Swap them.")
     count = math.floor((end - begin) / step_s + 1e-6) + 1
     if count > MAX_TIMES:
-        raise TimeError(f"That makes {count} pictures, at most {MAX_TIMES} go: raise --every.")
+        raise TimeError(f"That makes {count} pictures; the limit is {MAX_TIMES}. Raise --every.")
     return [begin + index * step_s for index in range(count)]

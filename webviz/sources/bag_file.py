@@ -77,7 +77,7 @@ class BagFile:
         self._reader = self._open()
         if not self._reader.message_count:
             self.close()
-            raise BagError(f"{path} holds no messages: record it again, or give another bag.")
+            raise BagError(f"{path} contains no messages. Record it again, or give another bag.")
         self.start_ns = self._reader.start_time
         self.end_ns = self._reader.end_time - 1
         """Stamps of the first and the last message."""
@@ -110,7 +110,7 @@ class BagFile:
     def _open(self) -> Reader:
         path = self.path
         if not path.exists():
-            raise BagError(f"There is no bag {path}: give an mcap file or a rosbag2 folder.")
+            raise BagError(f"Bag {path} not found. Give an MCAP or db3 file, or a rosbag2 folder.")
         if path.suffix == ".bag":
             raise BagError(
                 f"{path} is a ROS 1 bag: convert it with `rosbags-convert --src {path} "
@@ -122,7 +122,7 @@ class BagFile:
                 "files in it."
             )
         if path.is_file() and path.suffix not in FILES:
-            raise BagError(f"{path} is no bag: give an .mcap or .db3 file, or a rosbag2 folder.")
+            raise BagError(f"{path} is not a bag. Give an .mcap or .db3 file, or a rosbag2 folder.")
         bag_qos.be_lenient()
         try:
             reader = Reader(self._renamed_file() or path)
