@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -196,15 +197,48 @@ def test_the_fixed_frame_is_set_to_frames_that_exist_only(
 
 
 def test_another_config_is_opened_by_a_parameter(
-    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path, tmp_path: Path
 ) -> None:
-    viewer = open_viewer()
-    assert client.set("config_file", str(config)) == ""
+    other = tmp_path / "other.yaml"
+    other.write_text("displays: []")
+    viewer = open_viewer(config)
+    assert client.set("config_file", str(other)) == ""
+    assert len(viewer) == 0
+    assert client.set("config_file", "floor.yaml") == ""
     assert [display.name for display in viewer] == ["Floor"]
-    reason = client.set("config_file", "/nowhere.yaml")
-    assert reason == "Cannot read /nowhere.yaml: No such file or directory."
+    reason = client.set("config_file", "nowhere.yaml")
+    assert reason == f"Cannot read {tmp_path}/nowhere.yaml: No such file or directory."
+    os.mkfifo(tmp_path / "fifo.yaml")
+    reason = client.set("config_file", "fifo.yaml")
+    assert reason == f"Cannot read {tmp_path}/fifo.yaml: it is not a regular file."
     assert client.get("config_file") == str(config)
     assert client.set("config_file", "") != ""
+
+
+def test_only_configs_of_its_folder_and_of_those_allowed_are_opened_by_a_parameter(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path, tmp_path: Path
+) -> None:
+    for name in ("allowed/deep/a.yaml", "below/b.yaml", "secret.txt", "allowed/secret.txt"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("displays: []")
+    viewer = open_viewer(config, config_folders=[tmp_path / "allowed"])
+    for outside in (
+        "/etc/shadow",
+        "../floor.yaml",
+        "below/b.yaml",
+        "allowed/../below/b.yaml",
+        f"{tmp_path}/allowed/deep/../../../x.yaml",
+    ):
+        reason = client.set("config_file", outside)
+        assert "is outside" in reason
+        assert "--config-folder" in reason
+    for other in ("secret.txt", "allowed/secret.txt"):
+        assert "its name must end with .yaml or .rviz" in client.set("config_file", other)
+    assert viewer.path == str(config)
+    assert client.set("config_file", "allowed/deep/a.yaml") == ""
+    assert viewer.path == str(tmp_path / "allowed/deep/a.yaml")
+    assert client.call("/webviz/load_config").success
 
 
 def test_parameters_of_ros_itself_go_on(

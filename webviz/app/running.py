@@ -66,6 +66,7 @@ class Running:
         ros_args: Sequence[str] = (),
         plugins: Sequence[str | os.PathLike[str]] = (),
         autosave: Path | None = None,
+        config_folders: Sequence[str | os.PathLike[str]] = (),
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -116,7 +117,7 @@ class Running:
             if control is not None and (name := control.asked["view"]):
                 self.do(StartWithView(view=name))
             if control is not None:
-                control.open(self)
+                control.open(self, [Path(folder) for folder in config_folders])
             self._stack = stack.pop_all()
         atexit.register(self.close)
 

@@ -52,6 +52,7 @@ class Viewer(Running):
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
         plugins: Python files with displays, loaded again whenever they are saved.
         autosave: a file that follows every change.
+        config_folders: where ROS may open configs, besides the folder of `config`.
         read: reads the config from its file; None is no file.
 
     Raises:

@@ -30,6 +30,7 @@ def serve(options: ViewingOptions, ros: Sequence[str], standard: Path | None = N
         ros_args=ros,
         plugins=options.plugin,
         autosave=_last_session() if options.autosave else None,
+        config_folders=options.config_folder,
     ) as viewer:
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: viewer.stop())

@@ -1,6 +1,7 @@
 """`webviz` and `webviz demo`, as far as the command line knows them: imports wait for a call."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter, validators
@@ -33,6 +34,8 @@ class ViewingOptions(ConfigOptions):
     """Address to listen on; the default is this machine only, 0.0.0.0 is everybody."""
     allow_host: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
     """With --host: a name under which browsers may reach this machine (repeatable)."""
+    config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
+    """Let the ROS parameter config_file open configs below this folder, too (repeatable)."""
     autosave: Flag = False
     """Keep the last session in ~/.local/state/webviz, and begin with it unless -d is given."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -22,6 +23,7 @@ from webviz.commands import (
     StartWithView,
 )
 from webviz.config import nearest
+from webviz.config.files import SUFFIXES
 from webviz.errors import Error
 from webviz.state import State
 
@@ -29,7 +31,7 @@ log = logging.getLogger("webviz")
 
 CONFIG_FILE, FIXED_FRAME, VIEW = "config_file", "fixed_frame", "view"
 PARAMETERS = {
-    CONFIG_FILE: "The file that the config came from; setting it opens another one.",
+    CONFIG_FILE: "The file that the config came from; setting it opens another one of its folder.",
     FIXED_FRAME: "The frame that everything is drawn in.",
     VIEW: "The saved view that browsers begin with; setting it moves every camera.",
 }
@@ -70,6 +72,7 @@ class Control:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._viewer: Steered | None = None
+        self._folders: Sequence[Path] = ()
         self._services: list[_Service] | None = None
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-service")
         self._state: State | None = None
@@ -81,8 +84,14 @@ class Control:
         """What parameters were given at the start, "" for none."""
         node.add_on_set_parameters_callback(self._set)
 
-    def open(self, viewer: Steered) -> None:
-        """Begin to control a viewer; may be called from any thread."""
+    def open(self, viewer: Steered, folders: Sequence[Path] = ()) -> None:
+        """Begin to control a viewer; may be called from any thread.
+
+        Args:
+            viewer: to control.
+            folders: where configs may be opened, besides the folder that the viewer saves in.
+        """
+        self._folders = [Path(os.path.abspath(folder)) for folder in folders]
         self._viewer = viewer
 
     def turn(self) -> None:
@@ -146,11 +155,30 @@ class Control:
         if name == CONFIG_FILE:
             if not value:
                 raise Error("A config_file needs a name.")
-            return (Open(_absolute(value)),)
+            return (Open(self._allowed(value)),)
         frame, known = value.removeprefix("/"), self._steered().state.frames
         if known and frame not in known:
             raise Error(f"Nobody publishes a frame named {frame!r}: {nearest(frame, known)}")
         return (SetFixedFrame(frame),)
+
+    def _allowed(self, value: str) -> str:
+        """The path of a config that anyone on the ROS network may open.
+
+        Links are not followed: who may make them in these folders may also write configs there.
+        """
+        file = self._steered().state.file
+        path = Path(os.path.normpath(Path(file.folder, value)))
+        is_allowed = str(path.parent) == os.path.normpath(file.folder) or any(
+            path.is_relative_to(folder) for folder in self._folders
+        )
+        if not is_allowed:
+            raise Error(
+                f"{path} is outside {file.folder}. Start webviz with --config-folder {path.parent} "
+                "to allow it."
+            )
+        if path.suffix.lower() not in SUFFIXES:
+            raise Error(f"{path} is not a config file: its name must end with .yaml or .rviz.")
+        return str(path)
 
     def _steered(self) -> Steered:
         if self._viewer is None:
