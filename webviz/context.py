@@ -138,12 +138,15 @@ class Group:
         colors: ArrayLike | Rgb,
         wxyzs: ArrayLike | None = None,
         opacity: float | NDArray[np.float32] = 1.0,
+        is_data: bool = False,
     ) -> None:
         """Draw many solids; `scales` may be one size for all. See `webviz.nodes.Instances`."""
         xyz = _f32(positions, 3)
         sizes = np.ascontiguousarray(np.broadcast_to(np.asarray(scales, np.float32), xyz.shape))
         turns = None if wxyzs is None else _f32(wxyzs, 4)
-        self.nodes[key] = nodes.Instances(xyz, sizes, _colors(colors), shape, turns, opacity)
+        self.nodes[key] = nodes.Instances(
+            xyz, sizes, _colors(colors), shape, turns, opacity, is_data
+        )
 
     def image(
         self,

@@ -162,6 +162,7 @@ class Instances(_Node):
         shape: of all of them.
         wxyzs: float32 (N, 4), unit quaternions with w first; None leaves all unturned.
         opacity: 0 to 1, float32 (N,) or one for all.
+        is_data: whether the colours are data, so that shading hardly changes them.
     """
 
     positions: F32
@@ -170,6 +171,7 @@ class Instances(_Node):
     shape: Solid = "box"
     wxyzs: F32 | None = None
     opacity: float | F32 = 1.0
+    is_data: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -186,7 +186,9 @@ class PointsDisplay(Display):
         if self.style in _SOLIDS and not too_many:
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
-            group.instances("solids", shape, xyz, self.size, colors, wxyzs, self.alpha)
+            # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
+            is_data = shape == "sphere"
+            group.instances("solids", shape, xyz, self.size, colors, wxyzs, self.alpha, is_data)
             return
         if isinstance(colors, tuple):
             colors = faded_color(colors, self.alpha)

@@ -35,6 +35,18 @@ def test_a_solid_has_its_colour_where_it_stands(shape: Any, view: Any) -> None:
     assert view.color_at((0.0, -1.0, 0.0)) == BACKGROUND
 
 
+@pytest.mark.parametrize("opacity", [1.0, np.ones(1, np.float32)], ids=["one for all", "each"])
+def test_a_ball_of_data_has_its_colour_in_the_middle_and_0_8_of_it_at_the_rim(
+    opacity: Any, view: Any
+) -> None:
+    ball = Instances(ORIGIN, 3 * UNIT, COLOR, "sphere", opacity=opacity, is_data=True)
+    view.scene.upsert("room", "solids", ball)
+    view.show()
+    assert is_near(view.color_at((0.0, 0.0, 0.0)), COLOR, 3)
+    for x, y in ((1.45, 0.0), (0.0, 1.45), (0.0, -1.45)):
+        assert is_near(view.color_at((x, y, 0.0)), (163, 81, 41), 8)
+
+
 def test_each_solid_has_its_place_extent_turn_and_colour(view: Any) -> None:
     quarter = floats((1, 0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
     centers, sizes = floats((-1, 0, 0), (1.5, 0, 0)), floats((0.4, 2, 0.1), (0.4, 2, 0.1))

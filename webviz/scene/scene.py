@@ -38,6 +38,7 @@ from webviz.scene.names import ROOT, node_path
 from webviz.scene.page import PAGE_SCRIPT
 from webviz.scene.points import PointsDrawn, keep_shaders
 from webviz.scene.server import set_background
+from webviz.scene.shade_script import SHADE_SCRIPT
 
 _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Points: PointsDrawn,
@@ -74,7 +75,7 @@ class Scene:
         self._gone: list[_Group] = []
         server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
-        for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT):
+        for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT, SHADE_SCRIPT):
             self.link.run_javascript(script)
         self.link.keep_in_contact()
         self.cameras = Cameras(self.link)
