@@ -5,7 +5,7 @@ from setuptools import setup
 setup(
     entry_points={
         "console_scripts": [
-            "webviz = webviz.cli:main",
+            "webviz = webviz.cli:program",
             "webviz-sim = webviz_sim.node:main",
         ],
         "pytest11": ["webviz = webviz.pytest_plugin"],

@@ -8,31 +8,30 @@ and statuses.
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz.context import Context, Group, Placement
-from webviz.display import Color, Display, Input, Keep, Prop, Topic
-from webviz.errors import Error
-from webviz.frames import FramePoses, Frames, compose
-from webviz.nodes import (
-    Arrows,
-    Axes,
-    Glb,
-    Image,
-    Instances,
-    Labels,
-    Lines,
-    Mesh,
-    Node,
-    Points,
-    Pose,
-    Rgb,
-    Solid,
-)
-from webviz.sample import Sample
-from webviz.status import Level, Status
-
 if TYPE_CHECKING:
     from webviz.app.viewer import Viewer
+    from webviz.context import Context, Group, Placement
+    from webviz.display import Color, Display, Input, Keep, Prop, Topic
+    from webviz.errors import Error
+    from webviz.frames import FramePoses, Frames, compose
+    from webviz.nodes import (
+        Arrows,
+        Axes,
+        Glb,
+        Image,
+        Instances,
+        Labels,
+        Lines,
+        Mesh,
+        Node,
+        Points,
+        Pose,
+        Rgb,
+        Solid,
+    )
     from webviz.pictures.capture import capture
+    from webviz.sample import Sample
+    from webviz.status import Level, Status
 
 __all__ = [
     "Arrows",
@@ -68,15 +67,40 @@ __all__ = [
     "compose",
 ]
 
-_LAZY = {"Viewer": "webviz.app.viewer", "capture": "webviz.pictures.capture"}
-"""Where lies what takes long to import, and displays have no use for."""
+_HOMES = {
+    "webviz.app.viewer": ("Viewer",),
+    "webviz.context": ("Context", "Group", "Placement"),
+    "webviz.display": ("Color", "Display", "Input", "Keep", "Prop", "Topic"),
+    "webviz.errors": ("Error",),
+    "webviz.frames": ("FramePoses", "Frames", "compose"),
+    "webviz.nodes": (
+        "Arrows",
+        "Axes",
+        "Glb",
+        "Image",
+        "Instances",
+        "Labels",
+        "Lines",
+        "Mesh",
+        "Node",
+        "Points",
+        "Pose",
+        "Rgb",
+        "Solid",
+    ),
+    "webviz.sample": ("Sample",),
+    "webviz.status": ("Level", "Status"),
+    "webviz.pictures.capture": ("capture",),
+}
+"""Where each name comes from: imported when it is asked for, since all of it takes a while."""
 
 
 def __getattr__(name: str) -> object:
-    if name not in _LAZY:
-        raise AttributeError(f"module 'webviz' has no attribute {name!r}")
-    return getattr(importlib.import_module(_LAZY[name]), name)
+    for module, names in _HOMES.items():
+        if name in names:
+            return getattr(importlib.import_module(module), name)
+    raise AttributeError(f"module 'webviz' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *_LAZY]
+    return [*globals(), *__all__]

@@ -1,7 +1,5 @@
 """`python -m webviz` is `webviz`."""
 
-import sys
+from webviz.cli import program
 
-from webviz.cli.main import main
-
-sys.exit(main())
+program()

@@ -1,10 +1,12 @@
 """Starts the simulator: `webviz-sim`, or `python -m webviz_sim`."""
 
 import argparse
+import os
 import signal
 import sys
 import threading
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from webviz_sim.options import OPTIONS
@@ -13,6 +15,7 @@ from webviz_sim.world import WorldError
 if TYPE_CHECKING:
     from webviz_sim.sim_node import SimNode
 
+PATIENCE = 3.0  # s; from the end of standard input to the end by force
 MAX_LAG = 0.5  # s; a simulation farther behind than this (a suspended laptop) skips the rest
 
 
@@ -27,8 +30,8 @@ def main(args: list[str] | None = None) -> int:
     """
     args = sys.argv[1:] if args is None else args
     stopping = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stopping.set())
+    # Nothing is held before ROS starts, and an exception in the middle of an import may be lost.
+    _on_signal(lambda: os._exit(0))
     try:
         import rclpy
         from rclpy.exceptions import InvalidParameterValueException
@@ -45,7 +48,10 @@ def main(args: list[str] | None = None) -> int:
         )
         return 1
     try:
-        _parser().parse_args(remove_ros_args(["webviz-sim", *args])[1:])
+        options = _parser().parse_args(remove_ros_args(["webviz-sim", *args])[1:])
+        if options.until_stdin_closes:
+            threading.Thread(target=_end_with_stdin, daemon=True).start()
+        _on_signal(stopping.set)
         # rclpy's own handlers would shut the context down under the node's feet.
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
@@ -92,11 +98,27 @@ def _run(node: "SimNode", stopping: threading.Event) -> None:
     executor.shutdown()
 
 
+def _on_signal(action: Callable[[], object]) -> None:
+    """Calls `action` on Ctrl-C, SIGTERM and, unless `nohup` ignores it, a closed terminal."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, lambda *_: action())
+
+
+def _end_with_stdin() -> None:
+    """Ends the simulator when the program that started it has ended, in whatever way."""
+    while os.read(sys.stdin.fileno(), 1024):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(PATIENCE)
+    os._exit(1)
+
+
 def _parser() -> argparse.ArgumentParser:
     parameters = "\n".join(
         f"  {name:<20} {option.help} [{option.default}]" for name, option in OPTIONS.items()
     )
-    return argparse.ArgumentParser(
+    parser = argparse.ArgumentParser(
         prog="webviz-sim",
         description="A robot that drives through a small building, on ROS topics.",
         epilog=(
@@ -104,5 +126,11 @@ def _parser() -> argparse.ArgumentParser:
             "or --ros-args --params-file FILE.\n\nparameters of the node /sim:\n" + parameters
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        usage="webviz-sim [-h] [--ros-args ...]",
+        usage="webviz-sim [-h] [--until-stdin-closes] [--ros-args ...]",
     )
+    parser.add_argument(
+        "--until-stdin-closes",
+        action="store_true",
+        help="end also when standard input ends, which the program that started it holds",
+    )
+    return parser

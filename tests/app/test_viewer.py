@@ -5,9 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 import threading
+import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ import webviz
 from webviz import registry
 from webviz.commands import Refresh
 from webviz.messages import encode
+from webviz.sources import Offer
 from webviz.testing import header
 from webviz.testing.source import HandFedSource
 from webviz.views import Orbit, TopDownOrtho
@@ -87,6 +89,32 @@ def test_after_the_end_everything_is_refused(source: HandFedSource, refused: Ref
         grid = viewer["Grid"]
     assert refused(viewer.reset) == "The viewer has ended: make a new one."
     assert refused(grid.remove) == "The viewer has ended: make a new one."
+
+
+def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    hangs, goes_on, closed = threading.Event(), threading.Event(), threading.Event()
+
+    class Stuck(HandFedSource):
+        def offers(self) -> Mapping[str, Offer]:
+            if hangs.is_set():
+                goes_on.wait()
+            return super().offers()
+
+        def close(self) -> None:
+            closed.set()
+
+    viewer = webviz.Viewer(port=0, source=Stuck())
+    hangs.set()
+    time.sleep(0.5)  # the frame loop looks around four times a second
+    viewer.close()
+    goes_on.set()
+    assert closed.is_set()
+    with pytest.raises(urllib.error.URLError):
+        urllib.request.urlopen(viewer.url, timeout=5)
+    (record,) = caplog.records
+    assert record.getMessage() == "The frame loop did not end within 1.5 s."
 
 
 def test_waiting_ends_when_somebody_stops_it(viewer: webviz.Viewer) -> None:

@@ -91,7 +91,7 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
         "from webviz import Display\n\nclass Fence(Display):\n    pass\n"
     )
     said = run(
-        "from webviz.cli.main import main\n"
+        "from webviz.cli import main\n"
         "import sys; sys.stderr = sys.stdout\n"
         "print(main(['--plugin', 'own.py', '--port', '0']))"
     )

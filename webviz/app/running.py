@@ -40,6 +40,8 @@ NO_ROS = (
 )
 PATIENCE_S = 30.0
 """For the frame loop to do one thing; a config of hundreds of displays takes seconds."""
+CLOSING_S = 1.5
+"""For one part to end."""
 
 
 def read_config(path: Path | None) -> Config:
@@ -71,7 +73,7 @@ class Running:
     ) -> None:
         with contextlib.ExitStack() as stack:
             if source is not None:
-                stack.callback(source.close)
+                stack.callback(_end, "The source of messages", source.close)
             files = [Path(file) for file in plugins]
             watcher = plugin_files.Watcher(files)
             for file in files:
@@ -88,11 +90,11 @@ class Running:
                 server = open_server(host, port, allow_hosts)
             except CannotListen as error:
                 raise Error(str(error)) from error
-            stack.callback(server.stop)
+            stack.callback(_end, "The server of the page", server.stop)
             control = None
             if source is None:
                 source = ros_source(ros_args)
-                stack.callback(source.close)
+                stack.callback(_end, "The ROS node", source.close)
                 control = source.control
                 if path is None and control.asked["config_file"]:
                     path = Path(control.asked["config_file"])
@@ -107,12 +109,12 @@ class Running:
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
             thread.start()
-            stack.callback(thread.join)
+            stack.callback(_end, "The frame loop", thread.join)
             stack.callback(self._loop.stop)
             self._snapshots = Snapshots(scene, self._drawn)
-            stack.callback(self._snapshots.close)
+            stack.callback(_end, "The browser of pictures", self._snapshots.close)
             watcher.start(self._loop.enqueue)
-            stack.callback(watcher.stop)
+            stack.callback(_end, "The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
             if control is not None and (name := control.asked["view"]):
                 self.do(StartWithView(view=name))
@@ -122,7 +124,7 @@ class Running:
         atexit.register(self.close)
 
     def close(self) -> None:
-        """End the viewer and its page, leaving no thread."""
+        """End the viewer and its page, leaving no thread but those that hang."""
         atexit.unregister(self.close)
         self._stack.close()
 
@@ -231,6 +233,15 @@ class Running:
     def _show(self, state: State) -> None:
         self._state = state
         self._panel.update(state)
+
+
+def _end(what: str, close: Callable[[], object]) -> None:
+    """Close a part of a viewer. One that hangs is reported, and does not keep the others."""
+    thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
+    thread.start()
+    thread.join(CLOSING_S)
+    if thread.is_alive():
+        log.warning("%s did not end within %g s.", what, CLOSING_S)
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:

@@ -1,5 +1,24 @@
 """The command line: `webviz`, and a module for each of its subcommands."""
 
-from webviz.cli.main import main
+from __future__ import annotations
 
-__all__ = ["main"]
+from collections.abc import Sequence
+
+
+def program() -> None:
+    """What `webviz` runs, to its end; a signal before a command has begun ends it at once."""
+    from webviz.cli.ending import finish, leave, on_signal
+
+    on_signal(leave)
+    finish(main())
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command, by default the one that this program was started with.
+
+    Returns:
+        The exit status.
+    """
+    from webviz.cli.main import run
+
+    return run(arguments)

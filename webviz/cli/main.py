@@ -35,8 +35,8 @@ for name, summary in {
     app.command(f"webviz.cli.{name}:app", name=name, help=summary)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the program.
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
 
     Returns:
         The exit status: 0 also after Ctrl-C, 1 after an error and 2 after wrong arguments, each of

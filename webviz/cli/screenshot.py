@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import logging
 import math
-import signal
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ from cyclopts import App
 from webviz import config as config_file
 from webviz import plugins
 from webviz.cli.convert import tell
+from webviz.cli.ending import INTERRUPTED, end_in_time, on_signal
 from webviz.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.config.overrides import override
@@ -33,7 +33,7 @@ MOST_TOPICS = 40
 """Of a bag that are listed."""
 SHEET_SIZE = (480, 270)
 """Of the pictures of a contact sheet, if nothing else is said."""
-NOT_OK, INTERRUPTED = 3, 130
+NOT_OK = 3
 
 
 app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
@@ -49,11 +49,10 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
     Raises:
         Error: there is no picture; one sentence.
     """
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _interrupt)
     # viser takes a while to import; --help comes before.
     from webviz.pictures.capture import one_sentence
 
+    on_signal(_interrupt)
     try:
         with one_sentence():
             return _make(options, ros)
@@ -213,7 +212,8 @@ def _image(picture: Picture) -> PIL.Image.Image:
     return PIL.Image.fromarray(picture.pixels)
 
 
-def _interrupt(*_: object) -> None:
+def _interrupt() -> None:
+    end_in_time()
     # Ctrl-C in a terminal ends playwright's driver too; asyncio would tell of all that it owed.
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
     raise KeyboardInterrupt

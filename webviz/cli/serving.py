@@ -1,8 +1,8 @@
 """The page that `webviz` and `webviz demo` serve, until Ctrl-C."""
 
+import contextlib
 import functools
 import os
-import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,33 +10,72 @@ from pathlib import Path
 from webviz import config as config_file
 from webviz.app.viewer import Viewer
 from webviz.cli.convert import tell
+from webviz.cli.ending import INTERRUPTED, Stop
 from webviz.cli.viewing import LOCAL, ViewingOptions
 from webviz.config import Config
 from webviz.config.overrides import override
+from webviz.registry import display_types
 
 DEMO = Path(__file__).parent / "demo.yaml"
 
 
-def serve(options: ViewingOptions, ros: Sequence[str], standard: Path | None = None) -> None:
-    """Show the page until Ctrl-C or SIGTERM; `standard` is the config if none is given."""
+def serve(
+    options: ViewingOptions, ros: Sequence[str], stop: Stop, standard: Path | None = None
+) -> int:
+    """Show the page until the program is to end.
+
+    Args:
+        options: what to show and where.
+        ros: arguments for ROS.
+        stop: asked when to end.
+        standard: the config if none is given.
+
+    Returns:
+        The exit status.
+
+    Raises:
+        Error: it cannot be shown; one sentence.
+    """
+    read = functools.cache(functools.partial(_config, options, standard))
+    if options.display_config is not None:
+        read(options.display_config)  # mistakes are reported before imports that take seconds
     options.allow_meshes()
-    with Viewer(
-        options.display_config,
-        read=functools.partial(_config, options, standard),
-        host=options.host,
-        port=options.port,
-        allow_hosts=options.allow_host,
-        fixed_frame=options.fixed_frame,
-        ros_args=ros,
-        plugins=options.plugin,
-        autosave=_last_session() if options.autosave else None,
-        config_folders=options.config_folder,
-    ) as viewer:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: viewer.stop())
-        _announce(options, viewer)
-        viewer.wait()
-    print("\nwebviz: stopped.")
+    _import_slow_parts()
+    is_shown = False
+    if stop.hold():
+        with Viewer(
+            options.display_config,
+            read=read,
+            host=options.host,
+            port=options.port,
+            allow_hosts=options.allow_host,
+            fixed_frame=options.fixed_frame,
+            ros_args=ros,
+            plugins=options.plugin,
+            autosave=_last_session() if options.autosave else None,
+            config_folders=options.config_folder,
+        ) as viewer:
+            stop.then(viewer.stop)
+            is_shown = not stop.is_asked
+            if is_shown:
+                _announce(options, viewer)
+                viewer.wait()
+    if is_shown:
+        print("\nwebviz: stopped.")
+        return 0
+    print("webviz: interrupted.", file=sys.stderr)
+    return INTERRUPTED
+
+
+def _import_slow_parts() -> None:
+    """Import what a viewer needs, so that it is made quickly and a signal meets few half made."""
+    display_types()
+    import webviz.gui
+    import webviz.pictures.snapshots
+    import webviz.scene
+
+    with contextlib.suppress(ImportError):  # reported when it is needed
+        import webviz.ros.node  # noqa: F401
 
 
 def _announce(options: ViewingOptions, viewer: Viewer) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter, validators
 
+from webviz.cli.ending import Stop, until_signal
 from webviz.cli.options import ConfigOptions, Flag, Repeatable, RosArgs
 
 LOCAL = "127.0.0.1"
@@ -40,17 +41,25 @@ class ViewingOptions(ConfigOptions):
     """Keep the last session in ~/.local/state/webviz, and begin with it unless -d is given."""
 
 
-def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> None:
+def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
     """Show the page until Ctrl-C or SIGTERM."""
-    from webviz.cli.serving import serve
 
-    serve(options, ros)
+    def work(stop: Stop) -> int:
+        from webviz.cli.serving import serve
+
+        return serve(options, ros, stop)
+
+    return until_signal(work)
 
 
-def demo(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> None:
+def demo(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
     """Show the page, and start a simulated robot as well."""
-    from webviz.cli.serving import DEMO, serve
-    from webviz.cli.simulator import simulator
 
-    with simulator(ros):
-        serve(options, ros, DEMO)
+    def work(stop: Stop) -> int:
+        from webviz.cli.serving import DEMO, serve
+        from webviz.cli.simulator import simulator
+
+        with simulator(ros, stop):
+            return serve(options, ros, stop, DEMO)
+
+    return until_signal(work)

@@ -1,0 +1,116 @@
+"""How programs end: signals at any moment, a parent that is killed, parts that hang."""
+
+from __future__ import annotations
+
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import psutil
+import pytest
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy")
+
+LINES = {"", "webviz: interrupted.\n", "\nwebviz: stopped.\n"}
+PATIENCE_S = 20.0
+"""For what takes three seconds on a machine that does nothing else."""
+
+
+def has_handlers(program: Program) -> bool:
+    """Whether the program, and not the Python that starts it, is who hears a signal."""
+    status = Path(f"/proc/{program.process.pid}/status").read_text()
+    (caught,) = re.findall(r"SigCgt:\s*(\w+)", status)
+    return bool(int(caught, 16) & 1 << signal.SIGTERM - 1)
+
+
+def family_of(program: Program) -> list[psutil.Process]:
+    """The program and all that it started."""
+    process = psutil.Process(program.process.pid)
+    return [process, *process.children(recursive=True)]
+
+
+def shared_memory(family: list[psutil.Process]) -> set[Path]:
+    """The files of Fast DDS that processes share memory by."""
+    found = set()
+    for process in family:
+        maps = Path(f"/proc/{process.pid}/maps").read_text()
+        found |= {Path(name) for name in re.findall(r"/dev/shm/fastrtps_[0-9a-f]{16}", maps)}
+    return found
+
+
+def check_nothing_is_left(family: list[psutil.Process], files: Iterable[Path] = ()) -> None:
+    _, alive = psutil.wait_procs(family, PATIENCE_S)
+    assert alive == []
+    assert [file for file in files if file.exists()] == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_at_any_moment_of_its_start_ends_the_demo_with_one_line_and_leaves_nothing(
+    start: Callable[..., Program], number: signal.Signals
+) -> None:
+    for delay in (0.0, *(random.uniform(0.0, 4.0) for _ in range(3))):
+        program = start("webviz", "demo", "--port", "0")
+        while not has_handlers(program):
+            time.sleep(0.001)
+        time.sleep(delay)
+        family = family_of(program)
+        files = shared_memory(family)
+        status = program.end(number)
+        output = re.sub("webviz: open .*\n", "", program.output())
+        assert output in LINES, f"after {delay:.3f} s"
+        assert status == (0 if "stopped" in output else 130), f"after {delay:.3f} s"
+        check_nothing_is_left(family, files)
+
+
+def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Program]) -> None:
+    for wait in (lambda program: program.url(), lambda _: time.sleep(1.5)):
+        program = start("webviz", "demo", "--port", "0")
+        wait(program)
+        family = family_of(program)
+        program.end(signal.SIGKILL)
+        check_nothing_is_left(family)
+
+
+def test_a_closed_terminal_does_not_end_what_nohup_started(
+    ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    command = ["nohup", sys.executable, "-m", "webviz", "--port", "0"]
+    program = Program(command, ros_env, tmp_path / "log.txt")
+    program.url()
+    program.process.send_signal(signal.SIGHUP)
+    time.sleep(0.5)
+    assert program.process.poll() is None
+    assert program.end(signal.SIGTERM) == 0
+
+
+def test_work_that_hangs_is_ended_by_force_with_its_child_processes(tmp_path: Path) -> None:
+    code = """
+import subprocess, time
+from webviz.cli.ending import until_signal
+def work(stop):
+    stop.hold()
+    subprocess.Popen(["sleep", "1000"])
+    print("at work", flush=True)
+    time.sleep(1000)
+until_signal(work)
+"""
+    program = Program([sys.executable, "-c", code], {}, tmp_path / "log.txt")
+    program.wait_for("at work")
+    family = family_of(program)
+    assert len(family) == 2
+    assert program.end(signal.SIGTERM) == 1
+    assert program.output() == "at work\nwebviz: ended by force, still busy after 3 s.\n"
+    check_nothing_is_left(family)
+
+
+def test_a_reader_that_goes_early_is_no_error() -> None:
+    command = f"{sys.executable} -m webviz schema | head -n 1"
+    result = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
+    assert result.stdout == "{\n"
+    assert result.stderr == ""
