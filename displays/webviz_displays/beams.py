@@ -9,12 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Frames, Sample, messages
+from webviz_displays.decimation import evenly
 from webviz_displays.geometry import FARTHEST, is_drawable, matrices, w_first
 
 F64 = NDArray[np.float64]
 
 MOST_ANGLE = 1000.0
 """Radians; float32 resolves 0.003 degrees there, and no laser turns so often."""
+
+MOST_BEAMS = 100_000
+"""Drawn of one scan, twenty times as many as any laser has; they take 25 ms of the frame loop."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,9 @@ def project(scan: messages.LaserScan) -> Hits:
     near = rest & (ranges < scan.range_min)
     far = rest & (ranges >= min(scan.range_max, FARTHEST))
     beams = np.flatnonzero(rest & ~near & ~far)
+    over = max(len(beams) - MOST_BEAMS, 0)
+    if over:
+        beams = beams[evenly(len(beams), MOST_BEAMS)]
     angles = scan.angle_min + beams * scan.angle_increment
     hits = ranges[beams]
     xyz = np.stack((hits * np.cos(angles), hits * np.sin(angles), np.zeros(len(hits))), axis=1)
@@ -82,6 +89,8 @@ def project(scan: messages.LaserScan) -> Hits:
         f"not nearer than range_max ({scan.range_max:g} m)": far,
     }
     dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
+    if over:
+        dropped[f"over the limit of {MOST_BEAMS}"] = over
     return Hits(beams, xyz, len(ranges), dropped)
 
 

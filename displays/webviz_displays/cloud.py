@@ -18,6 +18,9 @@ _DTYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8
 _XYZ = np.dtype("V12")
 """Three floats as one item: numpy copies strided items five times as fast as strided rows."""
 
+_NAMED = 20
+"""Fields that a sentence lists."""
+
 
 class CloudError(ValueError):
     """Why a cloud, or a field of it, cannot be read; a sentence."""
@@ -66,6 +69,12 @@ class Cloud:
                 f"The data has {size} bytes, {needed} were enough for {message.width} x "
                 f"{message.height} points of {message.point_step} bytes; the rest is ignored."
             )
+
+    @property
+    def fields(self) -> str:
+        """The names of the first fields, for a sentence."""
+        more = f" and {len(self.names) - _NAMED} more" if len(self.names) > _NAMED else ""
+        return (", ".join(f"{name:.40}" for name in self.names[:_NAMED]) or "none") + more
 
     def values(self, name: str) -> NDArray[Any]:
         """A field of all points (N,) in the type of the message; the first of several elements.
@@ -125,8 +134,7 @@ class Cloud:
         """Offset and type of a field."""
         field = next((field for field in self._message.fields if field.name == name), None)
         if field is None:
-            fields = ", ".join(self.names) or "none"
-            raise CloudError(f"The cloud has no field {name!r}; its fields are: {fields}.")
+            raise CloudError(f"The cloud has no field {name!r}; its fields are: {self.fields}.")
         if field.datatype not in _DTYPES:
             raise CloudError(f"Field {name!r} has the unknown datatype {field.datatype}.")
         order = ">" if self._message.is_bigendian else "<"

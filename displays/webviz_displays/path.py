@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic, messages
 from webviz_displays.arrows import along_x
 from webviz_displays.colors import faded_color
+from webviz_displays.decimation import evenly
 from webviz_displays.geometry import (
     is_drawable,
     matrices,
@@ -18,6 +19,9 @@ from webviz_displays.geometry import (
     transformed,
     w_first,
 )
+
+MOST_POSES = 100_000
+"""Drawn of one path; they take up to 50 ms of the frame loop."""
 
 
 class Path(Display):
@@ -98,14 +102,19 @@ class Path(Display):
             ctx.error("Path", f"{_fault(path, index)}{more}: the path is not drawn.")
             return
         ctx.ok("Path", f"Showing {count} pose{'s' if count != 1 else ''}.")
+        positions, orientations = path.poses.positions, path.poses.orientations
+        if count > MOST_POSES:
+            ctx.warn("Path", f"Showing {MOST_POSES} of {count} poses, evenly picked.")
+            rows = evenly(count, MOST_POSES)
+            positions, orientations = positions[rows], orientations[rows]
         if count == 1 and self.pose_style == "None":
             ctx.warn("Path", "The path has one pose only, which makes no line.")
 
         # Offset is in the fixed frame; the group turns with the frame of the path.
-        origin = origin_near(path.poses.positions)
+        origin = origin_near(positions)
         corner = transformed(sample.pose, [origin])[0] + self.offset
         group = ctx.follow(None, offset=Pose(tuple(corner.tolist()), sample.pose.wxyz))
-        xyz = path.poses.positions - origin
+        xyz = positions - origin
         color = faded_color(self.color, self.alpha)
         if self.alpha == 0:
             ctx.warn("Path", "The line is invisible: alpha is 0.")
@@ -114,7 +123,7 @@ class Path(Display):
         else:
             group.strip("line", xyz, color, self.line_width, "m")
         if self.pose_style != "None":
-            self._draw_poses(xyz, path.poses.orientations, group, ctx)
+            self._draw_poses(xyz, orientations, group, ctx)
 
     def _draw_poses(
         self,

@@ -167,7 +167,7 @@ class PointCloud2(PointsDisplay):
             case _:
                 return self.color, None
         if self.color_transformer == "Auto":
-            ctx.ok("Colors", f"{transformer}, by the fields: {', '.join(cloud.names)}.")
+            ctx.ok("Colors", f"{transformer}, by the fields: {cloud.fields}.")
         return colors, opacities
 
     def _channel(self, cloud: Cloud) -> NDArray[Any]:

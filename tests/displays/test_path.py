@@ -73,6 +73,17 @@ def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
     assert bench.nodes()["line"].colors == (148, 48, 48)
 
 
+def test_of_a_path_of_very_many_poses_some_are_drawn_and_it_is_said(
+    shown: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz_displays.path.MOST_POSES", 3)
+    bench = shown(path(*((x, 0, 0) for x in range(9))), pose_style="Axes")
+    assert len(bench.nodes()["line"].segments) == 2
+    assert len(bench.nodes()["poses"].positions) == 3
+    level, text = bench.statuses()["Path"]
+    assert (level, text) == ("WARN", "Showing 3 of 9 poses, evenly picked.")
+
+
 def test_the_newest_paths_stay_up_to_the_buffer_length(shown: Benches) -> None:
     paths = [path((0, 0, i), (1, 0, i)) for i in range(4)]
     bench = shown(*paths, buffer_length=3)

@@ -291,6 +291,13 @@ def test_without_the_field_points_are_white_and_the_fields_there_are_are_named(
     assert bench.statuses()["Colors"] == ("WARN", f"{words} The points are white.")
 
 
+def test_of_very_many_fields_the_first_are_named(lab: Benches) -> None:
+    bench = lab(cloud([("f" * 50, 0, FLOAT32, 1)] * 5000, []))
+    text = bench.statuses()["Points"][1]
+    assert text.endswith("and 4980 more.")
+    assert len(text) < 1000
+
+
 def test_a_colour_that_is_not_of_four_bytes_is_refused_in_words(lab: Benches) -> None:
     fields = [*XYZ, ("rgb", 12, 8, 1)]
     bench = lab(cloud(fields, [{"x": [0], "y": [0], "z": [0], "rgb": [1.0]}]))
