@@ -70,6 +70,14 @@ def test_only_regular_files_are_read(path: Path, kind: str) -> None:
         load(path)
 
 
+def test_a_pipe_is_written() -> None:
+    reading, writing = os.pipe()
+    with open(reading) as reader:
+        write_text("one", Path(f"/dev/fd/{writing}"))
+        os.close(writing)
+        assert reader.read() == "one"
+
+
 def test_a_fifo_that_nobody_reads_is_not_written(path: Path) -> None:
     os.mkfifo(path)
     with pytest.raises(ConfigError, match=r"Cannot write .*No such device"):

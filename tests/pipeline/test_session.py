@@ -252,6 +252,16 @@ def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> 
     assert names(state) == ["G", "  A", "  H", "    Gone", "G 2", "  A", "  H", "    Gone", "B"]
 
 
+def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:
+    b = bench(Branch(Group(name="G"), [Axes(name=f"A{i}") for i in range(599)]))
+    for command in (DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 401):
+        b.viewer.enqueue(command)
+    state = do(b, DuplicateDisplay("gone"))
+    assert state.answer.text == "Not added: the limit is 1000 displays. Remove some first."
+    assert len(state.rows) == 1000
+    assert "G 2" not in names(state)
+
+
 def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
     bench: Callable[..., Any],
 ) -> None:

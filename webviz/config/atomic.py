@@ -37,7 +37,7 @@ def write_text(text: str, path: Path) -> None:
     """
     try:
         data = text.encode("utf-8")
-        within(PATIENCE_S, lambda: _write(data, Path(os.path.realpath(path))))
+        within(PATIENCE_S, lambda: _write(data, path))
     except OSError as error:
         raise ConfigError(
             f"Cannot write {path}: {error.strerror or error}; save it under another name."
@@ -46,13 +46,15 @@ def write_text(text: str, path: Path) -> None:
         raise ConfigError(f"Cannot write {path}: it would hold what is no text.") from error
 
 
-def _write(data: bytes, target: Path) -> None:
-    if target.exists() and not target.is_file():  # such as /dev/stdout
+def _write(data: bytes, path: Path) -> None:
+    if path.exists() and not path.is_file():  # such as /dev/stdout
         # To open a FIFO would wait for a reader.
-        with open(os.open(target, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY), "wb") as file:
+        with open(os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY), "wb") as file:
             os.set_blocking(file.fileno(), True)
             file.write(data)
-    elif not (target.exists() and target.read_bytes() == data):
+        return
+    target = Path(os.path.realpath(path))
+    if not (target.exists() and target.read_bytes() == data):
         _replace(data, target)
 
 

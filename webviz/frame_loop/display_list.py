@@ -16,6 +16,7 @@ import msgspec
 from webviz import config as config_file
 from webviz import rviz
 from webviz.config import Branch, ConfigError, Item, Place, Settings, Unreadable
+from webviz.config.reading import MAX_DISPLAYS
 from webviz.display import Display, make, set_property, to_values
 from webviz.group import Group
 from webviz.pipeline import Runner, Services
@@ -78,7 +79,12 @@ class DisplayList:
         self._made = 0
 
     def add(self, item: Item, parent: Entry | None = None) -> Entry:
-        """Add a display, or a group with all that is in it, at the end of a group or the list."""
+        """Add a display, or a group with all that is in it, at the end of a group or the list.
+
+        Raises:
+            ConfigError: there are too many.
+        """
+        self._make_room(1)
         self._made += 1
         id = f"display{self._made}"
         if isinstance(item, Branch):
@@ -114,9 +120,14 @@ class DisplayList:
         self._entries = []
 
     def duplicate(self, id: str) -> Entry | None:
-        """Add a copy right behind a display, or a group with all that is in it, and return it."""
+        """Add a copy right behind a display, or a group with all that is in it, and return it.
+
+        Raises:
+            ConfigError: there are too many.
+        """
         if not (original := self.find(id)):
             return None
+        self._make_room(len(self.within(id)))
         copied = _copy(self._item(original))
         names = {entry.name for entry in self._entries}
         if not isinstance(copied, Unreadable):
@@ -230,6 +241,12 @@ class DisplayList:
                 ]
                 rows[index] = replace(rows[index], statuses=_summary(inner))
         return tuple(rows)
+
+    def _make_room(self, more: int) -> None:
+        if len(self._entries) + more > MAX_DISPLAYS:
+            raise ConfigError(
+                f"Not added: the limit is {MAX_DISPLAYS} displays. Remove some first."
+            )
 
     def _item(self, entry: Entry) -> Item:
         content = entry.content
