@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -163,3 +164,25 @@ def test_a_simulator_that_dies_ends_the_demo_with_a_reason(start: Callable[..., 
     simulator.kill()
     assert program.process.wait(20) == 1
     assert "webviz: the simulator ended by itself" in program.output()
+
+
+def test_installing_brings_what_pictures_need_and_says_if_a_browser_is_missing() -> None:
+    plan = subprocess.run(
+        ["make", "--dry-run", "--always-make", "install"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert '--editable ".[pictures' in plan.stdout
+    (check,) = re.findall(r"python (-m webviz\.pictures\S+)", plan.stdout)
+    result = subprocess.run(
+        [sys.executable, *check.split()],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        env={**os.environ, "WEBVIZ_BROWSER": "/nowhere/chromium"},
+    )
+    assert result.stdout.startswith("webviz is ready, but makes no pictures yet. WEBVIZ_BROWSER is")
+    assert result.stderr == ""

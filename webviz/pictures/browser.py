@@ -71,17 +71,14 @@ def launched() -> Iterator[playwright.Browser]:
         import playwright.sync_api as playwright
     except ImportError:
         raise NoBrowser("Pictures need playwright: run `pip install 'webviz[pictures]'`.") from None
-    executable = _executable()
     with playwright.sync_playwright() as driver:
-        if executable is None and not os.path.exists(driver.chromium.executable_path):
-            raise NoBrowser(f"There is no browser for pictures: {HOW_TO_GET_ONE}.")
+        executable = _executable(driver)
         try:
             browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
         except playwright.Error as error:
             reason = str(error).strip().splitlines()[0]
-            name = executable or driver.chromium.executable_path
             raise NoBrowser(
-                f"The browser {name} does not start ({reason}): {HOW_TO_GET_ONE}."
+                f"The browser {executable} does not start ({reason}): {HOW_TO_GET_ONE}."
             ) from None
         try:
             yield browser
@@ -90,15 +87,19 @@ def launched() -> Iterator[playwright.Browser]:
                 browser.close()
 
 
-def _executable() -> str | None:
-    """The browser of this machine, or None to try playwright's own."""
+def _executable(driver: playwright.Playwright) -> str:
+    """The browser of this machine, or else playwright's own."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         found = shutil.which(chosen)
         if found is None:
             raise NoBrowser(f"{VARIABLE} is {chosen!r}, where no program is: correct or unset it.")
         return found
-    return next(filter(None, map(shutil.which, NAMES)), None)
+    own = driver.chromium.executable_path
+    for name in (*NAMES, own):
+        if found := shutil.which(name):
+            return found
+    raise NoBrowser(f"There is no browser for pictures: {HOW_TO_GET_ONE}.")
 
 
 class Page:
@@ -239,3 +240,11 @@ class Page:
 
 def _size(width: int, height: int) -> playwright.ViewportSize:
     return {"width": width, "height": height}
+
+
+if __name__ == "__main__":  # the last step of `make install`
+    try:
+        with launched():
+            pass
+    except NoBrowser as error:
+        print(f"webviz is ready, but makes no pictures yet. {error}")
