@@ -253,12 +253,12 @@ def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> 
 
 
 def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:
-    b = bench(Branch(Group(name="G"), [Axes(name=f"A{i}") for i in range(599)]))
-    for command in (DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 401):
+    b = bench(Branch(Group(name="G"), [Axes(name=f"A{i}") for i in range(299)]))
+    for command in (DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 201):
         b.viewer.enqueue(command)
     state = do(b, DuplicateDisplay("gone"))
-    assert state.answer.text == "Not added: the limit is 1000 displays. Remove some first."
-    assert len(state.rows) == 1000
+    assert state.answer.text == "Not added: the limit is 500 displays. Remove some first."
+    assert len(state.rows) == 500
     assert "G 2" not in names(state)
 
 

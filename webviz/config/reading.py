@@ -21,8 +21,8 @@ from webviz.views import with_type
 
 NO_TYPE = "a display needs a `type`, such as `type: Grid`."
 NO_LIST = "expected a list, each entry with a `type`."
-MAX_DISPLAYS = 1000
-"""In one config, groups counted; real ones have fewer than 100."""
+MAX_DISPLAYS = 500
+"""In one config, groups counted. Real ones have fewer than 100, and with 1000 the page hangs."""
 _KEYS = (*Settings.__struct_fields__, "displays")
 _TELLING = frozenset(_KEYS) - {"version", "rviz"}
 """Keys that other kinds of files do not have."""
