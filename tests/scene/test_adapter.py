@@ -50,10 +50,10 @@ def test_messages_that_we_queue_have_the_fields_that_we_fill(
         (wire.LineSegmentsProps, {"points", "colors", "thickness", "thickness_units"}),
         (wire.ArrowProps, {"points", "colors", "shaft_radius", "head_radius", "head_length"}),
         (
-            wire.BatchedAxesProps,
-            {"batched_positions", "batched_wxyzs", "axes_length", "axes_radius"},
+            wire.BatchedGlbProps,
+            {"glb_data", "batched_positions", "batched_wxyzs", "batched_scales"},
         ),
-        (wire.MeshProps, {"vertices", "faces", "color", "opacity"}),
+        (wire.MeshProps, {"vertices", "faces", "color", "opacity", "side"}),
         (wire.LabelProps, {"text", "font_scene_height"}),
         (wire.ImageProps, {"_data", "_format", "render_width", "render_height"}),
     ],

@@ -101,8 +101,8 @@ COLORED: dict[str, tuple[Node, int]] = {
         2,
     ),
     "arrows": (Arrows(floats(((-1, 0, 0), (1, 0, 0))), COLOR, 0.3, 0.5, 0.3), 12),
-    "mesh": (Mesh(*square(1.0), COLOR), 12),
-    "glb": (Glb(glb(1.0, COLOR)), 12),
+    "mesh": (Mesh(*square(1.0), COLOR), 2),
+    "glb": (Glb(glb(1.0, COLOR)), 2),
     "unlit glb": (Glb(glb(1.0, COLOR, KHR_materials_unlit={})), 1),
     "image": (Image(np.full((4, 4, 4), (*COLOR, 255), np.uint8), 1.0, 1.0), 0),
 }
@@ -239,7 +239,7 @@ def test_the_background_can_be_changed(view: Any) -> None:
 
 def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:
     view.scene.upsert("base_link", "it", Glb(b"solid ascii stl"))
-    with pytest.raises(ValueError, match=r"no binary glTF 2\.0"):
+    with pytest.raises(ValueError, match=r"not a binary glTF 2\.0"):
         view.scene.flush()
 
 

@@ -90,7 +90,7 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
             a *= alpha
         pbr["baseColorFactor"] = (r, g, b, a)
         if a < OPAQUE:
-            material["alphaMode"] = "BLEND"
+            material |= {"alphaMode": "BLEND", "doubleSided": False}
     for mesh in document.get("meshes", []):
         for primitive in mesh["primitives"]:
             primitive.setdefault("material", 0)
@@ -150,8 +150,10 @@ class _Writer:
             }
             if surface.texture is not None:
                 pbr["baseColorTexture"] = {"index": self._texture(surface.texture)}
-            material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": True}
-            if surface.rgba[3] < OPAQUE:
+            is_opaque = surface.rgba[3] >= OPAQUE
+            # Transparent shapes show their front only, as in RViz, not their inside.
+            material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": is_opaque}
+            if not is_opaque:
                 material["alphaMode"] = "BLEND"
             self._materials[surface] = len(self._materials)
             self.json["materials"].append(material)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import threading
 from collections.abc import Iterable, Iterator
 from typing import Any
@@ -18,6 +17,7 @@ from webviz.scene.connections import Gate
 from webviz.scene.guard import guarded_serve
 from webviz.scene.gui_values import accepts_update
 from webviz.scene.hosts import HostList
+from webviz.scene.lights import add_lights
 from webviz.scene.listener import listen
 
 BACKGROUND: Rgb = (48, 48, 48)
@@ -81,33 +81,9 @@ class _Server(viser.ViserServer):
 def _prepare(server: viser.ViserServer) -> None:
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
     set_background(server, BACKGROUND)
-    _light(server.scene)
+    add_lights(server.scene)
     server.scene.set_up_direction("+z")
     server.initial_camera.far = 1e5
-
-
-def _light(scene: viser.SceneApi) -> None:
-    """Lights every side of a thing differently, none of them black, none brighter than its colour.
-
-    A lamp of intensity pi shows a white surface that faces it as white (Lambert). viser's own
-    lights are too bright without tone mapping, its image lighting stalls a browser without a GPU
-    for seconds, and its directional lights cannot be turned: lamps far away without decay can.
-    """
-    scene.configure_environment_map(None)
-    scene.configure_default_lights(False, cast_shadow=False)
-    scene.add_light_ambient("/lights/ambient", intensity=0.45 * math.pi)
-    for name, intensity, direction in (
-        ("key", 0.5, (0.4, 0.2, 0.9)),
-        ("fill", 0.25, (-0.5, -0.6, 0.3)),
-    ):
-        x, y, z = 1e6 * np.array(direction)
-        scene.add_light_point(
-            f"/lights/{name}",
-            intensity=intensity * math.pi,
-            decay=0.0,
-            cast_shadow=False,
-            position=(x, y, z),
-        )
 
 
 @contextlib.contextmanager

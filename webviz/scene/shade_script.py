@@ -1,10 +1,16 @@
-"""How solids are shaded whose colours are data: a script that every browser runs when it joins.
+"""How surfaces are shaded, from the view alone: a script that every browser runs when it joins.
 
-They are viser's toon materials, of which nothing but the shader is left: as in RViz's spheres, the
-middle has the very colour and the rim 0.8 of it, wherever light comes from.
+A surface that faces the camera has its own colour, and the less it does the darker it is, as if by
+the one light of RViz, which shines from the camera. That is in sRGB, as there: the lights of
+three.js add up in linear light, which leaves a ball that is lit from the camera as flat as a disc.
+Solids whose colours are data (viser's toon materials, of which nothing but the shader is left)
+are, as RViz's spheres, hardly darker at the rim.
 """
 
 from __future__ import annotations
+
+DARKEST = 0.3
+"""Share of its colour that a surface has which is seen edge on; in RViz it is black."""
 
 SHADE_SCRIPT = """
 (function install() {
@@ -13,24 +19,42 @@ SHADE_SCRIPT = """
   if (scene.webvizShade) return;
   scene.webvizShade = true;
 
-  const shade = (shader) => {
+  const shade = (factor) => (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace("#include <opaque_fragment>", `
-      float facing = dot(normalize(normal), normalize(vViewPosition));
-      outgoingLight = diffuseColor.rgb * pow(0.8 + 0.2 * facing * facing, 2.2);
+      outgoingLight = diffuseColor.rgb * pow(${factor}, 2.2) + totalEmissiveRadiance;
       #include <opaque_fragment>`);
   };
-  let toon = null;
+  const facing = "dot(normalize(normal), normalize(vViewPosition))";
+  const factors = {
+    MeshStandardMaterial: "DARKEST + (1.0 - DARKEST) * max(normalize(normal).z, 0.0)",
+    MeshToonMaterial: `0.8 + 0.2 * ${facing} * ${facing}`,
+  };
+
+  // Before the first of a kind is drawn, for viser's batches keep what a material had when it was.
+  // A physical material is a standard one with more to it.
+  function teach({ material }) {
+    if (!material) return;
+    const isPhysical = material.isMeshPhysicalMaterial;
+    const type = isPhysical ? "MeshStandardMaterial" : material.type;
+    if (!factors[type]) return;
+    let kind = Object.getPrototypeOf(material);
+    if (isPhysical) kind = Object.getPrototypeOf(kind);
+    kind.onBeforeCompile = shade(factors[type]);
+    kind.customProgramCacheKey = () => `webviz ${type}`;
+    delete factors[type];
+  }
   const before = scene.onBeforeRender;
   scene.onBeforeRender = function (...args) {
-    if (!toon) {
-      scene.traverse(({ material }) => {
-        if (!material || !material.isMeshToonMaterial) return;
-        toon = Object.getPrototypeOf(material);
-        toon.onBeforeCompile = shade;
-        material.needsUpdate = true;
-      });
-    }
+    if (Object.keys(factors).length > 0) scene.traverse(teach);
     return before.apply(this, args);
   };
+
+  // What is transparent hides nothing, as in RViz: not even what of itself is drawn later.
+  const gl = scene.__r3f.root.getState().gl;
+  const draw = gl.renderBufferDirect;
+  gl.renderBufferDirect = function (camera, fog, geometry, material, ...rest) {
+    if (material.transparent && material.isMeshStandardMaterial) material.depthWrite = false;
+    draw.call(this, camera, fog, geometry, material, ...rest);
+  };
 })();
-"""
+""".replace("DARKEST", str(DARKEST))
