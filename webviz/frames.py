@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.nodes import Pose
-from webviz.transforms import FramesIn, Transform, TransformBuffer, TransformException, explain
+from webviz.transforms import (
+    Explanation,
+    FramesIn,
+    Transform,
+    TransformBuffer,
+    TransformException,
+    explain,
+)
 from webviz.transforms.geometry import REACH_M, is_within_reach
 from webviz.transforms.geometry import compose as compose_tuples
 
@@ -102,7 +109,11 @@ class Frames:
 
     def why_not(self, frame: str, stamp_ns: int = 0) -> str:
         """Why a frame has no pose, and what to do; a sentence."""
-        return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns).sentence
+        return self.explain(frame, stamp_ns).sentence
+
+    def explain(self, frame: str, stamp_ns: int = 0) -> Explanation:
+        """Why a frame has no pose, and what to do."""
+        return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns)
 
     def all(self) -> FramePoses:
         """Every frame that was ever mentioned."""

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import msgspec
 
 from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
+from webviz.transforms.reasons import distinct
 from webviz_displays.robot_loading import load, progress, request_file
 from webviz_displays.robot_parts import Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_displays.robot_statuses import (
@@ -18,6 +19,7 @@ from webviz_displays.robot_statuses import (
     report_places,
     report_robot,
     report_strangers,
+    why_lost,
 )
 from webviz_displays.trails import Trails
 from webviz_urdf import Request, Robot, RobotDescriptionError
@@ -156,12 +158,16 @@ class RobotModel(Display):
                 report_link(link, pose, ctx)
         self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
 
-    def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> list[str]:
+    def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
         """Why the first lost links are; the texts hold times, so they are renewed every second."""
         moment = (lost, ctx.frames.now_ns // SECOND)
-        known, reasons = ctx.state.get("reasons", (None, []))
+        known, reasons = ctx.state.get("reasons", (None, {}))
         if known != moment:
-            reasons = [ctx.frames.why_not(model.frame(link)) for link in lost[:NAMED]]
+            reasons = distinct(
+                lost,
+                lambda link: why_lost(model.robot, link, ctx.frames.explain(model.frame(link))),
+                NAMED,
+            )
             ctx.state["reasons"] = (moment, reasons)
         return reasons
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from webviz import Context, Pose
+from webviz.transforms import Explanation, Kind
 from webviz_urdf import Joint, Missing, Robot
 
 NAMED = 5
@@ -39,13 +41,36 @@ def report_strangers(kind: str, chosen: Sequence[str], known: Sequence[str], ctx
         ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names(strangers)}.")
 
 
-def report_places(total: int, lost: Sequence[str], reasons: Sequence[str], ctx: Context) -> None:
+def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
+    """Why a link has no pose, as far as the description of its robot tells more than `reason`."""
+    joint = next((joint for joint in robot.joints.values() if joint.child == link), None)
+    if reason.kind != Kind.UNKNOWN_FRAME or joint is None:
+        return reason
+    if joint.type == "fixed":
+        return replace(
+            reason,
+            sentence=f"No transform to '{link}' has arrived. Start robot_state_publisher with this "
+            "description.",
+            cause="fixed joints",
+        )
+    return replace(
+        reason,
+        sentence=f"No transform to '{link}' has arrived: the state of its joint '{joint.name}' is "
+        "probably not published. Start the driver or joint_state_publisher, which publish "
+        "/joint_states.",
+        cause="moving joints",
+    )
+
+
+def report_places(
+    total: int, lost: Sequence[str], reasons: Mapping[str, str], ctx: Context
+) -> None:
     """Say which links have no transform.
 
     Args:
         total: links that should be drawn.
         lost: names of those without a transform.
-        reasons: why, of the first of them.
+        reasons: why, by the first link that has each reason.
         ctx: where to say it.
     """
     if not lost:
@@ -56,7 +81,7 @@ def report_places(total: int, lost: Sequence[str], reasons: Sequence[str], ctx: 
         f"{len(lost)} of {count(total, 'link')} without a transform: {names(lost)}. "
         "What was seen before is grey where it was.",
     )
-    for link, reason in zip(lost, reasons, strict=False):
+    for link, reason in reasons.items():
         ctx.error(f"Link {link}", reason)
 
 

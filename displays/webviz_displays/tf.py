@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Display, FramePoses, Pose, Prop, Sample
+from webviz.transforms.reasons import distinct
 from webviz_displays.fading import Ages, fade
 from webviz_displays.frame_filter import FrameFilter, compiled, parent_indices
 from webviz_displays.frame_marks import Marks, add_arrows, add_axes, add_names
@@ -21,7 +22,7 @@ from webviz_displays.frame_tree import outline
 SECOND = 1_000_000_000
 
 NAMED = 5
-"""Lost frames that get a status of their own; the rest is counted."""
+"""Reasons of lost frames that get a status of their own."""
 
 READ_OUT = 20
 """Frames that say where they are."""
@@ -172,9 +173,9 @@ class TF(Display):
         # Explanations hold times, so they are renewed, but not on every tick.
         moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
         if ctx.state.get("moment") != moment:
-            names = sorted(poses.names[place] for place in lost)[:NAMED]
+            names = sorted(poses.names[place] for place in lost)
             ctx.state["moment"] = moment
-            ctx.state["reasons"] = {name: ctx.frames.why_not(name) for name in names}
+            ctx.state["reasons"] = distinct(names, ctx.frames.explain, NAMED)
         for name, reason in ctx.state["reasons"].items():
             ctx.warn(name, reason)
         for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:

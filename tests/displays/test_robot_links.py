@@ -51,20 +51,35 @@ def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
     assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
 
 
-def test_many_lost_links_are_counted_and_a_few_named_with_their_reasons(bench) -> None:
+def test_lost_links_are_counted_and_each_reason_is_told_once(bench) -> None:
     links = "".join(f'<link name="l{n}"/>' for n in range(20))
     joints = "".join(
-        f'<joint name="j{n}" type="fixed"><parent link="l0"/><child link="l{n}"/></joint>'
+        f'<joint name="j{n}" type="{"fixed" if n < 9 else "continuous"}"><parent link="l0"/>'
+        f'<child link="l{n}"/></joint>'
         for n in range(1, 20)
     )
     at = bench(RobotModel())
     at.transform("map", "l0")
     describe(at, f"<robot name='r'>{links}{joints}</robot>")
     at.turn()
-    named = [key for key in at.statuses() if key.startswith("Link ")]
-    assert named == [f"Link l{n}" for n in range(1, 6)]
-    assert "19 of 20 links" in at.statuses()["Links"][1]
-    assert "l5 and 14 more" in at.statuses()["Links"][1]
+    statuses = at.statuses()
+    assert {key: text for key, (_, text) in statuses.items() if key.startswith("Link ")} == {
+        "Link l1": "No transform to 'l1' has arrived. Start robot_state_publisher with this "
+        "description.",
+        "Link l9": "No transform to 'l9' has arrived: the state of its joint 'j9' is probably not "
+        "published. Start the driver or joint_state_publisher, which publish /joint_states.",
+    }
+    assert "19 of 20 links" in statuses["Links"][1]
+    assert "l5 and 14 more" in statuses["Links"][1]
+
+
+def test_a_fixed_frame_that_does_not_exist_is_told_once_for_all_links(bench) -> None:
+    at = bench(RobotModel())
+    place_arm(at)
+    at.fixed_frame = "earth"
+    describe(at, ARM)
+    sentences = [text for _, text in at.statuses().values() if "does not exist" in text]
+    assert len(sentences) == 1
 
 
 def test_links_move_no_more_often_than_the_update_interval(bench) -> None:

@@ -42,19 +42,31 @@ def test_frames_of_another_tree_are_named_and_not_drawn(bench) -> None:
     assert len(at.nodes()["axes"].positions) == 2
     statuses = at.statuses()
     assert statuses["Frames"] == ("WARN", "2 of 4 frames shown, 2 have no transform to 'map'.")
-    assert statuses["lens"][0] == "WARN"
     assert statuses["camera"][0] == "WARN"
+    assert "lens" not in statuses, "it is lost for the same reason"
 
 
-def test_many_lost_frames_are_counted_and_only_a_few_named(bench) -> None:
+def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(bench) -> None:
     at = bench(TF())
     at.transform("map", "odom")
     for number in range(20):
-        at.transform("elsewhere", f"lost_{number}")
+        at.transform(f"elsewhere_{number // 2}", f"lost_{number}")
     at.turn()
     statuses = at.statuses()
     assert len([key for key in statuses if key.startswith(("lost", "elsewhere"))]) == 5
-    assert "21 have no transform" in statuses["Frames"][1]
+    assert "30 have no transform" in statuses["Frames"][1]
+
+
+def test_a_fixed_frame_that_does_not_exist_is_told_once(bench) -> None:
+    at = bench(TF())
+    for number in range(20):
+        at.transform("odom", f"frame_{number}")
+    at.turn()
+    sentences = [text for _, text in at.statuses().values() if "does not exist" in text]
+    assert sentences == [
+        'Fixed frame "map" does not exist. Start localisation or SLAM, or use "odom", the root of '
+        "the largest tree (21 frames): -f odom"
+    ]
 
 
 def test_the_tree_of_frames_is_told(bench) -> None:

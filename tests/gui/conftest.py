@@ -14,8 +14,9 @@ import viser
 
 from webviz.commands import Command, Refresh, SetProperty
 from webviz.display import Color, Display, Input, Prop, Topic, set_property
-from webviz.gui import Panel
-from webviz.scene import open_server
+from webviz.gui import Panel, take_typed
+from webviz.scene import on_typed, open_server
+from webviz.scene.adapter import Adapter
 from webviz.state import Row, State
 from webviz.status import Status
 
@@ -55,6 +56,7 @@ class Loop:
         self.state = State((), "map", (), {}, {})
         self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.panel = Panel(server, self._queue.put)
+        on_typed(Adapter(server), take_typed)
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 import viser
 
 from webviz.commands import AddDisplay, RemoveDisplay, Reset, SetFixedFrame, SetProperty
@@ -102,6 +103,40 @@ def test_the_fixed_frame_is_chosen_from_known_frames_and_its_status_is_read(
     assert tab.page.get_by_role("option").all_inner_texts() == ["base_link", "odom", "map"]
     tab.page.get_by_role("option", name="odom").click()
     tab.wait_for(lambda: loop.drain() or loop.commands)
+    assert loop.commands == [SetFixedFrame("odom")]
+
+
+@pytest.mark.parametrize("leave", ["Enter", "Tab"])
+def test_a_frame_that_does_not_exist_can_be_typed_and_stays(
+    loop: Any, tab: Any, make_row: MakeRow, leave: str
+) -> None:
+    loop.show(make_row("a"), frames=("base_link", "odom"))
+    for label, command in (
+        ("Fixed Frame", SetFixedFrame("bass")),
+        ("Frame", SetProperty("a", "frame", "bass")),
+    ):
+        loop.commands.clear()
+        tab.field(label).fill("bass")
+        tab.field(label).press(leave)
+        tab.wait_for(lambda: loop.drain() or loop.commands)
+        assert loop.commands == [command]
+    loop.show(make_row("a", frame="bass"), fixed_frame="bass")
+    fields = [tab.field(label) for label in ("Fixed Frame", "Frame")]
+    tab.wait_for(lambda: loop.turn() or {f.input_value() for f in fields} == {"bass"})
+
+
+def test_a_text_typed_for_searching_is_forgotten_after_escape_and_a_choice(
+    loop: Any, tab: Any
+) -> None:
+    loop.show(frames=("base_link", "odom"))
+    tab.field("Fixed Frame").fill("bas")
+    tab.field("Fixed Frame").press("Escape")
+    tab.field("Fixed Frame").press("Tab")
+    tab.field("Fixed Frame").fill("od")
+    tab.page.get_by_role("option", name="odom").click()
+    tab.wait_for(lambda: loop.drain() or loop.commands)
+    tab.page.wait_for_timeout(300)
+    loop.drain()
     assert loop.commands == [SetFixedFrame("odom")]
 
 

@@ -136,8 +136,47 @@ def test_a_missing_transform_is_explained_after_a_second_and_forgotten_when_it_c
     b.clock += 1.1
     level, text = b.statuses()["Transform"]
     assert level == "ERROR"
-    assert "base_link" in text
+    assert text.startswith('Frame "base" does not exist: no transform to it has arrived.')
     b.transform("map", "base", T, static=True)
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_up(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    late_ns = 6 * SECOND // 10
+    for _ in range(20):
+        b.source.now += SECOND // 10
+        b.clock += 0.1
+        b.transform("map", "base", b.source.now - late_ns)
+        b.pose("/pose", "base", b.source.now)
+        b.turn()
+    level, text = b.statuses()["Transform"]
+    assert level == "WARN"
+    assert text.startswith(
+        "Drawn 0.6 s late: the transforms come so much after the data. The stamp"
+    )
+    assert '"map" → "base" (from /test)' in text
+    for _ in range(3):
+        b.source.now += SECOND // 10
+        b.clock += 0.1
+        b.transform("map", "base", b.source.now)
+        b.pose("/pose", "base", b.source.now)
+        b.turn()
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_one_message_that_came_before_its_transform_is_no_warning_for_long(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.pose("/pose", "base", T)
+    b.turn()
+    b.source.now += SECOND // 2
+    b.transform("map", "base", T, static=True)
+    assert b.statuses()["Transform"][0] == "WARN"
+    b.clock += 1.1
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
 
 

@@ -34,6 +34,7 @@ from webviz.ros.node import RosSource
 from webviz.ros.types import message_class
 from webviz.sources import Subscription
 from webviz.state import File, State
+from webviz.status import Level, Status
 from webviz.testing import header
 
 TF = "tf2_msgs/msg/TFMessage"
@@ -182,17 +183,32 @@ def test_a_file_at_the_start_that_is_missing_is_refused(
         open_viewer(parameters=["config_file:=/nowhere.yaml"])
 
 
-def test_the_fixed_frame_is_set_to_frames_that_exist_only(
+def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
     open_viewer: Callable[..., webviz.Viewer], client: Client
 ) -> None:
     viewer = open_viewer()
     client.publish_frames("base_link", "laser")
     client.until(lambda: "laser" in viewer.frames, "the frames are known")
-    assert client.set("fixed_frame", "base_link") == ""
-    assert viewer.fixed_frame == "base_link"
-    reason = client.set("fixed_frame", "base_lnk")
-    assert reason == "Nobody publishes a frame named 'base_lnk': did you mean `base_link`?"
-    assert viewer.fixed_frame == client.get("fixed_frame") == "base_link"
+
+    def by_ros(frame: str) -> None:
+        assert client.set("fixed_frame", frame) == ""
+
+    def by_python(frame: str) -> None:
+        viewer.fixed_frame = frame
+
+    for choose in (by_ros, by_python):
+        choose("/base_link")
+        assert viewer.fixed_frame == "base_link"
+        assert viewer.statuses["Fixed Frame"].level is Level.OK
+        choose("base_lnk")
+        assert viewer.fixed_frame == "base_lnk"
+        client.until(lambda: client.get("fixed_frame") == "base_lnk", "it is told")
+        assert viewer.statuses["Fixed Frame"] == Status(
+            Level.ERROR, 'Fixed frame "base_lnk" does not exist. Did you mean "base_link"?'
+        )
+    assert client.set("fixed_frame", "/") == "The fixed frame needs a name."
+    with pytest.raises(webviz.Error, match=r"^The fixed frame needs a name\.$"):
+        viewer.fixed_frame = ""
     assert "STRING" in client.set("fixed_frame", 5)
 
 

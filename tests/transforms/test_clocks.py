@@ -49,6 +49,14 @@ def test_a_replayed_bag_comes_with_the_way_to_follow_its_time(buffer: TransformB
     assert "use_sim_time:=true" in sentence
 
 
+def test_simulated_time_is_recognised_and_not_counted_in_years(buffer: TransformBuffer) -> None:
+    hear(buffer, "odom", 12.5 - NOW / S)
+    assert clock_problem(buffer, NOW) == (
+        '"odom" is stamped with simulated time (12.5 s), but webviz follows the clock of this '
+        "computer. Start it with --ros-args -p use_sim_time:=true."
+    )
+
+
 def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0)
     assert clock_problem(buffer, NOW + 5 * S)

@@ -148,6 +148,19 @@ def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(
     ]
 
 
+def test_the_tree_says_ahead_and_simulated_time_and_names_nodes_that_are_known(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "odom", 1.7e9 + 0.193, authority="/tf")
+    put("map", "sim", 12.5, authority="/other")
+    buffer.nodes = {"/tf": "/ekf"}
+    assert tree_text(buffer, round(1.7e9) * S).splitlines() == [
+        "map",
+        "├─ odom  [one sample, 193 ms ahead, from /ekf]",
+        "└─ sim  [one sample, simulated time 12.5 s, from /other]",
+    ]
+
+
 def test_an_empty_buffer_has_an_empty_diagnosis(buffer: TransformBuffer) -> None:
     diagnosis = diagnose(buffer)
     assert (diagnosis.roots, diagnosis.frames, diagnosis.problems) == ((), (), [])

@@ -82,9 +82,9 @@ class Running:
             # viser takes a while to import; mistakes in files are told before.
             shown = read(path) if path is not None else None
             from webviz.frame_loop.loop import FrameLoop
-            from webviz.gui import Panel
+            from webviz.gui import Panel, take_typed
             from webviz.pictures.snapshots import Snapshots
-            from webviz.scene import CannotListen, Scene, open_server
+            from webviz.scene import CannotListen, Scene, on_typed, open_server
 
             try:
                 server = open_server(host, port, allow_hosts)
@@ -105,6 +105,7 @@ class Running:
             scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._panel = Panel(server, self._enqueue)
+            on_typed(scene.link, take_typed)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)

@@ -109,7 +109,9 @@ class Session:
             case MoveDisplay(id, group, before):
                 self.displays.move(id, group, before)
             case SetFixedFrame(frame):
-                self.set("fixed_frame", frame)
+                if not (name := frame.removeprefix("/")):
+                    raise ConfigError("The fixed frame needs a name.")
+                self.set("fixed_frame", name)
             case SetBackground(color):
                 self.set("background", color)
             case SetFrameRate(hz):

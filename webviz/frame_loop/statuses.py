@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from webviz import config as config_file
 from webviz.status import Level, Status
 from webviz.transforms import TransformBuffer
+from webviz.transforms.explain import unknown_fixed_frame
 
 
 def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
@@ -18,8 +18,7 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
         return Status(
             Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
         )
-    hint = config_file.nearest(fixed_frame, known)
-    return Status(Level.ERROR, f"Nobody publishes a frame named {fixed_frame}: {hint}")
+    return Status(Level.ERROR, unknown_fixed_frame(buffer, fixed_frame))
 
 
 def import_status(report: Sequence[str]) -> Status:

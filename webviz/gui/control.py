@@ -6,6 +6,7 @@ import asyncio
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
+from weakref import WeakValueDictionary
 
 import viser
 
@@ -96,6 +97,19 @@ class Control:
         self._edit(value)
 
 
+MAX_TYPED = 1000
+"""Characters of a text that is typed into a dropdown."""
+
+_FREE: WeakValueDictionary[int, Choice] = WeakValueDictionary()
+"""The dropdowns that take any text, by the `id` of their widget, which lives as long."""
+
+
+def take_typed(widget: viser.GuiInputHandle[Any], text: str) -> None:
+    """Let a dropdown take what a browser typed, if it takes any text; in viser's event loop."""
+    if (choice := _FREE.get(id(widget))) and len(text) <= MAX_TYPED:
+        choice.take_typed(text)
+
+
 class Choice(Control):
     """A dropdown whose options come and go, such as the known frames.
 
@@ -105,6 +119,7 @@ class Choice(Control):
         value: what is chosen at first.
         edit: called with the value that a browser chose.
         hint: tooltip.
+        free: it takes any text, as RViz's fields for frames do.
     """
 
     def __init__(
@@ -114,11 +129,18 @@ class Choice(Control):
         value: str,
         edit: Callable[[Any], None],
         hint: str | None = None,
+        free: bool = False,
     ) -> None:
         self._offered: tuple[Sequence[str], str, bool] | None = None
         self._values = {_option(value): value}
         self.dropdown = gui.add_dropdown(label, tuple(self._values), hint=hint)
         super().__init__(self.dropdown, edit, _option, self._chosen)
+        if free:
+            _FREE[id(self.dropdown)] = self
+
+    def take_typed(self, text: str) -> None:
+        """Take a text that a browser typed; one that was offered means its value."""
+        self._edit(self._values.get(text, text))
 
     def offer(self, values: Sequence[str], current: str) -> None:
         """Offer these values, and the current one even if it is not among them."""

@@ -33,7 +33,7 @@ def add_control(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) -
     """
     label, hint, type_ = declared.label, declared.help or None, declared.type
     if declared.widget == "frame":
-        return Choice(gui, label, value, edit, hint)
+        return Choice(gui, label, value, edit, hint, free=True)
     if declared.choices:
         return _add_choice(gui, declared, value, edit)
     if isinstance(type_, inspect.BoolType):

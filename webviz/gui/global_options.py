@@ -30,7 +30,8 @@ class GlobalOptions:
                 "Fixed Frame",
                 "",
                 lambda frame: enqueue(SetFixedFrame(frame)),
-                "The frame that everything is drawn in.",
+                "The frame that everything is drawn in. Choose one, or type any name.",
+                free=True,
             )
             background: Any = gui.add_rgb("Background", (0, 0, 0), hint="Behind everything.")
             self._background = Control(

@@ -57,7 +57,9 @@ class ViewEditor:
             self._types = Choice(self._gui, "Type", type_of(view), self._edit("type"), hint)
             hint = "The camera moves with this frame."
             follow = self._edit("target_frame")
-            self._frame = Choice(self._gui, "Target Frame", view.target_frame, follow, hint)
+            self._frame = Choice(
+                self._gui, "Target Frame", view.target_frame, follow, hint, free=True
+            )
 
     def update(self, view: View, frames: Sequence[str]) -> None:
         """Show what the browser looks at now."""

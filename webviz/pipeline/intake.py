@@ -16,6 +16,8 @@ from webviz.transforms import MessageFilter
 
 PATIENCE_S = 1.0
 """A message that waits for its transform so long is worth a word; TF is often 30 ms late."""
+LATE_S = 0.3
+"""A message that is drawn so long after it came, for want of its transform, is worth a warning."""
 
 
 _ASKED = itertools.count(1)
@@ -54,6 +56,7 @@ class Intake:
         self._fault = ""
         self._durations: deque[int] = deque(maxlen=10)
         self._placed_at = 0.0
+        self._late_s = 0.0
         self._waiting_since: float | None = None
         self._asked = next(_ASKED)
         self._newest = self._newest_placed = -1
@@ -80,6 +83,7 @@ class Intake:
             waits: whether messages wait for the transform at their stamp.
         """
         arrivals: list[Arrival] = []
+        first_new = self._received
         if offer and offer.type not in ("", self.spec.type):
             raws = ()  # another display reads the topic as another type
         is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
@@ -109,6 +113,9 @@ class Intake:
         if placed:
             self._placed_at, self._waiting_since = clock, None
             self._newest_placed = placed[-1].number
+            has_waited = placed[-1].number < first_new
+            waited_ns = frames.now_ns - placed[-1].raw.received_ns if has_waited else 0
+            self._late_s = waited_ns / 1e9
         elif self._waiting_since is None and self._filter.is_stuck:
             self._waiting_since = clock
         return arrivals
@@ -149,16 +156,21 @@ class Intake:
         elif dropped:
             text = f"{dropped} messages came faster than they could be read and were dropped."
             result["Message"] = Status(Level.WARN, text)
-        is_late = self._waiting_since is not None and clock - self._waiting_since > PATIENCE_S
-        if is_late and (
-            explanation := self._filter.explanation(
-                frames.buffer, frames.fixed_frame, frames.now_ns
-            )
-        ):
-            result["Transform"] = Status(Level.ERROR, explanation.sentence)
-        elif self._placed_at:
-            result["Transform"] = Status(Level.OK, "Transform OK")
+        if transform := self._transform_status(frames, clock):
+            result["Transform"] = transform
         return result
+
+    def _transform_status(self, frames: Frames, clock: float) -> Status | None:
+        waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
+        since = self._waiting_since
+        if waiting and since is not None and clock - since > PATIENCE_S:
+            return Status(Level.ERROR, waiting.sentence)
+        if not self._placed_at:
+            return None
+        if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
+            text = f"Drawn {self._late_s:.1f} s late: the transforms come so much after the data."
+            return Status(Level.WARN, f"{text} {waiting.sentence}" if waiting else text)
+        return Status(Level.OK, "Transform OK")
 
     def _topic_status(self, offers: Mapping[str, Offer], now_ns: int, clock: float) -> Status:
         if not self.name:

@@ -66,6 +66,8 @@ class TransformListener:
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:
         """Insert what arrived; whether the transforms started over in the past."""
+        senders = {topic: _nodes(offers, topic) for topic in TOPICS}
+        self._buffer.nodes = {topic: who[0] for topic, who in senders.items() if len(who) == 1}
         for topic, is_static in TOPICS.items():
             for raw in batches.get(topic, ()):
                 self._insert(topic, raw, is_static)

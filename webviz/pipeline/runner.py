@@ -227,8 +227,8 @@ class Runner:
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
-        for frame in self._painter.lost(frames):
-            result["Transform"] = Status(Level.ERROR, frames.why_not(frame))
+        if lost := self._painter.lost(frames):
+            result["Transform"] = Status(Level.ERROR, frames.why_not(lost[0]))
         if shortage := self._history.shortage(self._keep(), frames.now_ns):
             result["History"] = Status(Level.WARN, shortage)
         return result | self._painter.statuses()

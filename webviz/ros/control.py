@@ -22,7 +22,6 @@ from webviz.commands import (
     ShowView,
     StartWithView,
 )
-from webviz.config import nearest
 from webviz.config.files import SUFFIXES
 from webviz.errors import Error
 from webviz.state import State
@@ -156,10 +155,7 @@ class Control:
             if not value:
                 raise Error("A config_file needs a name.")
             return (Open(self._allowed(value)),)
-        frame, known = value.removeprefix("/"), self._steered().state.frames
-        if known and frame not in known:
-            raise Error(f"Nobody publishes a frame named {frame!r}: {nearest(frame, known)}")
-        return (SetFixedFrame(frame),)
+        return (SetFixedFrame(value),)
 
     def _allowed(self, value: str) -> str:
         """The path of a config that anyone on the ROS network may open.

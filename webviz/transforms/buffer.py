@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from math import isnan
 
@@ -43,6 +44,7 @@ class TransformBuffer:
         cache_time_ns: how much history each moving frame keeps (tf2's and RViz's default is 10 s).
 
     Attributes:
+        nodes: who stands behind an authority, where that is known, for sentences.
         version: changes whenever something was stored or cleared.
         structure_version: changes when frames, parents, static poses or the kind of a frame did:
             what follows from the shape of the tree alone can be kept while it stands.
@@ -50,6 +52,7 @@ class TransformBuffer:
 
     def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
         self.cache_time_ns = cache_time_ns
+        self.nodes: Mapping[str, str] = {}
         self.version = 0
         self.structure_version = 0
         self._tree = FrameTree()
@@ -57,6 +60,7 @@ class TransformBuffer:
         self._rejections: dict[str, Rejection] = {}
         self._shape: tuple[int, Shape] | None = None
         """What the last question for many frames followed from, and at which structure version."""
+        self._largest: tuple[int, tuple[str, int]] | None = None
 
     @property
     def tree(self) -> FrameTree:
@@ -289,6 +293,20 @@ class TransformBuffer:
         changes.
         """
         return self._tree.rigid_root(frame)
+
+    def who(self, child: str) -> list[str]:
+        """Who published a child frame lately, as far as known, the current one last."""
+        publishers = self._publishers.get(child)
+        names = publishers.names() if publishers else []
+        return [self.nodes.get(name, name) for name in names if name]
+
+    def largest_tree(self) -> tuple[str, int]:
+        """The root of the tree with the most frames, and how many it has; "" and 0 without any."""
+        if self._largest is None or self._largest[0] != self.structure_version:
+            sizes = Counter(self._tree.root(frame) for frame in self._tree.names)
+            (largest,) = sizes.most_common(1) or [("", 0)]
+            self._largest = (self.structure_version, largest)
+        return self._largest[1]
 
     def all_frames_as_string(self) -> str:
         """One line per child frame, word for word as tf2."""

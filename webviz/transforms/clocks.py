@@ -5,7 +5,7 @@ from __future__ import annotations
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.cache import TimeCache
 from webviz.transforms.errors import NS_PER_S
-from webviz.transforms.reasons import HOUR_NS, in_words
+from webviz.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, in_words
 
 TOLERANCE_NS = 1_500_000_000
 """Offset that is no fault: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
@@ -35,6 +35,13 @@ def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
     if not now_ns or not wrong:
         return ""
     worst = max(wrong.values(), key=abs)
+    child = max(wrong, key=lambda child: abs(wrong[child]))
+    stamp_ns = buffer.tree.caches[child].newest_stamp
+    if stamp_ns < YEAR_NS and now_ns > WALL_NS:
+        return (
+            f'"{child}" is stamped with simulated time ({stamp_ns / NS_PER_S:.1f} s), but webviz '
+            "follows the clock of this computer. Start it with --ros-args -p use_sim_time:=true."
+        )
     offset = f"{in_words(worst)} {'ahead of' if worst > 0 else 'behind'}"
     if len(wrong) == len(offsets) and abs(worst) > HOUR_NS:
         return (

@@ -9,7 +9,7 @@ from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.cache import Cache, TimeCache
 from webviz.transforms.errors import NS_PER_S
 from webviz.transforms.quarrels import quarrels
-from webviz.transforms.reasons import in_words
+from webviz.transforms.reasons import YEAR_NS, in_words
 from webviz.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
@@ -143,13 +143,17 @@ def _facts(report: FrameReport | None) -> str:
     else:
         facts = [f"{report.rate_hz:.1f} Hz"] if report.rate_hz else ["one sample"]
         if report.age_ns is not None:
-            sign = "-" if report.age_ns < 0 else ""
-            facts.append(f"{sign}{in_words(report.age_ns)} old")
-    who = ", ".join(name for name in report.publishers if name)
-    if who:
-        facts.append(f"from {who}")
+            facts.append(_age(report.newest_ns, report.age_ns))
+    if report.publishers:
+        facts.append(f"from {', '.join(report.publishers)}")
     flag = "  !" if report.problems else ""
     return f"  [{', '.join(facts)}]{flag}"
+
+
+def _age(stamp_ns: int, age_ns: int) -> str:
+    if stamp_ns < YEAR_NS and age_ns > YEAR_NS:
+        return f"simulated time {stamp_ns / NS_PER_S:.1f} s"
+    return f"{in_words(age_ns)} {'ahead' if age_ns < 0 else 'old'}"
 
 
 def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> FrameReport:
@@ -176,7 +180,7 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
         frame=frame,
         parent=newest[1] if newest else "",
         is_static=cache.is_static,
-        publishers=tuple(publishers.names()),
+        publishers=tuple(buffer.who(frame)),
         rate_hz=rate_hz,
         newest_ns=cache.newest_stamp,
         age_ns=age_ns,

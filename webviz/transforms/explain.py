@@ -11,6 +11,9 @@ from webviz.transforms.geometry import REACH_M, is_within_reach
 from webviz.transforms.reasons import Explanation, Kind
 from webviz.transforms.tree import FrameTree, ancestors
 
+SLIP = 0.85
+"""Similarity, by difflib, from which a name is taken for a slip of another."""
+
 
 def explain(
     buffer: TransformBuffer, fixed_frame: str, frame: str, stamp_ns: int, now_ns: int = 0
@@ -69,31 +72,50 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
             "localisation)?",
         )
     if fixed_frame not in names:
-        return Explanation(
-            Kind.UNKNOWN_FIXED_FRAME,
-            f'The fixed frame "{fixed_frame}" was never seen in a transform; '
-            f"{_nearest(buffer, fixed_frame)}: choose another, or start what publishes it.",
-        )
+        sentence = unknown_fixed_frame(buffer, fixed_frame)
+        return Explanation(Kind.UNKNOWN_FIXED_FRAME, sentence)
     if frame not in names:
-        return Explanation(
-            Kind.UNKNOWN_FRAME,
-            f'The frame "{frame}" was never seen in a transform; {_nearest(buffer, frame)}: '
-            "correct the publisher's frame_id, or publish a transform to this frame.",
-        )
+        text = f'Frame "{frame}" does not exist'
+        if near := _nearest(buffer, frame):
+            sentence = f'{text}. Did you mean "{near}"? Fix the frame_id of the data.'
+        else:
+            sentence = (
+                f"{text}: no transform to it has arrived. Start the node that publishes it, such "
+                "as robot_state_publisher, or fix the frame_id of the data."
+            )
+        return Explanation(Kind.UNKNOWN_FRAME, sentence)
     return None
 
 
+def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> str:
+    """Say that no transform names the fixed frame, and which one to use instead."""
+    text = f'Fixed frame "{fixed_frame}" does not exist.'
+    if near := _nearest(buffer, fixed_frame):
+        return f'{text} Did you mean "{near}"?'
+    root, size = buffer.largest_tree()
+    if fixed_frame == "map":
+        text += " Start localisation or SLAM, or use"
+    else:
+        text += " Use"
+    return f'{text} "{root}", the root of the largest tree ({size} frames): -f {root}'
+
+
 def _nearest(buffer: TransformBuffer, name: str) -> str:
-    known = buffer.frames()
-    by_lower_case = {frame.lower(): frame for frame in known}
-    near = get_close_matches(name.lower(), list(by_lower_case), 1, 0.5)
-    if near:
-        return f'the nearest name is "{by_lower_case[near[0]]}"'
-    tails = [frame for frame in known if frame.split("/")[-1] == name.split("/")[-1]]
-    if tails:
-        return f'the nearest name is "{tails[0]}"'
-    shown = ", ".join(known[:4]) + (" …" if len(known) > 4 else "")
-    return f"known are {shown}"
+    """The frame that a name is a slip of, "" if none is so near.
+
+    Frames that differ by a number, a namespace, left or right are frames of their own.
+    """
+    candidates = {frame.lower(): frame for frame in buffer.frames()}
+    slip = name.lower()
+    for frame in candidates:
+        if frame == slip or frame.rpartition("/")[-1] == slip or slip.rpartition("/")[-1] == frame:
+            return candidates[frame]
+    near = get_close_matches(slip, candidates, 1, SLIP)
+    return candidates[near[0]] if near and _digits(near[0]) == _digits(name) else ""
+
+
+def _digits(name: str) -> str:
+    return "".join(filter(str.isdigit, name))
 
 
 def _out_of_reach(tree: FrameTree, fixed_frame: str, frame: str, stamp_ns: int) -> Explanation:
@@ -137,12 +159,18 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
                 f'No transform of "{top}" has come since the transforms were cleared, so '
                 f'"{frame}" is not connected with "{fixed_frame}".',
             )
-    hint = ""
-    if fixed_root == "map":
-        hint = " Is localisation (AMCL, SLAM) running and initialised?"
     return Explanation(
         Kind.NOT_CONNECTED,
         f'"{frame}" and "{fixed_frame}" are in two trees that no transform connects: one has the '
-        f'root "{root}", the other "{fixed_root}". Publish a transform from one to the other, or '
-        f"choose a fixed frame in the first.{hint}",
+        f'root "{root}", the other "{fixed_root}". {_missing_link(tree, root, fixed_root)}',
+        cause=f"{root} {fixed_root}",
     )
+
+
+def _missing_link(tree: FrameTree, root: str, fixed_root: str) -> str:
+    """What usually publishes the link between two trees (REP 105), or what to do about it."""
+    if fixed_root == "map" and root == "odom":
+        return 'Start localisation or SLAM, which publishes "map" → "odom", and initialise it.'
+    if root.startswith("base") and "odom" in tree.names and tree.root("odom") == fixed_root:
+        return f'Start the odometry of the robot, which publishes "odom" → "{root}".'
+    return "Publish a transform from one to the other, or choose a fixed frame in the first."

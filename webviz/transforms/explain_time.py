@@ -5,14 +5,8 @@ from __future__ import annotations
 from webviz.transforms.buffer import TransformBuffer
 from webviz.transforms.cache import TimeCache
 from webviz.transforms.errors import NS_PER_S, stamp_to_seconds
-from webviz.transforms.reasons import HOUR_NS, YEAR_NS, Explanation, Kind, in_words
+from webviz.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, Explanation, Kind, in_words
 from webviz.transforms.tree import ancestors
-
-WALL_NS = 1_000_000_000 * NS_PER_S
-"""Wall time, counted since 1970, has been beyond this since September 2001.
-
-Simulated time and time since boot start at 0: below a year it cannot be the wall clock.
-"""
 
 STALE_NS = NS_PER_S
 """A link silent for so long has stopped; the slowest usual publisher, AMCL at rest, takes 1 s."""
@@ -58,8 +52,8 @@ def explain_time(
 def _link(buffer: TransformBuffer, child: str) -> str:
     newest = buffer.tree.caches[child].newest
     parent = newest[1] if newest else "?"
-    publishers = buffer.publishers.get(child)
-    who = f" (from {publishers.current})" if publishers and publishers.current else ""
+    publishers = buffer.who(child)
+    who = f" (from {publishers[-1]})" if publishers else ""
     return f'"{parent}" → "{child}"{who}'
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -9,6 +10,12 @@ from webviz.transforms.errors import NS_PER_S
 
 HOUR_NS = 3600 * NS_PER_S
 YEAR_NS = 365 * 24 * HOUR_NS
+
+WALL_NS = 1_000_000_000 * NS_PER_S
+"""Wall time, counted since 1970, has been beyond this since September 2001.
+
+Simulated time and time since boot start at 0: below a year it cannot be the wall clock.
+"""
 
 
 class Kind(StrEnum):
@@ -40,12 +47,38 @@ class Explanation:
         sentence: what is wrong, with numbers, and what to do next.
         lag_ns: by how much the transforms are behind the stamp, if they are.
         is_catching_up: the transforms are behind, but still come.
+        cause: names what is missing, the same for all frames that miss it; "" is only this frame.
     """
 
     kind: Kind
     sentence: str
     lag_ns: int = 0
     is_catching_up: bool = False
+    cause: str = ""
+
+
+FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)
+"""Reasons that have nothing to do with a single frame."""
+MOST_TRIED = 20
+
+
+def distinct(
+    frames: Sequence[str], explain: Callable[[str], Explanation], most: int
+) -> dict[str, str]:
+    """Why frames have no pose: a sentence for each cause, by the first frame that has it.
+
+    Args:
+        frames: ids.
+        explain: says why one of them has no pose.
+        most: sentences.
+    """
+    found: dict[tuple[Kind, str], tuple[str, str]] = {}
+    for frame in frames[:MOST_TRIED]:
+        reason = explain(frame)
+        if reason.kind in FOR_ALL:
+            return {frame: reason.sentence}
+        found.setdefault((reason.kind, reason.cause or frame), (frame, reason.sentence))
+    return dict(list(found.values())[:most])
 
 
 def in_words(duration_ns: int) -> str:

@@ -170,6 +170,10 @@ class FrameTree:
             frame = cache.sample[1]
         return frame
 
+    def root(self, frame: str) -> str:
+        """The uppermost frame above this one now; of a loop, the frame where it closes."""
+        return ancestors(self, frame)[-1]
+
     def as_text(self) -> str:
         """One line per child, as tf2's all_frames_as_string."""
         lines = []
