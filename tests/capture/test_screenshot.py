@@ -227,6 +227,20 @@ def test_an_interrupted_run_leaves_no_file_and_no_process(
     assert left_of(family) == []
 
 
+def test_an_interrupted_run_ends_although_its_browser_hangs(
+    run, tmp_path, start: Callable[..., Program]
+):
+    program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
+    wait_for_part(tmp_path)
+    family = psutil.Process(program.process.pid).children(recursive=True)
+    for process in family:
+        process.suspend()
+    assert program.end(signal.SIGTERM) == 130, program.output()
+    assert program.output() == "webviz: interrupted.\n"
+    assert os.listdir(tmp_path) == []
+    assert left_of(family) == []
+
+
 def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)

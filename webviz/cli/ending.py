@@ -41,7 +41,7 @@ def on_signal(action: Callable[[], object]) -> None:
 def leave() -> NoReturn:
     """End the program at once: right as long as it holds nothing but child processes."""
     os.write(sys.stderr.fileno(), b"webviz: interrupted.\n")
-    _end_children()
+    end_children()
     os._exit(INTERRUPTED)
 
 
@@ -54,7 +54,7 @@ def finish(status: int) -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError):  # nobody reads it any more
             stream.flush()
-    _end_children()
+    end_children()
     os._exit(status)
 
 
@@ -64,13 +64,13 @@ def end_in_time() -> None:
     def end() -> None:
         time.sleep(PATIENCE_S)
         print(f"webviz: ended by force, still busy after {PATIENCE_S:g} s.", file=sys.stderr)
-        _end_children()
+        end_children()
         os._exit(1)
 
     threading.Thread(target=end, name="webviz-ending", daemon=True).start()
 
 
-def _end_children() -> None:
+def end_children() -> None:
     """End all child processes, and theirs: by force if they do not."""
     children = psutil.Process().children(recursive=True)
     for number in (signal.SIGTERM, signal.SIGKILL):

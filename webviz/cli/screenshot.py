@@ -16,7 +16,7 @@ from cyclopts import App
 from webviz import config as config_file
 from webviz import plugins
 from webviz.cli.convert import tell
-from webviz.cli.ending import INTERRUPTED, end_in_time, on_signal
+from webviz.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal
 from webviz.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.config.overrides import override
@@ -214,6 +214,7 @@ def _image(picture: Picture) -> PIL.Image.Image:
 
 def _interrupt() -> None:
     end_in_time()
-    # Ctrl-C in a terminal ends playwright's driver too; asyncio would tell of all that it owed.
+    # asyncio would report that playwright's driver, its child, was ended by others.
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
+    end_children()  # a browser that hangs could not be closed
     raise KeyboardInterrupt
