@@ -96,6 +96,7 @@ class Tab:
         self.errors: list[str] = []
         self.frames_received = 0
         page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
         page.on("websocket", lambda socket: socket.on("framereceived", self._count))
         # viser ignores the edits of a browser that has not told its camera yet.
@@ -166,6 +167,10 @@ class Tab:
     def _dismiss(self, dialog: playwright.Dialog) -> None:
         self.errors.append(f"a script ran: {dialog.message}")
         dialog.dismiss()
+
+    def _read_console(self, message: playwright.ConsoleMessage) -> None:
+        if message.type == "error":
+            self.errors.append(message.text)
 
     def _count(self, _: object) -> None:
         self.frames_received += 1

@@ -25,6 +25,7 @@ CONTACT_SCRIPT = (
   if (!mutable || !mutable.canvas) return requestAnimationFrame(install);
   if (window.webvizContact) return;
   const queue = mutable.messageQueue;
+  const push = queue.push;
 
   // Not a clock: of a page that was busy or asleep itself, the time does not count.
   let ticks = 0;
@@ -32,7 +33,7 @@ CONTACT_SCRIPT = (
   queue.push = function (...messages) {
     [ticks, heard] = [0, Date.now()];
     hide();
-    return Array.prototype.push.apply(this, messages.filter(({ uuid }) => uuid !== BEAT));
+    return push.apply(this, messages.filter(({ uuid }) => uuid !== BEAT));
   };
 
   // viser's page looks for its server only while it has the focus; on a second screen it has not.

@@ -21,6 +21,20 @@ PAGE_SCRIPT = """
   style.textContent = "#webgl-software-rendering { display: none; }";
   document.head.append(style);
 
+  // Controls that go: viser's page would update them after it has removed them, if both wait for
+  // the same frame, and report an error.
+  const queue = window.__viserMutable.messageQueue;
+  const push = queue.push;
+  queue.push = function (...messages) {
+    for (const { type, uuid } of messages) {
+      if (type !== "GuiRemoveMessage") continue;
+      for (let i = queue.length - 1; i >= 0; i--) {
+        if (queue[i].type === "GuiUpdateMessage" && queue[i].uuid === uuid) queue.splice(i, 1);
+      }
+    }
+    return push.apply(this, messages);
+  };
+
   // Ctrl+S is a command; the camera of viser, which listens further out, would walk as well.
   document.documentElement.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) event.stopPropagation();
