@@ -71,7 +71,7 @@ def test_what_cannot_be_made_is_refused(
     refused: Callable[[Callable[[], object]], str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert "no ending of a picture" in refused(lambda: viewer.screenshot("now.txt"))
+    assert "no supported image extension" in refused(lambda: viewer.screenshot("now.txt"))
     assert "pixels a side" in refused(lambda: viewer.screenshot(size=(1, 1)))
     assert "There is no saved view `Top`" in refused(lambda: viewer.screenshot(view="Top"))
     monkeypatch.setenv(VARIABLE, "/no/browser")
