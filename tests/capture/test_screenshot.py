@@ -171,15 +171,15 @@ def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, senten
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ([], "--output requires an argument"),
+        ([], "needs --output FILE."),
         (["-o", "a.png", "--at", "3"], "--at is for a bag: give one with --bag"),
         (["-o", "a.png", "--map", "m.yaml"], "--map is for a bag"),
         (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is not a valid time"),
         (["-o", "a.png", "--bag", "x", "--size", "big"], "Write it as 1280x720"),
         (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
-        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for several times"),
+        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for animations"),
         (["-o", "a.png", "--timeout", "-1"], "Give a number above 0."),
-        (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], 'convert "c" into float'),
+        (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "`c` is not a number"),
     ],
 )
 def test_wrong_arguments_are_status_2(capsys, arguments, sentence):

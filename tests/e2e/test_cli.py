@@ -61,6 +61,10 @@ def test_help_lists_every_command_and_option() -> None:
         (["schema", "--outptu", "a"], "Unknown option: --outptu. Did you mean --output?"),
         (["--port", "99999"], 'Invalid value "99999" for --port. Must be <= 65535.'),
         (["--colour"], "Unknown option: --colour."),
+        (["--port"], "--port needs a value."),
+        (["--port", "web"], "Invalid value for --port: `web` is not a whole number."),
+        (["screenshot", "-o"], "-o needs FILE."),
+        (["convert"], "`webviz convert` needs SOURCE."),
     ],
 )
 def test_a_mistyped_argument_is_named_with_what_was_meant(

@@ -272,5 +272,5 @@ def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
     try:
         return RosSource(ros_args)
     except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
-        reason = " ".join(str(error).split()).partition(", at /")[0]
+        reason = " ".join(str(error).split()).partition(", at /")[0].rstrip(".")
         raise Error(f"ROS did not start: {reason}.") from error

@@ -33,7 +33,11 @@ def check(source: Path, target: Path | None = None, *, report: bool = False, **_
         raise ValueError("--report is for a .rviz file.")
 
 
-app = App("convert", help_epilogue=EXAMPLES)
+app = App(
+    "convert",
+    usage="Usage: webviz convert [OPTIONS] SOURCE [TARGET]",
+    help_epilogue=EXAMPLES,
+)
 
 
 @app.default(validator=check)

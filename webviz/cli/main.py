@@ -7,13 +7,25 @@ import logging
 import sys
 from collections.abc import Sequence
 
-from cyclopts import App, CycloptsError, Group, Parameter, UnusedCliTokensError
+from cyclopts import (
+    App,
+    Argument,
+    CoercionError,
+    CycloptsError,
+    Group,
+    MissingArgumentError,
+    Parameter,
+    Token,
+    UnusedCliTokensError,
+    ValidationError,
+)
 
 from webviz.cli import viewing
 from webviz.cli.options import ROS_ARGS_HELP
 from webviz.errors import Error
 
 FAILED, WRONG_USAGE = 1, 2
+KINDS = {int: "a whole number", float: "a number"}
 
 app = App(
     "webviz",
@@ -75,13 +87,29 @@ def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]
 
 def _mistake(error: CycloptsError) -> str:
     """What is wrong with the arguments, in a sentence."""
-    if not isinstance(error, UnusedCliTokensError) or not error.unused_tokens:
-        return str(error)
+    match error:
+        case UnusedCliTokensError() if error.unused_tokens:
+            return _unused(error.unused_tokens[0], error.command_chain)
+        case ValidationError(argument=None):
+            return error.exception_message
+        case MissingArgumentError(argument=Argument() as argument):
+            metavar = argument.parameter.metavar or "a value"
+            if error.keyword or argument.tokens:
+                return f"{error.keyword or argument.name} needs {metavar}."
+            name = f"{argument.name} {metavar}" if argument.name.startswith("-") else argument.name
+            return f"`{' '.join(('webviz', *(error.command_chain or ())))}` needs {name}."
+        case CoercionError(token=Token() as token, msg=None) if error.target_type in KINDS:
+            kind = KINDS[error.target_type]
+            return f"Invalid value for {token.keyword}: `{token.value}` is not {kind}."
+    return str(error)
+
+
+def _unused(word: str, command_chain: Sequence[str] | None) -> str:
+    """What is wrong with a word that no option and no command takes."""
     from webviz.config import nearest
 
-    word = error.unused_tokens[0]
-    if error.command_chain:
-        return f"`webviz {error.command_chain[0]}` takes no argument `{word}`."
+    if command_chain:
+        return f"`webviz {command_chain[0]}` takes no argument `{word}`."
     commands = [name for name in app if not name.startswith("-")]
     if word in commands:
         return f"Give the command first: `webviz {word} ...`."

@@ -25,7 +25,7 @@ RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
 """The arguments for ROS, which `webviz.cli.main` splits off before parsing."""
 MESH_ROOT = "WEBVIZ_MESH_ROOT"
 """The environment variable with the folders of --mesh-root, separated by colons."""
-ROS_ARGS_HELP = "Arguments from --ros-args to `--` or the end are for ROS."
+ROS_ARGS_HELP = "Arguments from --ros-args up to `--` or the end go to ROS."
 
 
 @Parameter(name="*")

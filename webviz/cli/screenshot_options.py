@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Group, Parameter, Token
@@ -14,16 +15,16 @@ from webviz.pictures.times import At, TimeError, read_at
 
 EXAMPLES = """\
 Examples:
-  webviz screenshot -d lab.yaml -o lab.png           the robot that runs now
+  webviz screenshot -d lab.yaml -o lab.png            the live robot
   webviz screenshot -d lab.yaml --bag run.mcap --at 12.3 -o lab.png
   webviz screenshot -d lab.yaml --bag run --every 5 --contact-sheet -o run.png
-  webviz screenshot -d lab.yaml --bag run --every 0.2 --size 640x360 -o run.webp
+  webviz screenshot -d lab.yaml --bag run --every 0.2 -o run.webp    an animation
   webviz screenshot -d a.rviz --bag run --map map.yaml --wait-for Map -o a.png
 
 Exit status:
-  0    the pictures are written, and the displays that were waited for are OK
-  1    no picture: one sentence says why
-  2    the arguments are wrong
+  0    the pictures are written, and the displays of --wait-for are OK
+  1    no picture was written: one sentence says why
+  2    invalid arguments
   3    the pictures are written, but a display is not OK: a table says why
   130  interrupted
 
@@ -56,7 +57,7 @@ def _time(_: object, tokens: Sequence[Token]) -> At:
 
 Seconds = Annotated[float, Parameter(metavar="S", validator=_positive)]
 Time = Annotated[At, Parameter(metavar="S", converter=_time, n_tokens=1)]
-BAG = Parameter(group=Group("Of a bag", sort_key=2))
+BAG = Parameter(group=Group("Pictures of a bag", sort_key=2))
 
 
 @Parameter(name="*")
@@ -65,7 +66,7 @@ class ScreenshotOptions(ConfigOptions):
     """What to make pictures of, and how."""
 
     output: Annotated[File, Parameter(alias="-o")]
-    """Picture to write (.png, .jpg, .webp); several get numbers and names of views appended."""
+    """Picture to write (.png, .jpg, .webp); several are numbered and named after their views."""
     size: Annotated[
         tuple[int, int] | None, Parameter(metavar="WxH", converter=_size, n_tokens=1)
     ] = None
@@ -75,28 +76,28 @@ class ScreenshotOptions(ConfigOptions):
     focus: Annotated[str, Parameter(metavar="FRAME", show_default=False)] = ""
     """Look at this frame, wherever it is, from the side and distance of the view."""
     transparent: Flag = False
-    """Leave the background out."""
+    """Make the background transparent (.png, .webp)."""
     contact_sheet: Flag = False
     """Write all pictures in one file, with captions."""
     wait_for: Annotated[Repeatable[str], Parameter(metavar="DISPLAY")] = ()
-    """Display that has to be OK (repeatable; default: all enabled ones)."""
+    """Display that must be OK for exit status 0 (repeatable; default: all enabled ones)."""
     timeout: Seconds = 20.0
-    """How long to wait for that, in seconds."""
+    """Seconds per picture to play the bag there and wait for the displays."""
 
     bag: Annotated[File | None, BAG] = None
-    """MCAP file, db3 file or rosbag2 folder."""
+    """Bag to draw instead of the live robot: an MCAP or db3 file, or a rosbag2 folder."""
     at: Annotated[Repeatable[At], BAG, Parameter(metavar="S", converter=_times, n_tokens=1)] = ()
-    """Seconds from its start or since 1970, `start` or `end` (repeatable; default: end)."""
+    """When: seconds from its start or since 1970, `start` or `end` (repeatable; default: end)."""
     every: Annotated[Seconds | None, BAG] = None
-    """Make a picture every so many seconds."""
+    """Make a picture every S seconds."""
     first: Annotated[Time | None, BAG, Parameter(name="--from")] = None
-    """Where --every begins (default: start)."""
+    """First picture of --every (default: start)."""
     last: Annotated[Time | None, BAG, Parameter(name="--to")] = None
-    """Where --every ends (default: end)."""
+    """Latest picture of --every (default: end)."""
     fps: Annotated[Seconds | None, BAG, Parameter(metavar="N")] = None
-    """Frames per second of an animation: several times, as .gif or .webp (default: 10)."""
-    map: Annotated[Repeatable[File], BAG] = ()
-    """YAML file of map_server, shown as /map in frame map if the bag has none (repeatable)."""
+    """Frames per second of an animation: several times in a .gif or .webp (default: 10)."""
+    map: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE")] = ()
+    """YAML file of map_server that the bag lacks, published on /map in frame map (repeatable)."""
     transform: Annotated[
         Repeatable[tuple[str, str, float, float, float]],
         BAG,
@@ -132,6 +133,6 @@ def check(options: ScreenshotOptions, **_: Any) -> None:
             if value not in (None, ()):
                 raise ValueError(f"--{flag} is for a bag: give one with --bag.")
     if options.every is None and (options.first, options.last) != (None, None):
-        raise ValueError("--from and --to need --every, which says how far apart pictures are.")
+        raise ValueError("--from and --to need --every: the seconds from picture to picture.")
     if options.fps is not None and not options.is_animation:
-        raise ValueError("--fps is for several times and a name that ends with .gif or .webp.")
+        raise ValueError("--fps is for animations: several times in a .gif or .webp file.")
