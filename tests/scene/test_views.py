@@ -305,7 +305,21 @@ def test_the_mouse_turns_moves_and_zooms_a_view_from_above(window: Window) -> No
     window.drag(-100, -50, shift=True)
     window.tell(lambda view: math.hypot(view.x, view.y) < 1e-3, "moved back")
     window.tab.mouse.wheel(0, -120)
-    window.tell(lambda view: view.scale > 52.0, "zoomed in")
+    window.tell(lambda view: abs(view.scale - 50.0 / 0.88) < 0.1, "zoomed in")
+
+
+@pytest.mark.parametrize("view", [Orbit(distance=10.0), XYOrbit(distance=10.0)], ids=type)
+def test_the_camera_comes_and_goes_as_far_as_in_rviz(window: Window, view: View) -> None:
+    window.look(view)
+    window.tab.mouse.move(250, 350)
+    window.tab.mouse.wheel(0, 120)
+    window.tell(lambda view: abs(view.distance - 11.2) < 1e-3, "a notch goes away by 12 %")
+    window.look(view)
+    window.tab.mouse.wheel(0, -120)
+    window.tell(lambda view: abs(view.distance - 8.8) < 1e-3, "a notch comes closer by 12 %")
+    window.look(view)
+    window.drag(0, 10, "right")
+    window.tell(lambda view: abs(view.distance - 10 * 1.01**10) < 1e-3, "down goes away, 1 %/px")
 
 
 def test_the_mouse_looks_around_and_walks_in_fps(window: Window) -> None:

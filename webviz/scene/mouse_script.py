@@ -29,7 +29,7 @@ MOUSE_SCRIPT = as_script("""
     const buttons = controls.mouseButtons;
     buttons.left = event && event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
     buttons.middle = ACTION.TRUCK;
-    buttons.right = buttons.wheel = isFPS() ? ACTION.NONE : ACTION.DOLLY;
+    buttons.right = buttons.wheel = ACTION.NONE;
     controls.verticalDragToForward = slides();
     // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
     const tall = canvas.clientHeight;
@@ -43,6 +43,18 @@ MOUSE_SCRIPT = as_script("""
     const at = controls.getTarget(eye.clone());
     const step = at.clone().sub(eye).setLength(meters);
     controls.setLookAt(...eye.add(step).toArray(), ...at.add(step).toArray(), false);
+  }
+
+  // RViz goes away by 1 % of the distance for a pixel down, and by 12 % for a notch of the wheel.
+  function zoom(factor) {
+    const controls = mutable.cameraControl;
+    const distance = controls.distance * factor;
+    const { minDistance, maxDistance } = controls;
+    controls.dollyTo(Math.min(Math.max(distance, minDistance), maxDistance), false);
+  }
+
+  function notches({ deltaY, deltaMode }) {
+    return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
   }
 
   // The nearest thing under the mouse, or else the ground, in three.js' coordinates.
@@ -87,11 +99,16 @@ MOUSE_SCRIPT = as_script("""
 
   window.addEventListener("pointerdown", arm, true);
   events.addEventListener("wheel", (event) => {
-    if (isFPS()) walk(-0.01 * event.deltaY);
-  }, { passive: true });
+    event.preventDefault();  // else the browser enlarges its page with Ctrl, or by a pinch
+    const steps = notches(event);
+    if (isFPS()) walk(-1.2 * steps);
+    else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
+  }, { passive: false });
   events.addEventListener("pointermove", (event) => {
     mouse = [event.clientX, event.clientY];
-    if (isFPS() && event.buttons === 2) walk(-0.1 * event.movementY);
+    if (event.buttons !== 2 || event.pointerType === "touch") return;
+    if (isFPS()) walk(-0.1 * event.movementY);
+    else zoom(Math.pow(1.01, event.movementY));
   });
   events.addEventListener("pointerleave", () => (mouse = null));
   window.addEventListener("keydown", (event) => {
