@@ -32,10 +32,10 @@ LINE_SCRIPT = """
 
   const passing = (source) =>
     "attribute vec2 webvizOpen; varying vec2 vOpen;" +
-    cut(source).replace("void main() {", "void main() { vOpen = webvizOpen;");
+    cut(source).replace("worldStart = start.xyz;", "worldStart = start.xyz; vOpen = webvizOpen;");
 
   const square = (source) =>
-    "varying vec2 vOpen; float along = 0.5;" +
+    "varying vec2 vOpen; float along;" +
     source
       .replace("mua = clamp(", "along = mua; mua = clamp(")
       .replace(
@@ -47,12 +47,15 @@ LINE_SCRIPT = """
   // An end is open unless the segment before or after goes on from there.
   function markOpenEnds(geometry) {
     const { instanceStart } = geometry.attributes;
+    if (!instanceStart) return;
     const xyz = instanceStart.data.array;
     const count = xyz.length / 6;
-    const meet = (i, j) => [0, 1, 2].every((k) => xyz[i + k] === xyz[j + k]);
+    const meet = (i, j) =>
+      xyz[i] === xyz[j] && xyz[i + 1] === xyz[j + 1] && xyz[i + 2] === xyz[j + 2];
     const open = new Float32Array(2 * count);
     for (let i = 0; i < count; i++) {
-      const [before, after] = [(i + count - 1) % count, (i + 1) % count];
+      const before = i > 0 ? i - 1 : count - 1;
+      const after = i < count - 1 ? i + 1 : 0;
       open[2 * i] = meet(6 * i, 6 * before + 3) ? 0 : 1;
       open[2 * i + 1] = meet(6 * i + 3, 6 * after) ? 0 : 1;
     }
@@ -64,9 +67,7 @@ LINE_SCRIPT = """
   scene.onBeforeRender = function (...args) {
     scene.traverse(({ isLineSegments2, geometry, material }) => {
       if (!isLineSegments2) return;
-      if (geometry.attributes.instanceStart && !geometry.attributes.webvizOpen) {
-        markOpenEnds(geometry);
-      }
+      if (material.worldUnits && !geometry.attributes.webvizOpen) markOpenEnds(geometry);
       if (material.webviz) return;
       material.webviz = true;
       material.vertexShader = passing(material.vertexShader);
