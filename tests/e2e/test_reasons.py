@@ -191,3 +191,16 @@ def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, 
     )
     select(page, "Slash")
     wait_until_ok(page)
+
+
+def test_a_fixed_frame_that_does_not_exist_is_typed_and_kept_with_the_reason(
+    robot: Robot, page: Page
+) -> None:
+    field = page.tab.get_by_role("combobox", name="Fixed Frame")
+    field.fill("mapp")
+    field.press("Enter")
+    wait_for(page, 'Fixed frame "mapp" does not exist. Did you mean "map"?')
+    assert field.input_value() == "mapp"
+    field.fill("map")
+    field.press("Enter")
+    wait_for(page, "Fixed Frame: OK")
