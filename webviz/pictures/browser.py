@@ -178,13 +178,13 @@ class Page:
         self.evaluate(HOLD)
 
     def settle(self, seconds: float = 60.0) -> None:
-        """After `hold`: let the page work until nothing that it was sent is still being unpacked.
+        """Let the page work until all that it was sent is unpacked, and no frame requests another.
 
         Raises:
-            TimeoutError: it still unpacks after `seconds`.
+            TimeoutError: the page still changes after `seconds`.
         """
         if not self.evaluate(SETTLE, 1000.0 * seconds):
-            raise TimeoutError(f"The browser still unpacks pictures after {seconds:g} s.")
+            raise TimeoutError(f"The browser did not finish drawing within {seconds:g} s.")
 
     def pixels(self, transparent: bool = False) -> Pixels:
         """The scene as drawn last, or after `hold` as it is now.
