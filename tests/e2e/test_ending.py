@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import pty
 import random
 import re
 import signal
@@ -75,6 +77,21 @@ def test_the_simulator_ends_when_the_viewer_is_killed(start: Callable[..., Progr
         family = family_of(program)
         program.end(signal.SIGKILL)
         check_nothing_is_left(family)
+
+
+def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> None:
+    command = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.execve(sys.executable, command, ros_env)
+    shown = b""
+    while b"http" not in shown:
+        shown += os.read(terminal, 1000)
+    family = psutil.Process(pid).children(recursive=True)
+    os.close(terminal)
+    _, status = os.waitpid(pid, 0)
+    assert os.waitstatus_to_exitcode(status) == 0
+    check_nothing_is_left(family)
 
 
 def test_a_closed_terminal_does_not_end_what_nohup_started(

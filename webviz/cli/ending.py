@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from types import FrameType
 from typing import NoReturn
 
@@ -21,6 +21,7 @@ INTERRUPTED = 130
 PATIENCE_S = 3.0
 """From the signal to the end by force."""
 CHILD_PATIENCE_S = 1.0
+WAKE_S = 0.2
 
 
 def on_signal(action: Callable[[], object]) -> None:
@@ -38,9 +39,15 @@ def on_signal(action: Callable[[], object]) -> None:
         signal.signal(number, handle)
 
 
+def say(line: str) -> None:
+    """Write a line to standard error, which may be gone with its terminal."""
+    with contextlib.suppress(OSError):
+        os.write(sys.stderr.fileno(), f"{line}\n".encode())
+
+
 def leave() -> NoReturn:
     """End the program at once: right as long as it holds nothing but child processes."""
-    os.write(sys.stderr.fileno(), b"webviz: interrupted.\n")
+    say("webviz: interrupted.")
     end_children()
     os._exit(INTERRUPTED)
 
@@ -63,7 +70,7 @@ def end_in_time() -> None:
 
     def end() -> None:
         time.sleep(PATIENCE_S)
-        print(f"webviz: ended by force, still busy after {PATIENCE_S:g} s.", file=sys.stderr)
+        say(f"webviz: ended by force, still busy after {PATIENCE_S:g} s.")
         end_children()
         os._exit(1)
 
@@ -135,4 +142,7 @@ def until_signal(work: Callable[[Stop], int]) -> int:
             ended.set_exception(error)
 
     threading.Thread(target=run, name="webviz-command", daemon=True).start()
+    # Another thread may be interrupted by a signal, which does not wake this one to handle it.
+    while not ended.done():
+        wait([ended], WAKE_S)
     return ended.result()

@@ -16,7 +16,7 @@ from cyclopts import App
 from webviz import config as config_file
 from webviz import plugins
 from webviz.cli.convert import tell
-from webviz.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal
+from webviz.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say
 from webviz.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.config.overrides import override
@@ -57,7 +57,7 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
         with one_sentence():
             return _make(options, ros)
     except KeyboardInterrupt:
-        print("webviz: interrupted.", file=sys.stderr)
+        say("webviz: interrupted.")
         return INTERRUPTED
 
 

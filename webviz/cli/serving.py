@@ -10,7 +10,7 @@ from pathlib import Path
 from webviz import config as config_file
 from webviz.app.viewer import Viewer
 from webviz.cli.convert import tell
-from webviz.cli.ending import INTERRUPTED, Stop
+from webviz.cli.ending import INTERRUPTED, Stop, say
 from webviz.cli.viewing import LOCAL, ViewingOptions
 from webviz.config import Config
 from webviz.config.overrides import override
@@ -61,9 +61,9 @@ def serve(
                 _announce(options, viewer)
                 viewer.wait()
     if is_shown:
-        print("\nwebviz: stopped.")
+        say("\nwebviz: stopped.")
         return 0
-    print("webviz: interrupted.", file=sys.stderr)
+    say("webviz: interrupted.")
     return INTERRUPTED
 
 
