@@ -336,6 +336,15 @@ def test_the_mouse_looks_around_and_walks_in_fps(window: Window) -> None:
     window.tell(lambda view: math.dist(view.position, (2.0, 1.0, 2.0)) < 1e-2, "1 m sideways")
 
 
+def test_turning_and_zooming_xy_orbit_keep_its_focal_point(window: Window) -> None:
+    window.look(XYOrbit(distance=10.0, pitch=0.8, focal_point=(1.0, 2.0, 0.0)))
+    window.drag(80, 60)
+    window.tab.mouse.wheel(0, -120)
+    told = "it turned and came closer"
+    view = window.tell(lambda v: abs(v.distance - 8.8) + abs(v.pitch - 1.1) < 1e-2, told)
+    window.tell(lambda v: math.dist(v.focal_point, (1.0, 2.0, 0.0)) < 1e-2, f"{told}: {view}")
+
+
 def test_moving_xy_orbit_keeps_its_focal_point_on_the_ground(window: Window) -> None:
     window.look(XYOrbit())
     window.drag(60, 40, "middle")

@@ -45,7 +45,12 @@ def test_a_camera_tells_the_view_it_was_placed_for(view: View) -> None:
         ),
         (Orbit(distance=2.0, yaw=math.pi / 2, pitch=0.0), (0, 2, 0), (0, -1, 0)),
         (Orbit(distance=2.0, yaw=0.0, pitch=math.pi / 6), (3**0.5, 0, 1), (-(3**0.5) / 2, 0, -0.5)),
-        # The same, raised by a fifth of the distance.
+        # The same, moved by a fifth of the distance along the camera's own up.
+        (
+            XYOrbit(distance=10.0, yaw=0.0, pitch=math.pi / 6),
+            (75**0.5 - 1, 0, 5 + 3**0.5),
+            (-(3**0.5) / 2, 0, -0.5),
+        ),
         (XYOrbit(distance=10.0, yaw=0.0, pitch=0.0), (10, 0, 2), (-1, 0, 0)),
         (ThirdPersonFollower(distance=5.0, yaw=math.pi, pitch=0.0), (-5, 0, 1), (1, 0, 0)),
         # From where one stands, along x; a positive pitch looks down.

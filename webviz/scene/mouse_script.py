@@ -87,6 +87,7 @@ MOUSE_SCRIPT = as_script("""
     const controls = mutable.cameraControl;
     const at = point.applyMatrix4(views.rig().clone().invert());
     if (slides() || views.type() === "TopDownOrtho") {
+      at.add(views.raised());
       controls.moveTo(at.x, at.y, at.z, slides());
     } else if (isFPS()) {
       const eye = controls.getPosition(at.clone());

@@ -165,14 +165,29 @@ VIEW_SCRIPT = as_script("""
     settle();
   };
 
-  // XYOrbit looks at a point that is higher the farther away the camera is.
+  // XYOrbit looks at a point that is as far from its focal point, along the camera's own up, as the
+  // camera is far away. Turning and zooming leave the focal point, moving moves it on the ground.
+  let focal = null;
+  let aimed = null;
+  const isRaised = () =>
+    view !== null && (view.type === "XYOrbit" || view.type === "ThirdPersonFollower");
+  function raise() {
+    const { azimuthAngle, polarAngle, distance } = controlled();
+    const back = -Math.cos(polarAngle);
+    return vector([
+      back * Math.sin(azimuthAngle), Math.sin(polarAngle), back * Math.cos(azimuthAngle),
+    ]).multiplyScalar(RAISED * distance);
+  }
   function settle() {
-    if (view === null || (view.type !== "XYOrbit" && view.type !== "ThirdPersonFollower")) return;
+    if (!isRaised() || focal === null) return;
     const controls = controlled();
     const target = controls.getTarget(vector([0, 0, 0]));
-    const wanted = RAISED * controls.distance;
-    if (Math.abs(target.y - wanted) < 1e-9 * (1 + wanted)) return;
-    controls.moveTo(target.x, wanted, target.z, false);
+    focal.add(target).sub(aimed).setY(0);
+    const wanted = focal.clone().add(raise());
+    aimed = target;
+    if (target.distanceTo(wanted) < 1e-9 * (1 + wanted.length())) return;
+    controls.moveTo(wanted.x, wanted.y, wanted.z, false);
+    aimed = wanted;
   }
 
   function report() {
@@ -216,6 +231,8 @@ VIEW_SCRIPT = as_script("""
     adopt(camera);
     controls.setLookAt(...position.toArray(), ...target.toArray(), false);
     controls.update(0);
+    aimed = controls.getTarget(vector([0, 0, 0]));
+    focal = isRaised() ? aimed.clone().sub(raise()) : null;
     if (isFlat()) controls.minPolarAngle = controls.maxPolarAngle = controls.polarAngle;
     camera.updateProjectionMatrix();
     if (window.webvizMouse) window.webvizMouse.arm();
@@ -227,6 +244,7 @@ VIEW_SCRIPT = as_script("""
   window.webvizView = {
     type: () => (view === null ? "" : view.type),
     rig: () => (rig === null ? matrix() : rig),
+    raised: () => (isRaised() ? raise() : vector([0, 0, 0])),
     show,
     report,
     join: (start) => {

@@ -134,9 +134,10 @@ def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
         x, y = eye.look_at[:2].tolist()
         flat = TopDownOrtho(scale=min(max(scale, 1e-5), 1e6), angle=yaw + math.pi / 2, x=x, y=y)
         return view_of(cls, frame, camera_of(flat, height_px), height_px)
-    if cls is not FPS and cls is not Orbit and back[2] > 0.05 - RAISED:
+    raised = RAISED * math.hypot(back[0], back[1])
+    if cls is not FPS and cls is not Orbit and back[2] > 0.05 - raised:
         # Along the line of sight to where the focal point lies on the ground.
-        step = (eye.look_at[2] - RAISED * eye.distance) / (back[2] + RAISED)
+        step = (eye.look_at[2] - raised * eye.distance) / (back[2] + raised)
         # A camera that stands on the ground would look at itself, from no direction.
         if NEAREST * eye.distance < eye.distance + step < FARTHEST:
             eye = Camera(eye.position, eye.look_at - step * back)

@@ -23,7 +23,7 @@ FLAT_FIELD_OF_VIEW = math.radians(1.0)
 Whoever asks the camera for its field of view and distance then sizes and moves things correctly.
 """
 RAISED = 0.2
-"""How far XYOrbit looks above its focal point, in distances; RViz's."""
+"""How far XYOrbit is moved along the camera's own up, in distances; RViz's."""
 STEEPEST = 1.5698
 """Pitch of a camera above its focal point, whose yaw is still known."""
 EYE = 1e-3
@@ -60,7 +60,7 @@ def camera_of(view: View, height_px: float) -> Camera:
         return Camera(at + distance * _direction(view.angle - math.pi / 2, math.pi / 2 - TILT), at)
     at = np.array(view.focal_point)
     if not isinstance(view, Orbit):
-        at[2] += RAISED * view.distance
+        at += RAISED * view.distance * _up(view.yaw, view.pitch)
     return Camera(at + view.distance * _direction(view.yaw, view.pitch), at)
 
 
@@ -97,12 +97,13 @@ def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> Vi
             y=_rounded(camera.look_at[1]),
         )
     raised = 0.0 if issubclass(cls, Orbit) else RAISED * distance
+    pitch = _pitch(pitch)
     return cls(
         target_frame=frame,
         distance=min(max(_rounded(distance), 10.0**-DIGITS), 1e6),
         yaw=_rounded(yaw),
-        pitch=_pitch(pitch),
-        focal_point=_point(camera.look_at - (0.0, 0.0, raised)),
+        pitch=pitch,
+        focal_point=_point(camera.look_at - raised * _up(yaw, pitch)),
     )
 
 
@@ -111,6 +112,11 @@ def _direction(yaw: float, pitch: float) -> Vector:
     return np.array(
         (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
     )
+
+
+def _up(yaw: float, pitch: float) -> Vector:
+    """Unit vector to the top of the picture, for a camera in that direction."""
+    return _direction(yaw, pitch + math.pi / 2)
 
 
 def _wrapped(angle: float) -> float:
