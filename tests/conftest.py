@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import playwright.sync_api as playwright
 import pytest
 
-from webviz.pictures.browser import NoBrowser, launched
+from webviz.shell.pictures.browser import NoBrowser, launched
 
 
 @pytest.fixture(scope="session")

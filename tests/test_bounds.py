@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from webviz.bounds import Box, bounds, union
-from webviz.nodes import (
+from webviz.api.bounds import Box, bounds, union
+from webviz.api.nodes import (
     Arrows,
     Axes,
     Glb,

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from webviz.gui import docs
-from webviz.registry import display_types
+from webviz.api.registry import display_types
+from webviz.edges.gui import docs
 
 DOCUMENTS = sorted(
     [*docs.PAGES.rglob("*.md"), docs.ROOT / "README.md", docs.ROOT / "CONTRIBUTING.md"]
 )
 GENERATED = docs.pages()
-DRAWING = [name for name, cls in display_types().items() if cls.__module__ != "webviz.group"]
+DRAWING = [name for name, cls in display_types().items() if cls.__module__ != "webviz.api.group"]
 SOURCES = docs.ROOT / "displays/webviz_displays"
 
 
@@ -71,7 +71,7 @@ def test_a_display_that_draws_has_a_picture(name: str) -> None:
 
 def said_keys() -> Iterator[tuple[str, str]]:
     """Module and key of each status in the source of the displays."""
-    for path in sorted(SOURCES.glob("*.py")):
+    for path in sorted(SOURCES.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text())):
             if not isinstance(node, ast.Call) or not node.args:
                 continue

@@ -6,10 +6,11 @@ from typing import Any
 
 import pytest
 
-from webviz import rviz
-from webviz.config import Branch, Config, ConfigError, Unreadable, document, dump, parse, standard
-from webviz.config.overrides import override
-from webviz.registry import display_types
+from webviz.api.registry import display_types
+from webviz.files import rviz
+from webviz.files.config import Branch, Config, ConfigError, Unreadable, document, dump, standard
+from webviz.files.config.overrides import override
+from webviz.files.opening import parse
 
 TEXT = """\
 fixed_frame: map

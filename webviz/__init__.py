@@ -9,12 +9,12 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from webviz.app.viewer import Viewer
-    from webviz.context import Context, Group, Placement
-    from webviz.display import Color, Display, Input, Keep, Prop, Topic
-    from webviz.errors import Error
-    from webviz.frames import FramePoses, Frames, compose
-    from webviz.nodes import (
+    from webviz.api.context import Context, Group, Placement
+    from webviz.api.declared import Color, Prop, Topic
+    from webviz.api.display import Display, Input, Keep
+    from webviz.api.errors import Error
+    from webviz.api.frames import FramePoses, Frames, compose
+    from webviz.api.nodes import (
         Arrows,
         Axes,
         Glb,
@@ -29,9 +29,10 @@ if TYPE_CHECKING:
         Rgb,
         Solid,
     )
-    from webviz.pictures.capture import capture
-    from webviz.sample import Sample
-    from webviz.status import Level, Status
+    from webviz.api.sample import Sample
+    from webviz.api.status import Level, Status
+    from webviz.shell.app.viewer import Viewer
+    from webviz.shell.pictures.capture import capture
 
 __all__ = [
     "Arrows",
@@ -68,12 +69,13 @@ __all__ = [
 ]
 
 _HOMES = {
-    "webviz.app.viewer": ("Viewer",),
-    "webviz.context": ("Context", "Group", "Placement"),
-    "webviz.display": ("Color", "Display", "Input", "Keep", "Prop", "Topic"),
-    "webviz.errors": ("Error",),
-    "webviz.frames": ("FramePoses", "Frames", "compose"),
-    "webviz.nodes": (
+    "webviz.shell.app.viewer": ("Viewer",),
+    "webviz.api.context": ("Context", "Group", "Placement"),
+    "webviz.api.declared": ("Color", "Prop", "Topic"),
+    "webviz.api.display": ("Display", "Input", "Keep"),
+    "webviz.api.errors": ("Error",),
+    "webviz.api.frames": ("FramePoses", "Frames", "compose"),
+    "webviz.api.nodes": (
         "Arrows",
         "Axes",
         "Glb",
@@ -88,9 +90,9 @@ _HOMES = {
         "Rgb",
         "Solid",
     ),
-    "webviz.sample": ("Sample",),
-    "webviz.status": ("Level", "Status"),
-    "webviz.pictures.capture": ("capture",),
+    "webviz.api.sample": ("Sample",),
+    "webviz.api.status": ("Level", "Status"),
+    "webviz.shell.pictures.capture": ("capture",),
 }
 """Where each name comes from: imported when it is asked for, since all of it takes a while."""
 

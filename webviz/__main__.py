@@ -1,5 +1,5 @@
 """`python -m webviz` is `webviz`."""
 
-from webviz.cli import program
+from webviz.shell.cli import program
 
 program()

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated
 
 from webviz import Context, Display, Prop, Sample
-from webviz_displays.frame_names import FIXED_FRAME, frame_of
+from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 
 
 class Axes(Display):

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Context, Display, Prop, Sample
-from webviz.transforms.geometry import REACH_M
-from webviz_displays.colors import faded_color
-from webviz_displays.frame_names import FIXED_FRAME, frame_of
+from webviz.data.transforms.geometry import REACH_M
+from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 
 MOST_LINES = 200_000
 """More would only stop the browser."""

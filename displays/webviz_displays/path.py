@@ -7,11 +7,12 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic, messages
-from webviz_displays.arrows import along_x
-from webviz_displays.colors import faded_color
-from webviz_displays.decimation import evenly
-from webviz_displays.geometry import (
+from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz.data import messages
+from webviz_displays.point_cloud2.decimation import evenly
+from webviz_displays.shared.arrows import along_x
+from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.geometry import (
     is_drawable,
     matrices,
     normalized,

@@ -12,7 +12,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import String
 
-from webviz.ros.types import message_class
+from webviz.edges.ros.types import message_class
 from webviz_sim import cdr, messages
 from webviz_sim.description import demo_description, read_joints
 from webviz_sim.lidar import LidarSettings, scan

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.messages import FrameTransform, PoseStampedSequence, encode
+from webviz.data.messages import FrameTransform, PoseStampedSequence, encode
 from webviz_sim.description import Transform
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 import webviz
-from webviz.testing.source import HandFedSource
+from webviz.shell.testing.source import HandFedSource
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import webviz
-from webviz.app.handles import DisplayHandle
-from webviz.commands import Refresh
-from webviz.registry import display_types
-from webviz.testing.source import HandFedSource
+from webviz.api.registry import display_types
+from webviz.engine.commands import Refresh
+from webviz.shell.app.handles import DisplayHandle
+from webviz.shell.testing.source import HandFedSource
 
 Refused = Callable[[Callable[[], object]], str]
 

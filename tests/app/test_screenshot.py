@@ -13,7 +13,7 @@ import pytest
 
 import webviz
 import webviz_urdf
-from webviz.pictures.browser import VARIABLE
+from webviz.shell.pictures.browser import VARIABLE
 
 ROBOT = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 SIZE = (320, 240)

@@ -14,13 +14,13 @@ from pathlib import Path
 import pytest
 
 import webviz
-from webviz import registry
-from webviz.commands import Refresh
-from webviz.messages import encode
-from webviz.sources import Offer
-from webviz.testing import header
-from webviz.testing.source import HandFedSource
-from webviz.views import Orbit, TopDownOrtho
+from webviz.api import registry
+from webviz.api.views import Orbit, TopDownOrtho
+from webviz.data.messages import encode
+from webviz.engine.commands import Refresh
+from webviz.engine.sources import Offer
+from webviz.shell.testing import header
+from webviz.shell.testing.source import HandFedSource
 
 Refused = Callable[[Callable[[], object]], str]
 

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.messages import decode
-from webviz.transforms import TransformBuffer
+from webviz.data.messages import decode
+from webviz.data.transforms import TransformBuffer
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 ROUNDS = 7

@@ -16,13 +16,13 @@ from collections.abc import Callable
 
 import playwright.sync_api as playwright
 
-from webviz.display import make
-from webviz.gui import Panel
-from webviz.pictures.browser import launched
-from webviz.registry import display_types
-from webviz.scene import open_server
-from webviz.state import Row, State
-from webviz.status import Level, Status
+from webviz.api.declared import make
+from webviz.api.registry import display_types
+from webviz.api.status import Level, Status
+from webviz.edges.gui import Panel
+from webviz.edges.scene import open_server
+from webviz.engine.state import Row, State
+from webviz.shell.pictures.browser import launched
 
 FEW, MANY = 5, 100
 ROUNDS = 7

@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_typestore
 
 from webviz import Frames
-from webviz.pipeline.background import Workers
-from webviz.pipeline.runner import Runner, Services
-from webviz.scene import Scene, open_server
-from webviz.sources import Offer, Publisher, Raw
-from webviz.transforms import TransformBuffer
+from webviz.data.transforms import TransformBuffer
+from webviz.edges.scene import Scene, open_server
+from webviz.engine.pipeline.background import Workers
+from webviz.engine.pipeline.runner import Runner, Services
+from webviz.engine.sources import Offer, Publisher, Raw
 from webviz_displays.point_cloud2 import PointCloud2
 
 STORE = get_typestore(Stores.ROS2_JAZZY)

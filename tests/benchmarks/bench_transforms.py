@@ -19,7 +19,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
-from webviz.transforms import TransformBuffer
+from webviz.data.transforms import TransformBuffer
 
 S = 1_000_000_000
 ROUNDS = 5

@@ -9,8 +9,8 @@ import playwright.sync_api as playwright
 import pytest
 from bags import START_NS, Bag, ns
 
-from webviz.pictures.studio import Studio
-from webviz.testing import header
+from webviz.shell.pictures.studio import Studio
+from webviz.shell.testing import header
 
 SIZE = (320, 240)
 SECONDS = 6

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 import webviz
 from webviz import Level
-from webviz.config import parse
-from webviz.nodes import Labels
-from webviz.pictures.capture import Capture
-from webviz.views import Orbit
+from webviz.api.nodes import Labels
+from webviz.api.views import Orbit
+from webviz.files.opening import parse
+from webviz.shell.pictures.capture import Capture
 
 SIZE = (320, 240)
 CONFIG = (Path(__file__).parent / "top.yaml").read_text()

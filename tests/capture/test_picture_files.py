@@ -11,7 +11,7 @@ import PIL.Image
 import PIL.ImageSequence
 import pytest
 
-from webviz.pictures.files import (
+from webviz.shell.pictures.files import (
     OutputError,
     check,
     contact_sheet,

@@ -19,7 +19,7 @@ import trimesh
 from bags import Bag, strings
 from program import Program
 
-from webviz.cli import main as cli
+from webviz.shell.cli import main as cli
 
 CONFIG = Path(__file__).parent / "top.yaml"
 COMMAND = [sys.executable, "-m", "webviz", "screenshot", "-d", str(CONFIG)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from webviz.pictures.times import TimeError, every, position_ns, read_at
+from webviz.shell.pictures.times import TimeError, every, position_ns, read_at
 
 START_NS = 1_700_000_000_123_456_789
 

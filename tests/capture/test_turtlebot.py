@@ -9,8 +9,8 @@ import PIL.Image
 import pytest
 
 import webviz
-from webviz.sources.bag_extras import map_of_file, static_transform
-from webviz.testing.comparing import share_of_difference
+from webviz.engine.sources.bag_extras import map_of_file, static_transform
+from webviz.shell.testing.comparing import share_of_difference
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT.parent / "shared/data"

@@ -16,8 +16,9 @@ from pathlib import Path
 
 import pytest
 
-from webviz.config import Config, ConfigError, load, parse, save, write_text
-from webviz.config.disk import MAX_THREADS, in_thread, within
+from webviz.files.config import Config, ConfigError, write_text
+from webviz.files.config.disk import MAX_THREADS, in_thread, within
+from webviz.files.opening import load, parse, save
 
 
 @pytest.fixture
@@ -174,7 +175,7 @@ def test_a_disk_that_fills_up_keeps_the_old_file(path: Path) -> None:
     code = (
         "import resource, signal, sys\n"
         "from pathlib import Path\n"
-        "from webviz.config import ConfigError, write_text\n"
+        "from webviz.files.config import ConfigError, write_text\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))\n"
         "try:\n"
@@ -224,7 +225,7 @@ def test_two_who_save_at_once_both_leave_a_whole_file(path: Path) -> None:
     code = (
         "import sys\n"
         "from pathlib import Path\n"
-        "from webviz.config import write_text\n"
+        "from webviz.files.config import write_text\n"
         "for i in range(40):\n"
         "    write_text(sys.argv[2] * 5000 + str(i), Path(sys.argv[1]))\n"
     )

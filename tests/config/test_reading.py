@@ -12,10 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from webviz.config import ConfigError, Unreadable, dump, load, parse, standard
-from webviz.config.model import STANDARD
-from webviz.display import to_values
-from webviz.views import Orbit
+from webviz.api.declared import to_values
+from webviz.api.views import Orbit
+from webviz.files.config import ConfigError, Unreadable, dump, standard
+from webviz.files.config.model import STANDARD
+from webviz.files.opening import load, parse
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 

@@ -13,14 +13,16 @@ from jsonschema import Draft7Validator
 from ruamel.yaml import YAML
 from rviz_files import FILES
 
-from webviz import registry, rviz
-from webviz.cli import main as cli
-from webviz.cli.schema import COMMAND, SHIPPED, text
-from webviz.cli.serving import DEMO
-from webviz.config import Config, ConfigError, Unreadable, dump, parse, standard
-from webviz.config.schema import schema
-from webviz.display import make
-from webviz.registry import display_types
+from webviz.api import registry
+from webviz.api.declared import make
+from webviz.api.registry import display_types
+from webviz.files import rviz
+from webviz.files.config import Config, ConfigError, Unreadable, dump, standard
+from webviz.files.config.schema import schema
+from webviz.files.opening import parse
+from webviz.shell.cli import main as cli
+from webviz.shell.cli.schema import COMMAND, SHIPPED, text
+from webviz.shell.cli.serving import DEMO
 
 INSTALLED = display_types()
 CHECK = Draft7Validator(schema(INSTALLED))

@@ -13,11 +13,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from webviz.config import Branch, Config, Unreadable, document, dump, load, parse, save
-from webviz.config.model import Settings
-from webviz.display import Display, make
-from webviz.group import Group
-from webviz.registry import display_types
+from webviz.api.declared import make
+from webviz.api.display import Display
+from webviz.api.group import Group
+from webviz.api.registry import display_types
+from webviz.files.config import Branch, Config, Unreadable, document, dump
+from webviz.files.config.model import Settings
+from webviz.files.opening import load, parse, save
 
 TYPES = display_types()
 FIXED = ("version", "rviz")

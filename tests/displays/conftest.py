@@ -11,17 +11,17 @@ import pytest
 from numpy.typing import NDArray
 
 from webviz import Display, Frames, Pose, Status
-from webviz.display import inputs
-from webviz.messages import encode
-from webviz.nodes import Node
-from webviz.pipeline.background import Workers
-from webviz.pipeline.runner import Runner, Services
-from webviz.sources import Offer, Publisher, Raw
-from webviz.testing.messages import header
-from webviz.testing.recording import RecordingScene
-from webviz.testing.source import SECOND
-from webviz.transforms import TransformBuffer
-from webviz_displays.geometry import transformed
+from webviz.api.display import inputs
+from webviz.api.nodes import Node
+from webviz.data.messages import encode
+from webviz.data.transforms import TransformBuffer
+from webviz.engine.pipeline.background import Workers
+from webviz.engine.pipeline.runner import Runner, Services
+from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.source import SECOND
+from webviz_displays.shared.geometry import transformed
 
 START = 100 * SECOND
 """ROS time at which every bench begins."""

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz_displays.colors import RAINBOW, bounds, faded, faded_color, fractions, ramp
+from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, fractions, ramp
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from webviz_displays import covariance
-from webviz_displays.shapes import WEDGE, Shape, copies
+from webviz_displays.odometry import covariance
+from webviz_displays.shared.shapes import WEDGE, Shape, copies
 
 EYE = np.eye(3)[None]
 HERE = np.zeros((1, 3))

@@ -17,8 +17,8 @@ from clouds import CLOUD, xyz_cloud
 
 import webviz_displays
 from webviz import Display, Topic
-from webviz.display import set_property
-from webviz_displays.robot_parts import JointSettings, LinkSettings
+from webviz.api.declared import set_property
+from webviz_displays.robot_model.parts import JointSettings, LinkSettings
 
 SECOND = 1_000_000_000
 

@@ -15,21 +15,21 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from webviz import Display
-from webviz.display import inputs_of
-from webviz.messages import encode
-from webviz.messages.classes import DTYPES
-from webviz.messages.typestore import Field, fields
-from webviz.nodes import Node, has_content
-from webviz.pipeline.runner import NOTHING_TO_DRAW
-from webviz.testing.messages import header
-from webviz_displays.geometry import FARTHEST
+from webviz.api.display import inputs_of
+from webviz.api.nodes import Node, has_content
+from webviz.data.messages import encode
+from webviz.data.messages.classes import DTYPES
+from webviz.data.messages.typestore import Field, fields
+from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
+from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
-from webviz_displays.pose_properties import PoseShape
 from webviz_displays.robot_model import RobotModel
+from webviz_displays.shared.geometry import FARTHEST
+from webviz_displays.shared.pose_properties import PoseShape
 
 Benches = Callable[..., Any]
 Values = dict[str, Any]
@@ -194,7 +194,7 @@ INPUTS = [
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Statuses name a missing transform at once."""
-    monkeypatch.setattr("webviz.pipeline.intake.PATIENCE_S", -1.0)
+    monkeypatch.setattr("webviz.engine.pipeline.intake.PATIENCE_S", -1.0)
 
 
 @pytest.mark.parametrize(("make", "name"), INPUTS)

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from webviz import Pose
-from webviz_displays.geometry import (
+from webviz_displays.shared.geometry import (
     is_drawable,
     matrices,
     multiply,

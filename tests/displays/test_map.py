@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from webviz import Image, Topic
-from webviz.testing.messages import header
+from webviz.shell.testing.messages import header
 from webviz_displays.map import Map
-from webviz_displays.palettes import lookup_table
-from webviz_displays.tiles import LONGEST_TILE, MOST_CELLS, MOST_TILES, TILE
+from webviz_displays.map.palettes import lookup_table
+from webviz_displays.map.tiles import LONGEST_TILE, MOST_CELLS, MOST_TILES, TILE
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"

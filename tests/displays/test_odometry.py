@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from webviz_displays.geometry import matrices
-from webviz_displays.odometry import MOST_COVARIANCES, Odometry
-from webviz_displays.pose_properties import (
+from webviz_displays.odometry import Odometry
+from webviz_displays.odometry.display import MOST_COVARIANCES
+from webviz_displays.shared.geometry import matrices
+from webviz_displays.shared.pose_properties import (
     Covariance,
     OrientationCovariance,
     PoseShape,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from webviz_displays.palettes import lookup_table
+from webviz_displays.map.palettes import lookup_table
 
 # Cell value as int8 -> RGBA, as palette_builder.cpp fills its tables.
 COMMON = {

@@ -9,12 +9,13 @@ from clouds import CLOUD, FLOAT32, XYZ, cloud, xyz_cloud
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from webviz.messages import encode
-from webviz.nodes import Instances, Lines, Points
-from webviz.testing.messages import header
-from webviz_displays import points_display
-from webviz_displays.decimation import evenly, one_per_voxel
-from webviz_displays.point_cloud2 import PointCloud2, spaced
+from webviz.api.nodes import Instances, Lines, Points
+from webviz.data.messages import encode
+from webviz.shell.testing.messages import header
+from webviz_displays.point_cloud2 import PointCloud2
+from webviz_displays.point_cloud2.decimation import evenly, one_per_voxel
+from webviz_displays.point_cloud2.display import spaced
+from webviz_displays.shared import points_display
 
 SECOND = 1_000_000_000
 NAN, INF = float("nan"), float("inf")

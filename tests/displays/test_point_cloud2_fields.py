@@ -11,10 +11,10 @@ from clouds import CLOUD, CODES, FLOAT32, XYZ, cloud, xyz_cloud
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from webviz import messages
-from webviz.messages import encode
-from webviz_displays.cloud import Cloud, CloudError, drawable
-from webviz_displays.cloud_colors import packed_colors
+from webviz.data import messages
+from webviz.data.messages import encode
+from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
+from webviz_displays.point_cloud2.cloud_colors import packed_colors
 
 FLOATS = {7: st.floats(width=32), 8: st.floats(width=64)}
 NEAR = {7: st.floats(-500, 500, width=32), 8: st.floats(-500, 500)}

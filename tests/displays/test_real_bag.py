@@ -15,7 +15,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 from scipy.ndimage import distance_transform_edt
 
-from webviz.messages import decode
+from webviz.data.messages import decode
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.odometry import Odometry
 

@@ -14,7 +14,7 @@ from robot_arm import is_loaded, wait
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.messages import decode
+from webviz.data.messages import decode
 from webviz_displays.robot_model import RobotModel
 from webviz_urdf import load_file
 

@@ -5,7 +5,7 @@ from robot_arm import ARM, describe, place_arm
 
 from webviz import Mesh
 from webviz_displays.robot_model import RobotModel
-from webviz_displays.robot_parts import GREY, JointSettings, LinkSettings
+from webviz_displays.robot_model.parts import GREY, JointSettings, LinkSettings
 
 
 def test_a_link_that_loses_its_transform_turns_grey_where_it_was(bench) -> None:

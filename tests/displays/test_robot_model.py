@@ -9,7 +9,7 @@ from psutil import Process, wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
 
 import webviz_urdf
-from webviz.pipeline.background import Workers
+from webviz.engine.pipeline.background import Workers
 from webviz_displays.robot_model import RobotModel
 from webviz_urdf import Loading, LoadingStopped, Request
 

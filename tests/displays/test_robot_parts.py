@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 
 from webviz import Arrows, Axes, Glb
-from webviz_displays.robot_parts import GREY, Choices, JointSettings, LinkSettings, Paint, parts_of
+from webviz_displays.robot_model.parts import (
+    GREY,
+    Choices,
+    JointSettings,
+    LinkSettings,
+    Paint,
+    parts_of,
+)
 from webviz_urdf import Resolver, glb_with, load_robot
 
 ROBOT = load_robot(

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz_displays.geometry import matrices
-from webviz_displays.rods import rods
+from webviz_displays.shared.geometry import matrices
+from webviz_displays.shared.rods import rods
 
 point = st.tuples(*[st.floats(-100, 100)] * 3)
 

@@ -5,8 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz.messages import MapMetaData, OccupancyGrid, OccupancyGridUpdate, Point, Pose, Quaternion
-from webviz_displays.tiles import GridFault, tiled, updated
+from webviz.data.messages import (
+    MapMetaData,
+    OccupancyGrid,
+    OccupancyGridUpdate,
+    Point,
+    Pose,
+    Quaternion,
+)
+from webviz_displays.map.tiles import GridFault, tiled, updated
 
 
 def map_message(cells: np.ndarray) -> OccupancyGrid:

@@ -11,8 +11,8 @@ import playwright.sync_api as playwright
 import pytest
 from program import Program
 
-from webviz.pictures.browser import Page
-from webviz.testing.domain import isolated_domain
+from webviz.shell.pictures.browser import Page
+from webviz.shell.testing.domain import isolated_domain
 
 
 @pytest.fixture(scope="module")

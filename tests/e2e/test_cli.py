@@ -17,7 +17,7 @@ import psutil
 import pytest
 from program import Program
 
-from webviz.cli import main as cli
+from webviz.shell.cli import main as cli
 
 ROOT = Path(__file__).parents[2]
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from program import Program
 
-from webviz.pictures.browser import Page
+from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

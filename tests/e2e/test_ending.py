@@ -109,7 +109,7 @@ def test_a_closed_terminal_does_not_end_what_nohup_started(
 def test_work_that_hangs_is_ended_by_force_with_its_child_processes(tmp_path: Path) -> None:
     code = """
 import subprocess, time
-from webviz.cli.ending import until_signal
+from webviz.shell.cli.ending import until_signal
 def work(stop):
     stop.hold()
     subprocess.Popen(["sleep", "1000"])

@@ -9,7 +9,7 @@ import playwright.sync_api as playwright
 import pytest
 from program import Program
 
-from webviz.pictures.browser import Page
+from webviz.shell.pictures.browser import Page
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
 

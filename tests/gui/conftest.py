@@ -12,13 +12,14 @@ import playwright.sync_api as playwright
 import pytest
 import viser
 
-from webviz.commands import Command, Refresh, SetProperty
-from webviz.display import Color, Display, Input, Prop, Topic, set_property
-from webviz.gui import Panel, take_typed
-from webviz.scene import on_typed, open_server
-from webviz.scene.adapter import Adapter
-from webviz.state import Row, State
-from webviz.status import Status
+from webviz.api.declared import Color, Prop, Topic, set_property
+from webviz.api.display import Display, Input
+from webviz.api.status import Status
+from webviz.edges.gui import Panel, take_typed
+from webviz.edges.scene import on_typed, open_server
+from webviz.edges.scene.adapter import Adapter
+from webviz.engine.commands import Command, Refresh, SetProperty
+from webviz.engine.state import Row, State
 
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any
 
-from webviz.commands import AddDisplay
-from webviz.display import Display, Input, Topic
-from webviz.gui.add_by_topic import MANY, MAX_SHOWN, NOTHING
-from webviz.gui.by_topic import Pick, matching, picks
-from webviz.state import Row
+from webviz.api.declared import Topic
+from webviz.api.display import Display, Input
+from webviz.edges.gui.add_by_topic import MANY, MAX_SHOWN, NOTHING
+from webviz.edges.gui.by_topic import Pick, matching, picks
+from webviz.engine.commands import AddDisplay
+from webviz.engine.state import Row
 
 GRID, SCAN = "nav_msgs/msg/OccupancyGrid", "sensor_msgs/msg/LaserScan"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 import viser
 
-from webviz.display import Display
-from webviz.gui.control import Choice
-from webviz.gui.controls import add_control
-from webviz.gui.properties import properties_of
+from webviz.api.display import Display
+from webviz.api.properties import properties_of
+from webviz.edges.gui.control import Choice
+from webviz.edges.gui.controls import add_control
 from webviz_displays.robot_model import RobotModel
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 import viser
 
-from webviz.commands import (
+from webviz.api.group import Group
+from webviz.engine.commands import (
     Command,
     DuplicateDisplay,
     FocusDisplay,
@@ -22,9 +23,8 @@ from webviz.commands import (
     SetFrameRate,
     SetProperty,
 )
-from webviz.config import Settings
-from webviz.group import Group
-from webviz.state import File, Row
+from webviz.engine.state import File, Row
+from webviz.files.config import Settings
 
 MakeRow = Callable[..., Row]
 

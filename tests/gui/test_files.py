@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from webviz.commands import Export, Load, Open, Save
-from webviz.gui.file_names import file_name, title_of
-from webviz.state import Answer, File
-from webviz.status import Level
+from webviz.api.status import Level
+from webviz.edges.gui.file_names import file_name, title_of
+from webviz.engine.commands import Export, Load, Open, Save
+from webviz.engine.state import Answer, File
 
 LAB = File("/home/me/lab.yaml", False, "/home/me", ("lab.yaml", "nav2.rviz", "office.yaml"))
 

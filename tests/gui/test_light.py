@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from webviz.sources import Offer, Publisher
-from webviz.state import Clock, Row, Traffic
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Clock, Row, Traffic
 
 CONTROLS = "input, button, textarea"
 PER_DISPLAY = 2

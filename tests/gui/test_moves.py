@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from webviz.commands import MoveDisplay
-from webviz.gui.moves import Moves, Place, moves_of
+from webviz.edges.gui.moves import Moves, Place, moves_of
+from webviz.engine.commands import MoveDisplay
 
 LIST = (
     Place("grid", 0, "Grid"),

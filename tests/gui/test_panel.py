@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 import viser
 
-from webviz.commands import AddDisplay, RemoveDisplay, Reset, SetFixedFrame, SetProperty
-from webviz.display import Topic
-from webviz.gui import Panel
-from webviz.registry import display_types
-from webviz.state import Row
-from webviz.status import Level, Status
+from webviz.api.declared import Topic
+from webviz.api.registry import display_types
+from webviz.api.status import Level, Status
+from webviz.edges.gui import Panel
+from webviz.engine.commands import AddDisplay, RemoveDisplay, Reset, SetFixedFrame, SetProperty
+from webviz.engine.state import Row
 
 MakeRow = Callable[..., Row]
 

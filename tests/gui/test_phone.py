@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from webviz.state import Row
+from webviz.engine.state import Row
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 30

@@ -8,10 +8,11 @@ import msgspec
 import pytest
 import viser
 
-from webviz.display import Display, Prop, make, set_property
-from webviz.gui.controls import add_control
-from webviz.gui.properties import Property, properties_of
-from webviz.registry import display_types
+from webviz.api.declared import Prop, make, set_property
+from webviz.api.display import Display
+from webviz.api.properties import Property, properties_of
+from webviz.api.registry import display_types
+from webviz.edges.gui.controls import add_control
 
 
 class Nested(msgspec.Struct, frozen=True):

@@ -7,8 +7,8 @@ from typing import Any
 
 import viser
 
-from webviz.commands import SetFixedFrame
-from webviz.state import File, Row
+from webviz.engine.commands import SetFixedFrame
+from webviz.engine.state import File, Row
 
 MakeRow = Callable[..., Row]
 OpenTab = Callable[[], Any]

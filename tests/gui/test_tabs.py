@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from webviz.commands import InspectTopic, InspectTransforms, Pause, Reset
-from webviz.gui import transforms_tab
-from webviz.gui.text import MAX_LINES, block_html
-from webviz.gui.time_tab import clock_html
-from webviz.gui.topics_table import MAX_ROWS, amount, qos_of, topics_html
-from webviz.sources import Offer, Publisher
-from webviz.state import Clock, Inspected, Traffic
+from webviz.edges.gui import transforms_tab
+from webviz.edges.gui.text import MAX_LINES, block_html
+from webviz.edges.gui.time_tab import clock_html
+from webviz.edges.gui.topics_table import MAX_ROWS, amount, qos_of, topics_html
+from webviz.engine.commands import InspectTopic, InspectTransforms, Pause, Reset
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Clock, Inspected, Traffic
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 SCAN = Publisher("/driver", "sensor_msgs/msg/LaserScan", "best_effort", "volatile")

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz.gui.text import MAX_STATUSES, escape, plain, statuses_html
-from webviz.status import Level, Status
+from webviz.api.status import Level, Status
+from webviz.edges.gui.text import MAX_STATUSES, escape, plain, statuses_html
 
 HOSTILE = [
     "<img src=x onerror=alert(1)>",

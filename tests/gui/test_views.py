@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 import viser
 
-from webviz.commands import (
+from webviz.api.views import FPS, Orbit, TopDownOrtho
+from webviz.engine.commands import (
     ChangeView,
     RemoveView,
     ResetView,
@@ -16,8 +17,7 @@ from webviz.commands import (
     ShowView,
     StartWithView,
 )
-from webviz.config import Settings
-from webviz.views import FPS, Orbit, TopDownOrtho
+from webviz.files.config import Settings
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ import pytest
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from webviz.messages import FrameTransform
-from webviz.messages.classes import VECTORS
-from webviz.messages.definitions import DEFINITIONS
+from webviz.data.messages import FrameTransform
+from webviz.data.messages.classes import VECTORS
+from webviz.data.messages.definitions import DEFINITIONS
 
 VECTOR_NAMES = {name.rpartition("/")[2] for name in VECTORS}
 

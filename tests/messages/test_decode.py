@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.messages import decode, message_class, peek_header
-from webviz.messages.classes import WRITTEN, attribute
-from webviz.messages.definitions import DEFINITIONS
-from webviz.messages.typestore import constants, fields
+from webviz.data.messages import decode, message_class, peek_header
+from webviz.data.messages.classes import WRITTEN, attribute
+from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages.typestore import constants, fields
 
 BAGS = Path(__file__).parents[2] / "../shared/data/bags"
 ALL_TYPES = sorted({*get_typestore(Stores.ROS2_JAZZY).fielddefs, *DEFINITIONS})

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from webviz.messages import (
+from webviz.data.messages import (
     DefinitionError,
     UnknownTypeError,
     decode,
@@ -20,7 +20,7 @@ from webviz.messages import (
     type_exists,
     type_hash,
 )
-from webviz.messages.definitions import DEFINITIONS
+from webviz.data.messages.definitions import DEFINITIONS
 
 CDR = b"\x00\x01\x00\x00"
 

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.messages import (
+from webviz.data.messages import (
     EncodeError,
     PoseSequence,
     PoseStampedSequence,
@@ -22,7 +22,7 @@ from webviz.messages import (
     message_class,
     register,
 )
-from webviz.messages.definitions import DEFINITIONS
+from webviz.data.messages.definitions import DEFINITIONS
 
 ALL_TYPES = sorted({*get_typestore(Stores.ROS2_JAZZY).fielddefs, *DEFINITIONS})
 SEEDS = st.integers(0, 2**32 - 1)

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from webviz.messages import DecodeError, UnknownTypeError, decode, peek_header
+from webviz.data.messages import DecodeError, UnknownTypeError, decode, peek_header
 
 TYPES = [
     "geometry_msgs/msg/PoseArray",

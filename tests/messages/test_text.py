@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from webviz.messages import (
+from webviz.data.messages import (
     FrameTransform,
     Header,
     JointState,
@@ -19,7 +19,7 @@ from webviz.messages import (
     message_class,
     to_text,
 )
-from webviz.messages.definitions import DEFINITIONS
+from webviz.data.messages.definitions import DEFINITIONS
 
 
 def test_a_message_is_shown_field_by_field_in_the_order_of_its_definition():

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from webviz.testing import Stage, turned
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 

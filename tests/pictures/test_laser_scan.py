@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import building
 
-from webviz.testing import Stage, turned
-from webviz.testing.source import SECOND
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
+from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.laser_scan import LaserScan
 from webviz_sim.pose import Pose

@@ -8,8 +8,8 @@ import building
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from webviz.testing import Stage, turned
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
 from webviz_displays.grid import Grid
 from webviz_displays.map import Map
 

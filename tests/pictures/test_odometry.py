@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from webviz.testing import Stage, turned
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
 from webviz_displays.grid import Grid
 from webviz_displays.odometry import Odometry
-from webviz_displays.pose_properties import Covariance, PoseShape
+from webviz_displays.shared.pose_properties import Covariance, PoseShape
 
 Stages = Callable[..., Stage]
 

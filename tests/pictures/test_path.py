@@ -7,8 +7,8 @@ from collections.abc import Callable
 import building
 import numpy as np
 
-from webviz.testing import Stage
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage
 from webviz_displays.grid import Grid
 from webviz_displays.path import Path
 

@@ -12,10 +12,10 @@ import pytest
 from robots import DEMO, place_links
 
 from webviz import Display
-from webviz.pictures.browser import Pixels
-from webviz.testing import TOLERANCE, Stage, share_of_difference, turned
-from webviz.testing.comparing import load
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.pictures.browser import Pixels
+from webviz.shell.testing import TOLERANCE, Stage, share_of_difference, turned
+from webviz.shell.testing.comparing import load
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from webviz.testing import Stage
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage
 from webviz_displays.grid import Grid
 from webviz_displays.point_cloud2 import PointCloud2
 

@@ -13,13 +13,13 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 from webviz import Level
-from webviz.testing import Stage
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
-from webviz_displays.pose_properties import Covariance
+from webviz_displays.shared.pose_properties import Covariance
 
 DATA = Path(__file__).parents[3] / "shared/data"
 BAG = DATA / "bags/macfirst_floor_take_2"

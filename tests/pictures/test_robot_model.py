@@ -9,11 +9,11 @@ import pytest
 from robots import DEMO, place_links, robots_folder
 
 from webviz import Level
-from webviz.testing import Stage
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage
 from webviz_displays.grid import Grid
 from webviz_displays.robot_model import RobotModel
-from webviz_displays.robot_parts import LinkSettings
+from webviz_displays.robot_model.parts import LinkSettings
 
 Stages = Callable[..., Stage]
 

@@ -9,9 +9,9 @@ import building
 from robots import DEMO, place_links
 
 from webviz import Level, Status
-from webviz.testing import Stage, turned
-from webviz.testing.source import SECOND
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
+from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.path import Path

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from webviz import Level
-from webviz.testing import Stage, turned
-from webviz.testing.source import SECOND
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
+from webviz.shell.testing.source import SECOND
 from webviz_displays.grid import Grid
 from webviz_displays.tf import TF
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Points, Pose
-from webviz.pipeline.baking import REACH_M, baked, can_bake, origin_near
+from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Points, Pose
+from webviz.engine.pipeline.baking import REACH_M, baked, can_bake, origin_near
 
 coordinate = st.floats(-REACH_M, REACH_M, width=32)
 position = st.tuples(coordinate, coordinate, coordinate)

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
-from webviz.commands import Refresh, SetBackground, SetProperty
-from webviz.status import Level
+from webviz.api.status import Level
+from webviz.engine.commands import Refresh, SetBackground, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

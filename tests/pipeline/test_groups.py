@@ -7,9 +7,10 @@ from typing import Any
 
 import pytest
 
-from webviz.commands import AddDisplay, RemoveDisplay, SetProperty
-from webviz.config import Branch, ConfigError, Unreadable, dump, parse
-from webviz.group import Group
+from webviz.api.group import Group
+from webviz.engine.commands import AddDisplay, RemoveDisplay, SetProperty
+from webviz.files.config import Branch, ConfigError, Unreadable, dump
+from webviz.files.opening import parse
 from webviz_displays.axes import Axes
 
 NESTED = """\

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz.commands import SetProperty
-from webviz.pipeline import history
+from webviz.engine.commands import SetProperty
+from webviz.engine.pipeline import history
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from webviz.commands import Command, InspectTopic, InspectTransforms, Pause, Reset
-from webviz.display import Topic
-from webviz.sources import Offer, Publisher
-from webviz.state import State
-from webviz.testing.messages import header
-from webviz.testing.source import SECOND
+from webviz.api.declared import Topic
+from webviz.engine.commands import Command, InspectTopic, InspectTransforms, Pause, Reset
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import State
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import SECOND
 from webviz_displays.path import Path
 
 PATH = "nav_msgs/msg/Path"

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
-from webviz.sources import Offer, Publisher, Raw
+from webviz.engine.sources import Offer, Publisher, Raw
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Pose, Sample, Topic
-from webviz.frame_loop.viewing import NoCameras
-from webviz.transforms.geometry import REACH_M
+from webviz.data.transforms.geometry import REACH_M
+from webviz.engine.viewing import NoCameras
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000

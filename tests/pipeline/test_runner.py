@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz.commands import Reset, SetFixedFrame, SetProperty
+from webviz.engine.commands import Reset, SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -313,7 +313,7 @@ def test_reset_and_a_jump_back_of_time_forget_what_was(bench: Callable[..., Any]
 
 
 def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) -> None:
-    from webviz.sources import Raw
+    from webviz.engine.sources import Raw
 
     b = bench(Dot(name="Dot"))
     b.transform("map", "base", T, static=True)
@@ -335,7 +335,7 @@ def test_bytes_that_are_no_message_become_a_status(bench: Callable[..., Any]) ->
 
 
 def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) -> None:
-    from webviz.sources import Offer, Publisher
+    from webviz.engine.sources import Offer, Publisher
 
     b = bench(Dot(name="Dot"))
     publisher = Publisher("/test", "geometry_msgs/msg/PoseStamped", "reliable", "transient_local")
@@ -347,7 +347,7 @@ def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) ->
 
 
 def _frames(b: Any) -> Any:
-    from webviz.frames import Frames
+    from webviz.api.frames import Frames
 
     return Frames(b.viewer.buffer, "map", b.source.now)
 

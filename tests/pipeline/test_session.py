@@ -11,7 +11,9 @@ from typing import Any
 
 import pytest
 
-from webviz.commands import (
+from webviz.api.group import Group
+from webviz.api.status import Level
+from webviz.engine.commands import (
     AddDisplay,
     Command,
     DuplicateDisplay,
@@ -25,11 +27,10 @@ from webviz.commands import (
     SetFrameRate,
     SetProperty,
 )
-from webviz.config import Branch, Unreadable, document, load, parse
-from webviz.frame_loop.requests import MAX_FILES
-from webviz.group import Group
-from webviz.state import File, State
-from webviz.status import Level
+from webviz.engine.requests import MAX_FILES
+from webviz.engine.state import File, State
+from webviz.files.config import Branch, Unreadable, document
+from webviz.files.opening import load, parse
 from webviz_displays.axes import Axes
 from webviz_displays.path import Path as PathDisplay
 

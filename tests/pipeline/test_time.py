@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Annotated, Any
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
-from webviz.sources import Offer, Publisher
+from webviz.engine.sources import Offer, Publisher
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from webviz.messages import TFMessage, decode, encode
-from webviz.pipeline.transform_layout import MIN_TRANSFORMS, SAME_SIZE, Layouts
-from webviz.testing.messages import header
+from webviz.data.messages import TFMessage, decode, encode
+from webviz.engine.pipeline.transform_layout import MIN_TRANSFORMS, SAME_SIZE, Layouts
+from webviz.shell.testing.messages import header
 
 TYPE = "tf2_msgs/msg/TFMessage"
 

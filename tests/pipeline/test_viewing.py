@@ -7,7 +7,17 @@ from collections.abc import Callable, Mapping
 import pytest
 from bench import Bench
 
-from webviz.commands import (
+from webviz.api.status import Level
+from webviz.api.views import (
+    FPS,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+    XYOrbit,
+    target_group,
+)
+from webviz.engine.commands import (
     ChangeView,
     Command,
     FocusDisplay,
@@ -20,18 +30,9 @@ from webviz.commands import (
     ShowView,
     StartWithView,
 )
-from webviz.config import dump, parse
-from webviz.state import State
-from webviz.status import Level
-from webviz.views import (
-    FPS,
-    Orbit,
-    ThirdPersonFollower,
-    TopDownOrtho,
-    View,
-    XYOrbit,
-    target_group,
-)
+from webviz.engine.state import State
+from webviz.files.config import dump
+from webviz.files.opening import parse
 from webviz_displays.axes import Axes
 
 ALICE, BOB = 3, 7

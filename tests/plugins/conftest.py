@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from bench import Bench, benches
 
-from webviz import registry
-from webviz.display import Display
-from webviz.plugins import load
+from webviz.api import registry
+from webviz.api.display import Display
+from webviz.engine.plugins import load
 
 EXAMPLE = Path(__file__).with_name("polygon.py")
 

@@ -9,9 +9,10 @@ from typing import Any
 
 import pytest
 
-from webviz import registry
-from webviz.config import dump, parse
-from webviz.plugins import PluginError, Watcher, load
+from webviz.api import registry
+from webviz.engine.plugins import PluginError, Watcher, load
+from webviz.files.config import dump
+from webviz.files.opening import parse
 
 ROOT = Path(__file__).parents[2]
 IMPORT = "from webviz import Display\n"

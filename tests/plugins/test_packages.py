@@ -57,14 +57,15 @@ def run(tmp_path: Path) -> Callable[[str], str]:
 def test_a_display_of_another_package_is_a_type_among_the_built_in_ones(
     run: Callable[[str], str],
 ) -> None:
-    found = run("from webviz.registry import display_types; print(*display_types())").split()
+    found = run("from webviz.api.registry import display_types; print(*display_types())").split()
     assert {"Fence", "Grid", "LaserScan"} <= set(found)
 
 
 def test_a_config_can_name_it_and_is_saved_so(run: Callable[[str], str]) -> None:
     text = run(
         "from pathlib import Path\n"
-        "from webviz.config import dump, load\n"
+        "from webviz.files.config import dump\n"
+        "from webviz.files.opening import load\n"
         "print(dump(load(Path('x.yaml'))))"
     )
     assert "type: Fence\n  color: [1, 2, 3]" in text
@@ -76,7 +77,7 @@ def test_a_display_that_does_not_load_says_why_and_harms_no_other(
 ) -> None:
     fence, gone, typo = run(
         "from pathlib import Path\n"
-        "from webviz.config import load\n"
+        "from webviz.files.opening import load\n"
         "for display in load(Path('x.yaml')).displays:\n"
         "    print(type(display).__name__, getattr(display, 'reason', ''))"
     ).splitlines()
@@ -91,7 +92,7 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
         "from webviz import Display\n\nclass Fence(Display):\n    pass\n"
     )
     said = run(
-        "from webviz.cli import main\n"
+        "from webviz.shell.cli import main\n"
         "import sys; sys.stderr = sys.stdout\n"
         "print(main(['--plugin', 'own.py', '--port', '0']))"
     )

@@ -8,11 +8,13 @@ from typing import Any
 import pytest
 import rviz_trees
 
-from webviz import Topic, rviz
-from webviz.commands import AddDisplay, Reset, SetProperty
-from webviz.config import dump, parse
-from webviz.display import make
-from webviz.plugins import ReloadPlugin
+from webviz import Topic
+from webviz.api.declared import make
+from webviz.engine.commands import AddDisplay, Reset, SetProperty
+from webviz.engine.plugins import ReloadPlugin
+from webviz.files import rviz
+from webviz.files.config import dump
+from webviz.files.opening import parse
 
 TYPE = "geometry_msgs/msg/PolygonStamped"
 CORNERS = [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)]

@@ -27,15 +27,15 @@ from std_msgs.msg import Int32
 from std_srvs.srv import Empty, Trigger
 
 import webviz
-from webviz.commands import Command
-from webviz.display import Topic
-from webviz.messages import decode, encode
-from webviz.ros.node import RosSource
-from webviz.ros.types import message_class
-from webviz.sources import Subscription
-from webviz.state import File, State
-from webviz.status import Level, Status
-from webviz.testing import header
+from webviz.api.declared import Topic
+from webviz.api.status import Level, Status
+from webviz.data.messages import decode, encode
+from webviz.edges.ros.node import RosSource
+from webviz.edges.ros.types import message_class
+from webviz.engine.commands import Command
+from webviz.engine.sources import Subscription
+from webviz.engine.state import File, State
+from webviz.shell.testing import header
 
 TF = "tf2_msgs/msg/TFMessage"
 CONFIG = "fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]\n"

@@ -11,7 +11,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 
 PROGRAM = """
 import itertools, psutil
-from webviz.ros.heap import PERIOD_S, Heap
+from webviz.edges.ros.heap import PERIOD_S, Heap
 
 def resident():
     return psutil.Process().memory_info().rss

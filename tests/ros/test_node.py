@@ -18,10 +18,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Int32, String
 
-from webviz.display import Topic
-from webviz.messages import decode
-from webviz.ros.node import RosSource
-from webviz.sources import Subscription
+from webviz.api.declared import Topic
+from webviz.data.messages import decode
+from webviz.edges.ros.node import RosSource
+from webviz.engine.sources import Subscription
 
 STRING = "std_msgs/msg/String"
 

@@ -13,8 +13,8 @@ pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportErr
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 
-from webviz.ros import types
-from webviz.ros.types import MessageTypeError, message_class, type_hash
+from webviz.edges.ros import types
+from webviz.edges.ros.types import MessageTypeError, message_class, type_hash
 
 # rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -38,7 +38,7 @@ PEER = """
 import sys, time
 import rclpy
 from rclpy.signals import SignalHandlerOptions
-from webviz.ros.types import message_class
+from webviz.edges.ros.types import message_class
 role, type_name, topic = sys.argv[1:4]
 definition = sys.argv[4] if len(sys.argv) > 4 else None
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
@@ -152,7 +152,7 @@ def test_a_definition_that_contradicts_a_known_one_is_refused():
 
 def test_a_missing_package_under_another_rmw_says_how_to_install_it():
     script = (
-        "import webviz.ros.types as t\n"
+        "import webviz.edges.ros.types as t\n"
         "t.get_rmw_implementation_identifier = lambda: 'rmw_cyclonedds_cpp'\n"
         "try: t.message_class('map_msgs/msg/OccupancyGridUpdate')\n"
         "except t.MessageTypeError as error: print(error)\n"

@@ -8,11 +8,12 @@ import pytest
 from bench import HandFedSource
 from rviz_trees import lost, texts
 
-from webviz import config as config_file
-from webviz.cli import main as cli
-from webviz.frame_loop.loop import FrameLoop
-from webviz.state import State
-from webviz.testing.recording import RecordingScene
+from webviz.engine.loop import FrameLoop
+from webviz.engine.state import State
+from webviz.files import config as config_file
+from webviz.files import opening
+from webviz.shell.cli import main as cli
+from webviz.shell.testing.recording import RecordingScene
 
 SMALL = """\
 Visualization Manager:
@@ -85,7 +86,7 @@ def test_a_command_without_a_target_says_what_is_missing(
 def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
     states: list[State] = []
     source, scene = HandFedSource(), RecordingScene()
-    viewer = FrameLoop(config_file.load(small), source, scene, states.append)
+    viewer = FrameLoop(opening.load(small), source, scene, states.append)
     viewer.turn()
     status = states[-1].statuses["Import"]
     assert (status.level.name, "my_plugins/Laser" in status.text) == ("WARN", True)

@@ -7,9 +7,10 @@ from typing import Any
 
 import pytest
 
-from webviz import rviz
-from webviz.config import Branch, Config, ConfigError, Unreadable, dump, parse
-from webviz.display import to_values
+from webviz.api.declared import to_values
+from webviz.files import rviz
+from webviz.files.config import Branch, Config, ConfigError, Unreadable, dump
+from webviz.files.opening import parse
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry

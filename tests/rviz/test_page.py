@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from rviz_files import FILES, FOLDER
 
-from webviz.rviz.docs import COMMAND, PAGE, page
+from webviz.files.rviz.docs import COMMAND, PAGE, page
 
 
 @pytest.mark.skipif(not FILES, reason=f"no .rviz files in {FOLDER}")

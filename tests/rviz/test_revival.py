@@ -8,9 +8,12 @@ from typing import Annotated, Any
 import pytest
 from rviz_trees import lost, texts
 
-from webviz import registry, rviz
-from webviz.config import Branch, Unreadable, dump, parse
-from webviz.display import Display, Input, Topic
+from webviz.api import registry
+from webviz.api.declared import Topic
+from webviz.api.display import Display, Input
+from webviz.files import rviz
+from webviz.files.config import Branch, Unreadable, dump
+from webviz.files.opening import parse
 
 TEXT = """\
 Visualization Manager:

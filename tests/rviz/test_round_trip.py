@@ -11,13 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rviz_trees import loaded, lost, texts
 
-from webviz import config as config_file
-from webviz import rviz
-from webviz.config import Branch, Config, ConfigError, dump, parse
-from webviz.display import make, set_property
-from webviz.registry import display_types
-from webviz.rviz.tree import write
-from webviz.views import Orbit
+from webviz.api.declared import make, set_property
+from webviz.api.registry import display_types
+from webviz.api.views import Orbit
+from webviz.files import config as config_file
+from webviz.files import opening, rviz
+from webviz.files.config import Branch, Config, ConfigError, dump
+from webviz.files.opening import parse
+from webviz.files.rviz.tree import write
 
 NASTY = """\
 Panels: ~
@@ -224,9 +225,9 @@ def test_what_rviz_has_no_counterpart_for_is_told() -> None:
 
 def test_files_are_told_apart_by_their_names(tmp_path: Path) -> None:
     path = tmp_path / "x.RVIZ"
-    config_file.save(config_file.standard(), path)
+    opening.save(config_file.standard(), path)
     assert "Visualization Manager" in path.read_text()
-    names = [getattr(display, "name", "") for display in config_file.load(path).displays]
+    names = [getattr(display, "name", "") for display in opening.load(path).displays]
     assert names == list(config_file.STANDARD)
 
 

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from webviz import rviz
-from webviz.config import Config, Settings
-from webviz.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
+from webviz.api.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
+from webviz.files import rviz
+from webviz.files.config import Config, Settings
 
 NUMBERS = st.floats(-1000, 1000, width=32).map(lambda number: float(f"{number:.4g}"))
 POINTS = st.tuples(NUMBERS, NUMBERS, NUMBERS)

@@ -14,8 +14,8 @@ import viser
 import websockets.sync.client
 import zstandard
 
-from webviz.pictures.browser import Page
-from webviz.scene import Scene, open_server
+from webviz.edges.scene import Scene, open_server
+from webviz.shell.pictures.browser import Page
 
 Point = tuple[float, float, float]
 

@@ -16,8 +16,8 @@ from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
-from webviz.scene import Scene
-from webviz.scene.adapter import MAX_TOMBSTONES, _Orientation, _Position
+from webviz.edges.scene import Scene
+from webviz.edges.scene.adapter import MAX_TOMBSTONES, _Orientation, _Position
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:

@@ -14,8 +14,8 @@ import viser
 import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
-from webviz.scene import connections
-from webviz.scene.connections import MAX_BROWSERS, Allowance
+from webviz.edges.scene import connections
+from webviz.edges.scene.connections import MAX_BROWSERS, Allowance
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
@@ -49,7 +49,7 @@ def test_connections_that_never_ask_keep_no_browser_out(
 
 FEW_FILES = """
 import os, resource, socket
-from webviz.scene import open_server
+from webviz.edges.scene import open_server
 server = open_server(port=0)
 address = ("127.0.0.1", server.get_port())
 request = b"GET / HTTP/1.1\\r\\nHost: localhost\\r\\n\\r\\n"

@@ -8,8 +8,8 @@ import threading
 import playwright.sync_api as playwright
 import viser
 
-from webviz.pictures.browser import Page
-from webviz.scene import Scene, open_server
+from webviz.edges.scene import Scene, open_server
+from webviz.shell.pictures.browser import Page
 
 LOST = re.compile(
     r"Connection to webviz lost\. The picture is \d+ s old\. "

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Node, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Node, Points, Pose
 
 CORNERS = np.array([(-0.3, -0.2, 0), (0.3, -0.2, 0), (0, 0.3, 0)], np.float32)
 YELLOW = (255, 255, 0)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.nodes import Instances, Pose
-from webviz.scene.server import BACKGROUND
-from webviz.scene.solids import SOLIDS
+from webviz.api.nodes import Instances, Pose
+from webviz.edges.scene.server import BACKGROUND
+from webviz.edges.scene.solids import SOLIDS
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (200, 0, 0), (0, 200, 0), (0, 0, 200)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from webviz.nodes import Instances, Labels
+from webviz.api.nodes import Instances, Labels
 
 CENTER = np.zeros((1, 3), np.float32)
 GREEN = (0, 255, 0)

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from webviz.nodes import Image
-from webviz.scene import Scene
-from webviz.scene.late import Late
+from webviz.api.nodes import Image
+from webviz.edges.scene import Scene
+from webviz.edges.scene.late import Late
 
 
 def test_of_one_name_only_the_newest_work_is_sent() -> None:

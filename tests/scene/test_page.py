@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from webviz.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points, Pose
 
 TRIANGLE = np.eye(3, dtype=np.float32)
 

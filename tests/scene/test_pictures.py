@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from webviz.nodes import Image, Lines, Pose
-from webviz.scene.server import BACKGROUND
-from webviz.views import Orbit, TopDownOrtho
+from webviz.api.nodes import Image, Lines, Pose
+from webviz.api.views import Orbit, TopDownOrtho
+from webviz.edges.scene.server import BACKGROUND
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)

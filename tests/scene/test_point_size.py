@@ -8,9 +8,9 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 
-from webviz.nodes import Points
-from webviz.pictures.studio import Studio
-from webviz.views import Orbit
+from webviz.api.nodes import Points
+from webviz.api.views import Orbit
+from webviz.shell.pictures.studio import Studio
 
 
 @pytest.mark.parametrize("height", [200, 400])

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.nodes import (
+from webviz.api.nodes import (
     Arrows,
     Axes,
     Glb,
@@ -22,8 +22,8 @@ from webviz.nodes import (
     Pose,
     Rgb,
 )
-from webviz.scene import set_background
-from webviz.scene.server import BACKGROUND
+from webviz.edges.scene import set_background
+from webviz.edges.scene.server import BACKGROUND
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from webviz.nodes import (
+from webviz.api.nodes import (
     U8,
     Arrows,
     Axes,
@@ -20,7 +20,7 @@ from webviz.nodes import (
     Points,
     Pose,
 )
-from webviz.scene import Scene
+from webviz.edges.scene import Scene
 
 RED = (255, 0, 0)
 SEGMENTS = np.arange(12, dtype=np.float32).reshape(2, 2, 3)

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from viser import _messages as wire
 
-from webviz.nodes import Points, Pose
-from webviz.scene import Scene
-from webviz.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
-from webviz.scene.outbox import WINDOW_BYTES, Outbox, bulk
-from webviz.scene.points import PART
+from webviz.api.nodes import Points, Pose
+from webviz.edges.scene import Scene
+from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
+from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
+from webviz.edges.scene.points import PART
 
 
 class Queue:

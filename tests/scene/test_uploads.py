@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import viser
 
-from webviz.scene.uploads import MAX_BYTES, MAX_OPEN, PART_BYTES, Uploads
+from webviz.edges.scene.uploads import MAX_BYTES, MAX_OPEN, PART_BYTES, Uploads
 
 
 def start(transfer: str = "a", size: int = 3, parts: int = 1, **changes: Any) -> dict[str, Any]:

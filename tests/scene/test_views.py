@@ -14,10 +14,8 @@ import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
 
-from webviz.nodes import Instances, Labels, Lines, Pose
-from webviz.pictures.browser import Page
-from webviz.scene import Scene, open_server
-from webviz.views import (
+from webviz.api.nodes import Instances, Labels, Lines, Pose
+from webviz.api.views import (
     FIELD_OF_VIEW,
     FPS,
     Orbit,
@@ -27,6 +25,8 @@ from webviz.views import (
     XYOrbit,
     target_group,
 )
+from webviz.edges.scene import Scene, open_server
+from webviz.shell.pictures.browser import Page
 
 WIDTH, HEIGHT = 900, 600
 RED, WHITE = (255, 0, 0), (255, 255, 255)

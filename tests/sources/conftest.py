@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from webviz.display import Topic
-from webviz.messages import decode
-from webviz.sources import Subscription
-from webviz.sources.bag import BagSource
+from webviz.api.declared import Topic
+from webviz.data.messages import decode
+from webviz.engine.sources import Subscription
+from webviz.engine.sources.bag import BagSource
 
 STRING = "std_msgs/msg/String"
 

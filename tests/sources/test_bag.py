@@ -6,8 +6,8 @@ import pytest
 from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
-from webviz.messages import decode
-from webviz.sources.bag import MOST
+from webviz.data.messages import decode
+from webviz.engine.sources.bag import MOST
 
 KINDS = [
     (StoragePlugin.SQLITE3, CompressionMode.NONE),

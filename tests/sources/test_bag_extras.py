@@ -10,10 +10,10 @@ import PIL.Image
 import pytest
 from bags import strings
 
-from webviz.display import Topic
-from webviz.messages import OccupancyGrid, TFMessage, decode
-from webviz.sources import Subscription
-from webviz.sources.bag_extras import ExtraError, map_of_file, static_transform
+from webviz.api.declared import Topic
+from webviz.data.messages import OccupancyGrid, TFMessage, decode
+from webviz.engine.sources import Subscription
+from webviz.engine.sources.bag_extras import ExtraError, map_of_file, static_transform
 
 
 def write_map(folder: Path) -> Path:

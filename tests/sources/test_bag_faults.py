@@ -8,7 +8,7 @@ import pytest
 from bags import Bag, files, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
-from webviz.sources.bag import BagError, BagSource
+from webviz.engine.sources.bag import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 """What compressed data begins with."""

@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 from bags import START_NS, Bag, ns
 
-from webviz.config import parse
-from webviz.frame_loop.loop import FrameLoop
-from webviz.frames import Frames
-from webviz.sources.bag import BagSource
-from webviz.testing import header
-from webviz.testing.recording import RecordingScene
+from webviz.api.frames import Frames
+from webviz.engine.loop import FrameLoop
+from webviz.engine.sources.bag import BagSource
+from webviz.files.opening import parse
+from webviz.shell.testing import header
+from webviz.shell.testing.recording import RecordingScene
 
 CONFIG = """\
 fixed_frame: map

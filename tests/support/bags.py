@@ -17,8 +17,8 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from webviz.messages import definition, encode, type_exists, type_hash
-from webviz.testing import SECOND
+from webviz.data.messages import definition, encode, type_exists, type_hash
+from webviz.shell.testing import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
 START_NS = 1_700_000_000 * SECOND

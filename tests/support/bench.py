@@ -9,15 +9,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from webviz.commands import Command
-from webviz.config import Config, Item, Settings
-from webviz.frame_loop.loop import FrameLoop
-from webviz.frame_loop.viewing import Cameras, NoCameras
-from webviz.messages import encode
-from webviz.state import State
-from webviz.testing.messages import header
-from webviz.testing.recording import RecordingScene
-from webviz.testing.source import HandFedSource
+from webviz.data.messages import encode
+from webviz.engine.commands import Command
+from webviz.engine.loop import FrameLoop
+from webviz.engine.state import State
+from webviz.engine.viewing import Cameras, NoCameras
+from webviz.files.config import Config, Item, Settings
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.source import HandFedSource
 
 
 class Bench:

@@ -13,8 +13,8 @@ import numpy as np
 import PIL.Image
 from program import Program
 
-from webviz.pictures.browser import Page, launched
-from webviz.testing.comparing import store
+from webviz.shell.pictures.browser import Page, launched
+from webviz.shell.testing.comparing import store
 
 PATH = Path(__file__).parents[1] / "pictures/demo.png"
 WIDTH, HEIGHT = 1280, 800

@@ -14,10 +14,10 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from webviz.messages import encode
-from webviz.ros.types import message_class
-from webviz.testing.messages import header
-from webviz.testing.source import SECOND
+from webviz.data.messages import encode
+from webviz.edges.ros.types import message_class
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import SECOND
 
 TF = "tf2_msgs/msg/TFMessage"
 SCAN = "sensor_msgs/msg/LaserScan"

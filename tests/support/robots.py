@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import webviz_urdf
-from webviz.testing import Shown
+from webviz.shell.testing import Shown
 from webviz_urdf import load_file
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo/robot.urdf"

@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from webviz.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
+from webviz.api.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
 
 METERS = st.floats(-1000, 1000).map(lambda value: round(value, 6))
 ANGLES = st.floats(-3.14, 3.14).map(lambda value: round(value, 6))

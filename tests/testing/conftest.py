@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from webviz import Topic
-from webviz.testing import Stage
+from webviz.shell.testing import Stage
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.tf import TF

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from webviz import Display, Level, Topic
-from webviz.testing import LiveViewer
-from webviz.testing.domain import isolated_domain
+from webviz.shell.testing import LiveViewer
+from webviz.shell.testing.domain import isolated_domain
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.path import Path
 

@@ -12,12 +12,12 @@ import numpy as np
 import psutil
 import pytest
 
-from webviz.pictures.browser import BrowserDied, NoBrowser
-from webviz.testing import TOLERANCE, Stage, share_of_difference
-from webviz.testing.comparing import load, masked, store
-from webviz.testing.darkroom import Darkroom
-from webviz.testing.pictures import Album
-from webviz.views import Orbit
+from webviz.api.views import Orbit
+from webviz.shell.pictures.browser import BrowserDied, NoBrowser
+from webviz.shell.testing import TOLERANCE, Stage, share_of_difference
+from webviz.shell.testing.comparing import load, masked, store
+from webviz.shell.testing.darkroom import Darkroom
+from webviz.shell.testing.pictures import Album
 
 VIEW = Orbit(distance=7.0)
 

@@ -121,7 +121,7 @@ def test_who_does_not_use_it_does_not_pay_for_it(tmp_path: Path) -> None:
         "import sys\n"
         "def test_nothing():\n"
         "    heavy = {'viser', 'rclpy', 'playwright', 'PIL', 'rosbags', 'trimesh', 'ruamel'}\n"
-        "    assert 'webviz.pytest_plugin' in sys.modules\n"
+        "    assert 'webviz.shell.pytest_plugin' in sys.modules\n"
         "    assert heavy & sys.modules.keys() == set()\n"
     )
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from webviz import Level
-from webviz.frame_loop.requests import Refused
-from webviz.testing import SECOND, Stage
+from webviz.engine.requests import Refused
+from webviz.shell.testing import SECOND, Stage
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.odometry import Odometry

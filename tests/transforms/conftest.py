@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import TransformBuffer
+from webviz.data.transforms import TransformBuffer
 
 S = 1_000_000_000
 

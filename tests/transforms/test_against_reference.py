@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from webviz.transforms import TransformBuffer, TransformException, many_frames, many_stamps
+from webviz.data.transforms import TransformBuffer, TransformException, many_frames, many_stamps
 
 UNKNOWN = None
 

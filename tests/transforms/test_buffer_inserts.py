@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import (
+from webviz.data.transforms import (
     ConnectivityException,
     LookupException,
     NoDataForExtrapolationException,

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from webviz.transforms import (
+from webviz.data.transforms import (
     BackwardExtrapolationException,
     ConnectivityException,
     ExtrapolationException,
@@ -18,7 +18,7 @@ from webviz.transforms import (
     TransformBuffer,
     TransformException,
 )
-from webviz.transforms.errors import format_stamp
+from webviz.data.transforms.errors import format_stamp
 
 S = 1_000_000_000
 UNIT = (0.0, 0.0, 0.0, 1.0)

@@ -5,13 +5,13 @@ import random
 
 import pytest
 
-from webviz.transforms.cache import MAX_SAMPLES, StaticCache, TimeCache
-from webviz.transforms.errors import (
+from webviz.data.transforms.cache import MAX_SAMPLES, StaticCache, TimeCache
+from webviz.data.transforms.errors import (
     BackwardExtrapolationException,
     ForwardExtrapolationException,
     NoDataForExtrapolationException,
 )
-from webviz.transforms.geometry import Pose, interpolate
+from webviz.data.transforms.geometry import Pose, interpolate
 
 FAR = 10**18
 

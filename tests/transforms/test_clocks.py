@@ -2,8 +2,8 @@
 
 import pytest
 
-from webviz.transforms import TransformBuffer
-from webviz.transforms.clocks import clock_problem
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.clocks import clock_problem
 
 S = 1_000_000_000
 NOW = 1_700_000_000 * S

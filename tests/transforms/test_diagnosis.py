@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import FrameReport, TransformBuffer, diagnose, tree_text
+from webviz.data.transforms import FrameReport, TransformBuffer, diagnose, tree_text
 
 S = 1_000_000_000
 Put = Callable[..., bool]

@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import pytest
 
-from webviz.transforms import Explanation, Kind, TransformBuffer, explain
-from webviz.transforms.reasons import in_words
+from webviz.data.transforms import Explanation, Kind, TransformBuffer, explain
+from webviz.data.transforms.reasons import in_words
 
 S = 1_000_000_000
 Put = Callable[..., bool]

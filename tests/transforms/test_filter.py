@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import Kind, MessageFilter, TransformBuffer
+from webviz.data.transforms import Kind, MessageFilter, TransformBuffer
 
 S = 1_000_000_000
 Put = Callable[..., bool]

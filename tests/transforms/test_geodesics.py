@@ -8,15 +8,15 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.transforms import Transform, TransformBuffer
-from webviz.transforms.arrays import (
+from webviz.data.transforms import Transform, TransformBuffer
+from webviz.data.transforms.arrays import (
     canonical_many,
     compose_many,
     inverse_many,
     to_pairs,
     to_rows,
 )
-from webviz.transforms.geometry import canonical, compose, inverse
+from webviz.data.transforms.geometry import canonical, compose, inverse
 
 S = 1_000_000_000
 coordinate = st.floats(-1000.0, 1000.0)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import (
+from webviz.data.transforms import (
     InvalidArgumentException,
     LookupException,
     NoDataForExtrapolationException,

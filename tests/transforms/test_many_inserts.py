@@ -6,8 +6,8 @@ import random
 import numpy as np
 import pytest
 
-from webviz.transforms import TransformBuffer
-from webviz.transforms.cache import TimeCache
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.cache import TimeCache
 
 S = 1_000_000_000
 Row = tuple[str, str, int, list[float]]

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from webviz.transforms import TransformBuffer
-from webviz.transforms.publishers import Contest
-from webviz.transforms.quarrels import quarrels
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.publishers import Contest
+from webviz.data.transforms.quarrels import quarrels
 
 S = 1_000_000_000
 Put = Callable[..., bool]

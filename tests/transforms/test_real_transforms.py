@@ -11,7 +11,7 @@ from rosbags.typesys import Stores, get_typestore
 from scipy import ndimage, optimize
 from scipy.spatial.transform import Rotation, Slerp
 
-from webviz.transforms import TransformBuffer, diagnose, tree_text
+from webviz.data.transforms import TransformBuffer, diagnose, tree_text
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
 TURTLEBOT = DATA / "bags" / "macfirst_floor_take_2"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import Resolver, Robot, load_robot
 
 CUBE_DAE = """<?xml version="1.0"?>

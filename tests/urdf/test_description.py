@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from webviz.nodes import Mesh
+from webviz.api.nodes import Mesh
 from webviz_urdf import Resolver, RobotDescriptionError, load_file, load_robot
 
 BOX = "<geometry><box size='1 2 3'/></geometry>"

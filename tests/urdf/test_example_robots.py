@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import RobotDescriptionError, compose, inertia_box, load_file, mass_sphere
 from webviz_urdf.kinematics import rotation_matrix
 

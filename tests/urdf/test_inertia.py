@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.nodes import Pose
+from webviz.api.nodes import Pose
 from webviz_urdf import Inertial, Link, inertia_box, mass_sphere
 
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.nodes import Pose
+from webviz.api.nodes import Pose
 from webviz_urdf import Resolver, Robot, compose, load_robot
 
 angle = st.floats(-10, 10)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PIL import Image
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 
 BOX = "<geometry><box size='1 1 1'/></geometry>"
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)

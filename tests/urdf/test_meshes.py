@@ -13,7 +13,7 @@ from PIL import Image
 from trimesh.exchange.ply import export_ply
 from trimesh.visual import ColorVisuals
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import Resolver, build, load_robot, meshes
 
 URDF_BLUE = "<material name='b'><color rgba='0 0 1 1'/></material>"

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from views import FLAT_VIEWS, FPS_VIEWS, ORBITS, PITCHES
 
-from webviz.nodes import Pose
-from webviz.views import (
+from webviz.api.nodes import Pose
+from webviz.api.views import (
     FIELD_OF_VIEW,
     FIXED_FRAME,
     FPS,

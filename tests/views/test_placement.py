@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from views import VIEWS
 
-from webviz.views import (
+from webviz.api.views import (
     FPS,
     Camera,
     Orbit,

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import yourdfpy
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import primitives
 from webviz_urdf.description import Description, pose_of
 from webviz_urdf.dress import Dresser

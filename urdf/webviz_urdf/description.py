@@ -10,9 +10,10 @@ import yourdfpy
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 from trimesh.transformations import quaternion_from_matrix
 
-from webviz.nodes import Pose
+from webviz.api.nodes import Pose
 from webviz_urdf.document import parse_document
-from webviz_urdf.robot import JOINT_TYPES, Joint, Mimic, Missing, RobotDescriptionError
+from webviz_urdf.joints import JOINT_TYPES, Joint, Mimic
+from webviz_urdf.robot import Missing, RobotDescriptionError
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from webviz.nodes import Glb, Mesh
+from webviz.api.nodes import Glb, Mesh
 from webviz_urdf.glb import OPAQUE, Part, Surface, write_glb
 from webviz_urdf.materials import Material
 from webviz_urdf.resolve import ResolveError, Resolver

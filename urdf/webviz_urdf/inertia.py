@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.nodes import Mesh, Rgb
+from webviz.api.nodes import Mesh, Rgb
 from webviz_urdf import primitives
 from webviz_urdf.glb import Part
 from webviz_urdf.kinematics import rotation_matrix

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.nodes import Pose
-
-if TYPE_CHECKING:
-    from webviz_urdf.robot import Joint
+from webviz.api.nodes import Pose
+from webviz_urdf.joints import Joint
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]

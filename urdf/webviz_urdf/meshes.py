@@ -11,7 +11,7 @@ import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
-from webviz.nodes import U8
+from webviz.api.nodes import U8
 from webviz_urdf.dae import without_broken_materials
 from webviz_urdf.files import read_file
 from webviz_urdf.glb import Part, Surface

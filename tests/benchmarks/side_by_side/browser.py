@@ -22,7 +22,7 @@ from side_by_side.log import Sighting
 from side_by_side.marks import CYCLE
 from side_by_side.scenes import SCENES
 from side_by_side.systems.registry import SYSTEMS
-from webviz.pictures.browser import launched
+from webviz.shell.pictures.browser import launched
 
 WIDTH, HEIGHT = 640, 480
 WATCH = """() => {

@@ -19,7 +19,7 @@ from side_by_side.log import Log
 from side_by_side.scenes import Scene
 from side_by_side.systems.registry import System
 from side_by_side.watchers import Watcher
-from webviz.testing.domain import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 SETTLE_S = 1.5
 """From the last change of the load to the first second that counts."""

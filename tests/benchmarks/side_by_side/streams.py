@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from side_by_side import strip
 from side_by_side.marks import Lane
-from webviz.messages import encode
+from webviz.data.messages import encode
 
 STAMP = struct.Struct("<iI")
 # Values that no message has otherwise, found in its bytes to know where to write.

@@ -1,0 +1,127 @@
+"""From the ranges of a laser scan to points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Frames, Sample
+from webviz.data import messages
+from webviz_displays.point_cloud2.decimation import evenly
+from webviz_displays.shared.geometry import FARTHEST, is_drawable, matrices, w_first
+
+F64 = NDArray[np.float64]
+
+MOST_ANGLE = 1000.0
+"""Radians; float32 resolves 0.003 degrees there, and no laser turns so often."""
+
+MOST_BEAMS = 100_000
+"""Drawn of one scan, twenty times as many as any laser has; they take 25 ms of the frame loop."""
+
+
+@dataclass(frozen=True)
+class Hits:
+    """The beams of a scan that hit something.
+
+    Args:
+        beams: int (N,), index of each in the message.
+        xyz: float64 (N, 3), metres in the frame of the scan.
+        total: beams of the message.
+        dropped: how many of the others for which reason; those without any are left out.
+    """
+
+    beams: NDArray[np.intp]
+    xyz: F64
+    total: int
+    dropped: dict[str, int]
+
+    def sentence(self) -> str:
+        """What is shown of what was received."""
+        text = f"Showing {len(self.beams)} of {self.total} points"
+        if not self.dropped:
+            return text + "."
+        reasons = ", ".join(f"{count} {reason}" for reason, count in self.dropped.items())
+        return f"{text}; dropped {self.total - len(self.beams)}: {reasons}."
+
+
+def fault(scan: messages.LaserScan) -> str:
+    """Why no beam of a scan has a place, "" if they have; a sentence."""
+    if not len(scan.ranges):
+        return "The scan has no ranges."
+    for name in ("angle_min", "angle_increment", "range_min", "range_max"):
+        if np.isnan(value := getattr(scan, name)) or (name.startswith("angle") and np.isinf(value)):
+            return f"{name} is {value}: the publisher must set it to a number."
+    for name, most in (("angle_min", MOST_ANGLE), ("angle_increment", math.tau)):
+        if abs(value := getattr(scan, name)) > most:
+            return f"{name} is {value:g} rad; expected a number from {-most:g} to {most:g}."
+    if scan.range_max <= scan.range_min:
+        return (
+            f"range_max ({scan.range_max:g} m) is not greater than range_min "
+            f"({scan.range_min:g} m), so no range is valid."
+        )
+    return ""
+
+
+def project(scan: messages.LaserScan) -> Hits:
+    """The points of a scan without `fault`, as seen from where it was at its stamp.
+
+    The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
+    beam i points at angle_min + i * angle_increment from x towards y.
+    """
+    ranges = scan.ranges.astype(np.float64)
+    nan, infinite = np.isnan(ranges), np.isinf(ranges)
+    rest = ~(nan | infinite)
+    near = rest & (ranges < scan.range_min)
+    far = rest & (ranges >= min(scan.range_max, FARTHEST))
+    beams = np.flatnonzero(rest & ~near & ~far)
+    over = max(len(beams) - MOST_BEAMS, 0)
+    if over:
+        beams = beams[evenly(len(beams), MOST_BEAMS)]
+    angles = scan.angle_min + beams * scan.angle_increment
+    hits = ranges[beams]
+    xyz = np.stack((hits * np.cos(angles), hits * np.sin(angles), np.zeros(len(hits))), axis=1)
+    counts = {
+        "NaN": nan,
+        "infinite": infinite,
+        f"nearer than range_min ({scan.range_min:g} m)": near,
+        f"not nearer than range_max ({scan.range_max:g} m)": far,
+    }
+    dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
+    if over:
+        dropped[f"over the limit of {MOST_BEAMS}"] = over
+    return Hits(beams, xyz, len(ranges), dropped)
+
+
+def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
+    """The points as they would be, had all beams been shot at the stamp of the scan.
+
+    Each beam is placed in the fixed frame with the transform at its own time, stamp +
+    i * time_increment. Where there is none, the one of the nearest beam that has one is used.
+
+    Args:
+        hits: of the scan in `sample`.
+        sample: of a LaserScan with a stamp.
+        frames: knows the fixed frame and the transforms.
+
+    Returns:
+        Points float64 (N, 3) in the frame of the scan at its stamp, and the number of beams
+        without a transform of their own.
+    """
+    ahead_ns = np.round(hits.beams * (sample.message.time_increment * 1e9)).astype(np.int64)
+    positions, rotations, known = frames.buffer.lookup_many(
+        frames.fixed_frame, sample.frame, sample.stamp_ns + ahead_ns
+    )
+    known &= is_drawable(positions)
+    missing = int(len(known) - known.sum())
+    if missing == len(known):
+        return hits.xyz, missing
+    if missing:
+        has = np.flatnonzero(known)
+        middles = (has[1:] + has[:-1] + 1) // 2
+        nearest = has[np.searchsorted(middles, np.arange(len(known)), side="right")]
+        positions, rotations = positions[nearest], rotations[nearest]
+    fixed = np.einsum("nij,nj->ni", matrices(w_first(rotations)), hits.xyz) + positions
+    return (fixed - sample.pose.position) @ matrices(sample.pose.wxyz), missing

@@ -1,0 +1,130 @@
+"""The LaserScan display."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic
+from webviz.data import messages
+from webviz_displays.laser_scan import beams
+from webviz_displays.shared.geometry import conjugate, coordinate
+from webviz_displays.shared.points_display import PointsDisplay
+
+F64 = NDArray[np.float64]
+U8 = NDArray[np.uint8]
+
+LONG_SCAN_S = 1.0
+"""A scan that takes longer is probably a wrong time_increment (RViz's limit)."""
+
+_ENDLESS_SCAN_S = 3600.0
+"""What takes longer is no scan, and its stamps may overflow."""
+
+
+class LaserScan(PointsDisplay):
+    """Points where a planar laser scanner hit something."""
+
+    rviz = "rviz_default_plugins/LaserScan"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/LaserScan"), Prop(help="Topic of the scans.")
+    ] = Topic("/scan")
+    color_transformer: Annotated[
+        Literal["Intensity", "AxisColor", "FlatColor"], Prop(help="What colours mean.")
+    ] = "Intensity"
+    channel_name: Annotated[
+        Literal["intensity", "range", "x", "y", "z"],
+        Prop(
+            when=("color_transformer", "Intensity"),
+            help="The number that is coloured; x, y and z are in the fixed frame.",
+        ),
+    ] = "intensity"
+    deskew: Annotated[
+        Literal["De-skewed", "As measured"],
+        Prop(
+            rviz="De-skew",
+            help="Place each beam where the laser was at its time, or all at the stamp.",
+        ),
+    ] = "De-skewed"
+
+    def duration_ns(self, message: messages.LaserScan) -> int:
+        """De-skewing needs transforms up to the last beam."""
+        duration = (len(message.ranges) - 1) * message.time_increment
+        if self.deskew == "As measured" or not 0 < duration <= LONG_SCAN_S:
+            return 0
+        return round(duration * 1e9)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """One scan, in the frame of the laser at the stamp."""
+        scan: messages.LaserScan = sample.message
+        if problem := beams.fault(scan):
+            ctx.error("Points", problem)
+            return
+        hits = beams.project(scan)
+        say = ctx.ok if len(hits.beams) else ctx.warn
+        say("Points", hits.sentence())
+        if self.alpha == 0:
+            ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}")
+            return
+        if scan.angle_increment == 0 and hits.total > 1:
+            ctx.warn("Angles", "angle_increment is 0: all beams lie on one line.")
+        xyz = self._place(hits, sample, ctx)
+        colors = self._colors(scan, hits, xyz, sample, ctx)
+        # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
+        self.draw_points(xyz, colors, ctx, ctx, conjugate(sample.pose.wxyz))
+
+    def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
+        """The points in the frame of the laser at the stamp."""
+        scan: messages.LaserScan = sample.message
+        duration = (hits.total - 1) * scan.time_increment
+        if not abs(duration) < _ENDLESS_SCAN_S:
+            ctx.warn("Scan Time", f"time_increment is {scan.time_increment}; it is taken as 0.")
+            return hits.xyz
+        if duration > LONG_SCAN_S:
+            ctx.warn(
+                "Scan Time",
+                f"The scan takes {duration:.3g} s by its time_increment of "
+                f"{scan.time_increment:g} s, which is rather long: is it in seconds?",
+            )
+        if self.deskew == "As measured" or not duration or not sample.stamp_ns:
+            return hits.xyz
+        xyz, missing = beams.deskew(hits, sample, ctx.frames)
+        if missing:
+            ctx.warn(
+                "De-skew",
+                f"{missing} of {len(xyz)} beams have no transform at their time; "
+                "they are drawn with that of the nearest beam which has.",
+            )
+        return xyz
+
+    def _colors(
+        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+    ) -> U8 | Rgb:
+        """A colour for each point (N, 3), or one for all."""
+        if self.color_transformer == "FlatColor":
+            return self.color
+        if self.color_transformer == "AxisColor":
+            return self.axis_colors(xyz, Pose(), sample.pose)
+        return self.intensity_colors(self._channel(scan, hits, xyz, sample, ctx))
+
+    def _channel(
+        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+    ) -> F64:
+        """The numbers (N,) that are coloured."""
+        if self.channel_name in ("x", "y", "z"):
+            return coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
+        if self.channel_name == "intensity":
+            count = len(scan.intensities)
+            if count == hits.total:
+                return scan.intensities[hits.beams].astype(np.float64)
+            if count:
+                ctx.warn(
+                    "Intensity",
+                    f"The scan has {count} intensities for {hits.total} ranges; "
+                    "the points are coloured by range.",
+                )
+            else:
+                ctx.ok("Intensity", "The scan has no intensities; it is coloured by range.")
+        return scan.ranges[hits.beams].astype(np.float64)

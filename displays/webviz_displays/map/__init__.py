@@ -1,0 +1,5 @@
+"""Occupancy grids: maps and costmaps."""
+
+from webviz_displays.map.display import Map
+
+__all__ = ["Map"]

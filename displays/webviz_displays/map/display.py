@@ -1,0 +1,204 @@
+"""Occupancy grids: maps and costmaps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic, compose
+from webviz_displays.map.palettes import lookup_table
+from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated
+
+OPAQUE = 0.9998
+"""An alpha from here on counts as 1, as in RViz."""
+
+BEHIND = 100_000
+"""Layers that `draw_behind` lowers a map by: more than there are displays."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What turns the cells of a tile into a picture.
+
+    Args:
+        table: RGBA by cell value, uint8 (256, 4).
+        resolution: metres per cell.
+        layer: of the picture.
+    """
+
+    table: NDArray[np.uint8]
+    resolution: float
+    layer: int
+
+    def is_like(self, other: Look | None) -> bool:
+        """Whether equal cells look alike; tables are kept, so the same one is the same object."""
+        return (
+            other is not None
+            and self.table is other.table
+            and (self.resolution, self.layer) == (other.resolution, other.layer)
+        )
+
+
+@dataclass(frozen=True)
+class Folded:
+    """A map with all its updates.
+
+    Args:
+        grid: the last map that could be drawn, if any.
+        stamp_ns: of that map.
+        fault: what is wrong with a map that came after it.
+        updates: how many changed the grid.
+        update_fault: what is wrong with the last update.
+    """
+
+    grid: TiledGrid | None
+    stamp_ns: int = 0
+    fault: str = ""
+    updates: int = 0
+    update_fault: str = ""
+
+
+class Map(Display):
+    """An occupancy grid as a flat picture: free, occupied and unknown cells.
+
+    A map that cannot be drawn is an error, and the one before it stays: a robot that drives by it
+    is still seen on it.
+    """
+
+    rviz = "rviz_default_plugins/Map"
+
+    topic: Annotated[Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Whole maps.")] = Topic(
+        "/map"
+    )
+    update_topic: Annotated[
+        Topic,
+        Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
+        Prop(help="Rectangles of cells that change the map; empty is the map's topic + _updates."),
+    ] = Topic()
+    alpha: Annotated[
+        float,
+        Prop(ge=0, le=1, widget="slider", help="Opacity of the map, 0 is invisible."),
+    ] = 0.7
+    color_scheme: Annotated[
+        Literal["map", "costmap", "raw"],
+        Prop(
+            help="map: white free, black occupied. costmap: blue to red with cyan and magenta at "
+            "99 and 100. raw: the value as grey."
+        ),
+    ] = "map"
+    draw_behind: Annotated[
+        bool, Prop(help="Lie behind all other maps, wherever it is in the list.")
+    ] = False
+    use_timestamp: Annotated[
+        bool,
+        Prop(help="Stay where the map's frame was at its stamp, instead of following the frame."),
+    ] = False
+    binary_representation: Annotated[
+        bool,
+        Prop(rviz="Binary representation", help="Two colours only, split at the threshold."),
+    ] = False
+    binary_threshold: Annotated[
+        int,
+        Prop(
+            ge=0,
+            le=100,
+            rviz="Binary threshold",
+            when=("binary_representation", True),
+            help="Cells of this value and above count as occupied.",
+        ),
+    ] = 100
+
+    def waits(self, name: str) -> bool:
+        """A map that follows its frame needs no transform at its stamp, often long ago."""
+        return self.use_timestamp and name == "topic"
+
+    def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
+        """Take a new map, or change the one there is."""
+        grid = state.grid if state else None
+        if name == "topic":
+            try:
+                return Folded(tiled(sample.message, sample.frame, grid), sample.stamp_ns)
+            except GridFault as fault:
+                return replace(state or Folded(None), fault=str(fault))
+        if state is None or grid is None or state.fault:
+            return state  # an update says nothing without the map it changes
+        try:
+            grid = updated(grid, sample.message, sample.frame)
+        except GridFault as fault:
+            return replace(state, update_fault=str(fault))
+        return replace(state, grid=grid, updates=state.updates + 1, update_fault="")
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw the tiles; those whose cells and colours did not change keep their nodes."""
+        if not samples:
+            ctx.warn("Map", "No map received.")
+            return
+        folded: Folded = samples[-1].message
+        grid = folded.grid
+        if grid is None:
+            ctx.error("Map", folded.fault)
+            return
+        threshold = self.binary_threshold if self.binary_representation else None
+        alpha = 1.0 if self.alpha >= OPAQUE else self.alpha
+        look = Look(
+            lookup_table(self.color_scheme, alpha, threshold),
+            grid.resolution,
+            ctx.order - (BEHIND if self.draw_behind else 0),
+        )
+        images = _images(grid, look, ctx.state)
+        outer, frame = Pose(), grid.frame
+        if self.use_timestamp and folded.stamp_ns:
+            if at_stamp := self._pose_at_stamp(grid.frame, folded.stamp_ns, ctx):
+                outer, frame = at_stamp, None
+            else:
+                reason = ctx.frames.why_not(grid.frame, folded.stamp_ns)
+                ctx.warn("Transform", f"{reason} Until then the map follows its frame.")
+        group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
+        for (row, column), image in images.items():
+            corner = (column * grid.resolution, row * grid.resolution, 0.0)
+            group.add(f"tile {row} {column}", image, Pose(corner))
+        self._report(folded, grid, ctx)
+
+    def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
+        """Where the frame was at the stamp; remembered, as transforms are kept for seconds only."""
+        key = (ctx.frames.fixed_frame, frame, stamp_ns)
+        if pose := ctx.frames.at(frame, stamp_ns):
+            ctx.state["pose at stamp"] = (key, pose)
+        known, pose = ctx.state.get("pose at stamp", (None, None))
+        return pose if known == key else None
+
+    def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
+        size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
+        if folded.fault:
+            ctx.error("Map", f"{folded.fault} The map before it is still shown.")
+        elif self.alpha == 0:
+            ctx.warn("Map", f"{size}, invisible: alpha is 0.")
+        else:
+            ctx.ok("Map", f"{size} in frame '{grid.frame}'.")
+        if folded.update_fault:
+            ctx.error("Update", folded.update_fault)
+        elif folded.updates:
+            count = f"{folded.updates} update{'s' if folded.updates > 1 else ''}"
+            ctx.ok("Update", f"{count} since the last whole map.")
+
+
+def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, Image]:
+    """A node for each tile, those of the call before where nothing changed."""
+    before: dict[Corner, tuple[NDArray[np.int8], Image]] = {}
+    if look.is_like(state.get("look")):
+        before = state["tiles"]
+    tiles = {}
+    for corner, cells in grid.tiles.items():
+        old = before.get(corner)
+        if old is None or old[0] is not cells:
+            rows, columns = cells.shape
+            width, height = columns * grid.resolution, rows * grid.resolution
+            image = Image(cells.view(np.uint8), width, height, look.layer, look.table)
+            old = (cells, image)
+        tiles[corner] = old
+    state["look"], state["tiles"] = look, tiles
+    return {corner: image for corner, (_, image) in tiles.items()}

@@ -1,0 +1,96 @@
+"""Covariances as translucent solids and wedges."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Group, Mesh
+from webviz_displays.odometry.covariance import (
+    Covariances,
+    Placed,
+    ellipses,
+    ellipsoids,
+    tip_discs,
+    wedges,
+)
+from webviz_displays.shared.pose_properties import OrientationCovariance, PositionCovariance
+from webviz_displays.shared.shapes import WEDGE, copies
+
+F64 = NDArray[np.float64]
+
+THICKNESS = 1e-3
+"""Of ellipses and discs, metres, as in RViz."""
+
+_RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+
+
+def add_positions(
+    group: Group, look: PositionCovariance, given: Covariances, positions: F64, frames: F64
+) -> None:
+    """Draw ellipses and ellipsoids around N positions.
+
+    Args:
+        group: where to draw.
+        look: properties.
+        given: in the axes of `frames`.
+        positions: (N, 3), metres.
+        frames: (N, 3, 3), rotations.
+    """
+    flat = ellipses(given, positions, frames, look.scale)
+    full = ellipsoids(given, positions, frames, look.scale)
+    if len(flat.centers):
+        scales, wxyzs = _turned(flat)
+        scales[:, 2] = THICKNESS
+        group.instances("ellipses", "cylinder", flat.centers, scales, look.color, wxyzs, look.alpha)
+    if len(full.centers):
+        scales, wxyzs = _turned(full)
+        group.instances("ellipsoids", "sphere", full.centers, scales, look.color, wxyzs, look.alpha)
+
+
+def add_orientations(
+    group: Group, look: OrientationCovariance, given: Covariances, positions: F64, axes: F64
+) -> None:
+    """Draw wedges and discs at N poses.
+
+    As in RViz each disc has the colour of the axis whose tip it surrounds; yaw alone is blue.
+
+    Args:
+        group: where to draw.
+        look: properties.
+        given: covariances of rotations about `axes`.
+        positions: (N, 3), metres.
+        axes: (N, 3, 3), rotations.
+    """
+    colors = (look.color,) * 3 if look.color_style == "Unique" else _RGB
+    yaws = wedges(given, positions, axes, look.scale, look.offset)
+    if len(yaws.centers):
+        group.add("wedges", Mesh(*copies(WEDGE, *yaws), colors[2], look.alpha))
+    discs = [tip_discs(given, positions, axes, look.scale, look.offset, i) for i in (0, 1, 2)]
+    placed = Placed(*map(np.concatenate, zip(*discs, strict=True)))
+    if len(placed.centers):
+        scales, wxyzs = _turned(placed)
+        scales[:, 2] = THICKNESS
+        each = np.repeat(np.array(colors, np.uint8), len(discs[0].centers), axis=0)
+        group.instances("discs", "cylinder", placed.centers, scales, each, wxyzs, look.alpha)
+
+
+def _turned(placed: Placed) -> tuple[F64, F64]:
+    """Diameters (N, 3) along the axes of shapes of radius 1, and the turns (N, 4) of these axes.
+
+    The columns of the frames are orthogonal, none is zero. Where they are left-handed the last one
+    is reversed: all these shapes are symmetric. The quaternion of a rotation matrix is the
+    eigenvector to the largest eigenvalue of a symmetric matrix of its entries (I. Bar-Itzhack,
+    "New method for extracting the quaternion from a rotation matrix", JGCD 23(6), 2000).
+    """
+    lengths = np.linalg.norm(placed.frames, axis=1)
+    m = placed.frames / lengths[:, None, :]
+    m[:, :, 2] *= np.sign(np.linalg.det(m))[:, None]
+    lower = np.zeros((len(m), 4, 4))
+    xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
+    lower[:, 0, 0], lower[:, 1, 1] = xx + yy + zz, xx - yy - zz
+    lower[:, 2, 2], lower[:, 3, 3] = yy - xx - zz, zz - xx - yy
+    lower[:, 1, 0], lower[:, 2, 1] = m[:, 2, 1] - m[:, 1, 2], m[:, 1, 0] + m[:, 0, 1]
+    lower[:, 2, 0], lower[:, 3, 1] = m[:, 0, 2] - m[:, 2, 0], m[:, 2, 0] + m[:, 0, 2]
+    lower[:, 3, 0], lower[:, 3, 2] = m[:, 1, 0] - m[:, 0, 1], m[:, 2, 1] + m[:, 1, 2]
+    return 2 * lengths, np.linalg.eigh(lower)[1][:, :, 3]

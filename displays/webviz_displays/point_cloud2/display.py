@@ -1,0 +1,188 @@
+"""The PointCloud2 display."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic, compose
+from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
+from webviz_displays.point_cloud2.cloud_colors import (
+    automatic,
+    packed_colors,
+    picked,
+    separate_colors,
+)
+from webviz_displays.point_cloud2.decimation import Rows, evenly, one_per_voxel
+from webviz_displays.shared.colors import faded
+from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
+
+U8 = NDArray[np.uint8]
+F32 = NDArray[np.float32]
+
+DOTS_LIMIT = 50_000
+"""Dots of the style Points are lines to the browser, which is slow with more of them."""
+
+WHITE = (255, 255, 255)
+
+
+class PointCloud2(PointsDisplay):
+    """Points of a 3D sensor or of a map."""
+
+    rviz = "rviz_default_plugins/PointCloud2"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/PointCloud2"), Prop(help="Topic of the clouds.")
+    ] = Topic("/points")
+    color_transformer: Annotated[
+        Literal["Auto", "Intensity", "AxisColor", "FlatColor", "RGB8", "RGBF32"],
+        Prop(
+            help="What colours mean; Auto takes rgb or rgba if the cloud has one, else intensity, "
+            "else r, g and b, else the axis."
+        ),
+    ] = "Auto"
+    channel_name: Annotated[
+        str,
+        Prop(
+            when=BY_INTENSITY,
+            help="The field that is coloured, any of the cloud's.",
+        ),
+    ] = "intensity"
+    max_points: Annotated[
+        int,
+        Prop(
+            ge=0,
+            help="Of more points so many are shown, evenly picked; 0 shows all. Clouds that stay "
+            "for the decay time share them. A browser needs 15 bytes for each.",
+        ),
+    ] = 300_000
+    voxel_size: Annotated[
+        float,
+        Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all."),
+    ] = 0.0
+
+    def depends(self, ctx: Context) -> int:
+        """How many clouds share max_points: a power of two, so that it seldom changes."""
+        clouds: dict[int, int] = ctx.state.setdefault("clouds", {})
+        oldest = ctx.frames.now_ns - round(self.decay_time * 1e9)
+        for number in [number for number, received_ns in clouds.items() if received_ns < oldest]:
+            del clouds[number]
+        shares = ctx.state.get("shares", 1) if self.decay_time else 1
+        count = len(clouds) + 1 if self.decay_time else 1  # one is about to come
+        if count > shares or count < shares // 4:
+            shares = 1 << (count - 1).bit_length()
+        ctx.state["shares"] = shares
+        return shares
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """One cloud, in the frame of the sensor at the stamp."""
+        ctx.state["clouds"][sample.number] = sample.received_ns
+        try:
+            cloud = Cloud(sample.message)
+            xyz, origin = cloud.positions()
+        except CloudError as error:
+            ctx.error("Points", str(error))
+            return
+        if cloud.remark:
+            ctx.warn("Data", cloud.remark)
+        rows, sentence = self._select(xyz, ctx.state["shares"])
+        xyz = picked(xyz, rows)
+        own = Pose(origin)
+        fixed = compose(sample.pose, own) if any(origin) else sample.pose
+        try:
+            colors, opacities = self._colors(cloud, rows, xyz, own, fixed, ctx)
+        except CloudError as error:
+            ctx.warn("Colors", f"{error} The points are white.")
+            colors, opacities = WHITE, None
+        if opacities is not None and opacities.min(initial=255) < 255:
+            seen = opacities > 0
+            xyz = xyz[seen]
+            colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
+            if hidden := len(seen) - len(xyz):
+                sentence += f" {spaced(hidden)} of them are invisible: their alpha in rgba is 0."
+        (ctx.ok if len(xyz) else ctx.warn)("Points", sentence)
+        if self.alpha == 0:
+            ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
+            return
+        group = ctx.follow(None, offset=fixed) if any(origin) else ctx
+        self.draw_points(xyz, colors, group, ctx)  # as in RViz, boxes turn with the sensor
+
+    def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
+        """Which points to show, None for all, and a sentence about it.
+
+        Args:
+            xyz: all points of a cloud.
+            shares: so many clouds share what may be shown.
+        """
+        total = len(xyz)
+        if not total:
+            return None, "The cloud is empty: width x height is 0."
+        reasons: list[str] = []
+
+        def left(before: int, rows: Rows | None, reason: str) -> int:
+            after = before if rows is None else len(rows)
+            if after < before:
+                reasons.append(f"{spaced(before - after)} {reason}")
+            return after
+
+        rows = drawable(xyz)
+        count = left(total, rows, "not finite or farther than 1e9 m")
+        if self.voxel_size:
+            kept = one_per_voxel(picked(xyz, rows), self.voxel_size)
+            rows = kept if rows is None else rows[kept]
+            count = left(count, rows, f"in voxels of {self.voxel_size:g} m that show another")
+        name, limit = "max_points", self.max_points or total * shares
+        if self.style == "Points" and limit > DOTS_LIMIT:
+            name, limit = "the limit of the style Points", DOTS_LIMIT
+        if count > max(limit // shares, 1):
+            kept = evenly(count, max(limit // shares, 1))
+            rows = kept if rows is None else rows[kept]
+            many = f" for {shares} clouds" if shares > 1 else ""
+            count = left(count, rows, f"over {name}, {spaced(limit)}{many}")
+        sentence = f"Showing {spaced(count)} of {spaced(total)} points"
+        if reasons:
+            sentence += f"; left out: {', '.join(reasons)}"
+        return rows, f"{sentence}."
+
+    def _colors(
+        self,
+        cloud: Cloud,
+        rows: Rows | None,
+        xyz: F32,
+        own: Pose,
+        fixed: Pose,
+        ctx: Context,
+    ) -> tuple[U8 | Rgb, U8 | None]:
+        """Colours of points and, if the cloud has them, opacities from 0 to 255."""
+        transformer = self.color_transformer
+        if transformer == "Auto":
+            transformer = automatic(cloud.names)
+        match transformer:
+            case "RGB8":
+                colors, opacities = packed_colors(cloud, rows)
+            case "RGBF32":
+                colors, opacities = separate_colors(cloud, rows), None
+            case "AxisColor":
+                colors, opacities = self.axis_colors(xyz, own, fixed), None
+            case "Intensity":
+                values = picked(self._channel(cloud), rows)
+                colors, opacities = self.intensity_colors(values), None
+            case _:
+                return self.color, None
+        if self.color_transformer == "Auto":
+            ctx.ok("Colors", f"{transformer}, by the fields: {cloud.fields}.")
+        return colors, opacities
+
+    def _channel(self, cloud: Cloud) -> NDArray[Any]:
+        """The numbers (N,) that are coloured; as in RViz "intensities" stands in."""
+        name = self.channel_name
+        if name == "intensity" and name not in cloud.names and "intensities" in cloud.names:
+            name = "intensities"
+        return cloud.values(name)
+
+
+def spaced(count: int) -> str:
+    """A number with spaces between thousands."""
+    return f"{count:,}".replace(",", " ")

@@ -1,0 +1,229 @@
+"""A robot as its description says, where its transforms say."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Literal
+
+import msgspec
+
+from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
+from webviz.data.transforms.reasons import distinct
+from webviz_displays.robot_model.loading import load, progress, request_file
+from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, Paint, parts_of
+from webviz_displays.robot_model.statuses import (
+    NAMED,
+    report_joint,
+    report_link,
+    report_places,
+    report_robot,
+    report_strangers,
+    why_lost,
+)
+from webviz_displays.shared.trails import Trails
+from webviz_urdf import Request, Robot, RobotDescriptionError
+
+SECOND = 1_000_000_000
+
+
+class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What to show of the links' inertial properties."""
+
+    mass: Annotated[bool, Prop(help="A ball of lead of each link's mass.")] = False
+    inertia: Annotated[bool, Prop(help="The box that has each link's moments of inertia.")] = False
+
+
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """A loaded robot.
+
+    Args:
+        robot: without collision shapes.
+        full: with them, None while nobody wants them or they are being loaded.
+        prefix: of frame ids.
+        shown: links that are switched on.
+    """
+
+    robot: Robot
+    full: Robot | None
+    prefix: str
+    shown: tuple[str, ...]
+
+    def frame(self, link: str) -> str:
+        """The frame id of a link."""
+        return self.prefix + link
+
+    def lost(self, frames: Frames) -> list[str]:
+        """Links that should be drawn and have no transform."""
+        latest, prefix = frames.latest, self.prefix
+        return [link for link in self.shown if latest(prefix + link) is None]
+
+
+class RobotModel(Display):
+    """A robot's links, placed by the transforms between their frames."""
+
+    rviz = "rviz_default_plugins/RobotModel"
+
+    description_topic: Annotated[
+        Topic,
+        Input("std_msgs/msg/String", latched=True, optional=True),
+        Prop(when=("description_source", "Topic"), help="Where the robot's URDF is published."),
+    ] = Topic("/robot_description")
+    description_source: Annotated[
+        Literal["Topic", "File"], Prop(help="Whether the robot's URDF comes by topic or by file.")
+    ] = "Topic"
+    description_file: Annotated[
+        str,
+        Prop(
+            when=("description_source", "File"),
+            help="A URDF file, or a xacro file, on the machine webviz runs on.",
+        ),
+    ] = ""
+    package_paths: Annotated[
+        list[str],
+        Prop(
+            help="Folders with ROS packages, in which meshes are searched before those on "
+            "AMENT_PREFIX_PATH. Files outside packages need --mesh-root."
+        ),
+    ] = msgspec.field(default_factory=list)
+    visual_enabled: Annotated[bool, Prop(help="Draw the links' visual shapes.")] = True
+    collision_enabled: Annotated[bool, Prop(help="Draw the links' collision shapes.")] = False
+    mass_properties: Annotated[MassProperties, Prop(help="Draw masses and inertias.")] = (
+        MassProperties()
+    )
+    update_interval: Annotated[
+        float, Prop(ge=0, unit="s", help="Least time between moves; 0 is as often as possible.")
+    ] = 0.0
+    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")] = 1.0
+    tf_prefix: Annotated[
+        str,
+        Prop(rviz="TF Prefix", help="The robot's frames are named prefix/link, as in a namespace."),
+    ] = ""
+    all_links_enabled: Annotated[
+        bool,
+        Prop(rviz="Links/All Links Enabled", help="Draw the links without settings of their own."),
+    ] = True
+    links: Annotated[dict[str, LinkSettings], Prop(help="Settings of single links, by name.")] = (
+        msgspec.field(default_factory=dict)
+    )
+    joints: Annotated[
+        dict[str, JointSettings], Prop(help="Settings of single joints, by name.")
+    ] = msgspec.field(default_factory=dict)
+
+    def listens(self, name: str) -> bool:
+        """A description from a file needs no topic."""
+        return self.description_source == "Topic"
+
+    def depends(self, ctx: Context) -> object:
+        """How far loading is, and which links are lost; those turn grey.
+
+        Which were lost when it was drawn counts too: a robot just loaded has never been asked.
+        """
+        model: _Model | None = ctx.state.get("model")
+        loading = [progress(loading) for loading in ctx.state.get("loading", {}).values()]
+        return loading, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw the robot there is; each link moves with its frame."""
+        model = ctx.state["model"] = self._model(samples, ctx)
+        if model is None:
+            return
+        report_robot(model.robot, model.full, ctx)
+        if not (self.visual_enabled or self.collision_enabled):
+            ctx.warn("Shapes", "Neither visual nor collision shapes are switched on.")
+        report_strangers("Link", list(self.links), list(model.robot.links), ctx)
+        report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)
+        for name in [joint for joint in self.joints if joint in model.robot.joints][:NAMED]:
+            report_joint(model.robot.joints[name], ctx)
+        paint: Paint = ctx.state.setdefault("paint", Paint())
+        paint.begin()
+        lost = ctx.state["grey"] = set(model.lost(ctx.frames))
+        for part in parts_of(model.robot, model.full, self._choices(), paint):
+            group = ctx.follow(
+                model.frame(part.link), keep_last=True, interval_s=self.update_interval
+            )
+            group.add(part.key, paint(part.node, grey=part.link in lost), part.pose)
+
+    def tick(self, ctx: Context) -> None:
+        """Say where links are, and draw their trails."""
+        model: _Model | None = ctx.state.get("model")
+        if model is None:
+            return
+        lost = model.lost(ctx.frames)
+        report_places(len(model.shown), lost, self._reasons(model, lost, ctx), ctx)
+        chosen = {link: self.links[link] for link in model.shown if link in self.links}
+        for link in [link for link, chosen in chosen.items() if chosen.show_axes][:NAMED]:
+            if pose := ctx.frames.latest(model.frame(link)):
+                report_link(link, pose, ctx)
+        self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
+
+    def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
+        """Why the first lost links are; the texts hold times, so they are renewed every second."""
+        moment = (lost, ctx.frames.now_ns // SECOND)
+        known, reasons = ctx.state.get("reasons", (None, {}))
+        if known != moment:
+            reasons = distinct(
+                lost,
+                lambda link: why_lost(model.robot, link, ctx.frames.explain(model.frame(link))),
+                NAMED,
+            )
+            ctx.state["reasons"] = (moment, reasons)
+        return reasons
+
+    def _draw_trails(self, model: _Model, links: list[str], ctx: Context) -> None:
+        fixed, trails = ctx.state.get("trails", ("", None))
+        if fixed != ctx.frames.fixed_frame or trails is None:
+            trails = Trails()
+            ctx.state["trails"] = (ctx.frames.fixed_frame, trails)
+        poses = {link: ctx.frames.latest(model.frame(link)) for link in links}
+        trails.update({link: pose and pose.position for link, pose in poses.items()})
+        trails.draw(ctx)
+
+    def _choices(self) -> Choices:
+        return Choices(
+            self.visual_enabled,
+            self.collision_enabled,
+            self.mass_properties.mass,
+            self.mass_properties.inertia,
+            self.alpha,
+            self.links,
+            self.joints,
+            self.all_links_enabled,
+        )
+
+    def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
+        """The robot as described; until a new one is loaded, the one there was."""
+        before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
+        request = self._request(samples, ctx)
+        if request is None:
+            return None
+        try:
+            robot = load(request, before, ctx)
+            full = None
+            if self.collision_enabled:
+                full = load(replace(request, collisions=True), before, ctx)
+        except RobotDescriptionError as error:
+            ctx.error("URDF", str(error))
+            return None
+        old: _Model | None = ctx.state.get("model")
+        if robot is None:
+            if old is None:
+                return None
+            robot, full = old.robot, old.full
+        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
+        choices = self._choices()
+        shown = tuple(link for link in robot.links if choices.of(link).enabled)
+        return _Model(robot, full, prefix, shown)
+
+    def _request(self, samples: Sequence[Sample], ctx: Context) -> Request | None:
+        paths = tuple(self.package_paths)
+        if self.description_source == "File":
+            if self.description_file:
+                return request_file(self.description_file, paths)
+            ctx.warn("URDF", "No description file is chosen.")
+            return None
+        if samples:
+            return Request(text=samples[-1].message.data, package_paths=paths)
+        ctx.warn("URDF", f"No robot description yet on {self.description_topic.name}.")
+        return None

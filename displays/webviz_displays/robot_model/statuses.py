@@ -1,0 +1,129 @@
+"""What there is to say about a robot; all lists are bounded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from webviz import Context, Pose
+from webviz.data.transforms import Explanation, Kind
+from webviz_urdf import Joint, Missing, Robot
+
+NAMED = 5
+"""Missing meshes, warnings and links that are named; the rest is counted."""
+
+
+def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
+    """Say what was read and what is missing.
+
+    Args:
+        robot: as loaded.
+        full: with its collision shapes, if they are wanted and loaded.
+        ctx: where to say it.
+    """
+    missing = [m for m in (full or robot).missing if full or m.kind == "visual"]
+    drawn = sum(len(link.visuals) for link in robot.links.values())
+    total = drawn + sum(m.kind == "visual" for m in missing)
+    text = f"'{robot.name}': {count(len(robot.links), 'link')}, {drawn} of {total} visuals loaded."
+    (ctx.ok if total else ctx.warn)("URDF", text)
+    if missing:
+        ctx.error("Meshes", f"{count(len(missing), 'shape')} missing. {_listed(missing)}")
+    if robot.warnings:
+        rest = len(robot.warnings) - NAMED
+        more = (f"And {rest} more.",) if rest > 0 else ()
+        ctx.warn("URDF warnings", " ".join((*robot.warnings[:NAMED], *more)))
+
+
+def report_strangers(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
+    """Say which settings are for links or joints that the robot does not have."""
+    strangers = sorted(set(chosen) - set(known))
+    if strangers:
+        ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names(strangers)}.")
+
+
+def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
+    """Why a link has no pose, as far as the description of its robot tells more than `reason`."""
+    joint = next((joint for joint in robot.joints.values() if joint.child == link), None)
+    if reason.kind != Kind.UNKNOWN_FRAME or joint is None:
+        return reason
+    if joint.type == "fixed":
+        return replace(
+            reason,
+            sentence=f"No transform to '{link}' has arrived. Start robot_state_publisher with this "
+            "description.",
+            cause="fixed joints",
+        )
+    return replace(
+        reason,
+        sentence=f"No transform to '{link}' has arrived: the state of its joint '{joint.name}' is "
+        "probably not published. Start the driver or joint_state_publisher, which publish "
+        "/joint_states.",
+        cause="moving joints",
+    )
+
+
+def report_places(
+    total: int, lost: Sequence[str], reasons: Mapping[str, str], ctx: Context
+) -> None:
+    """Say which links have no transform.
+
+    Args:
+        total: links that should be drawn.
+        lost: names of those without a transform.
+        reasons: why, by the first link that has each reason.
+        ctx: where to say it.
+    """
+    if not lost:
+        ctx.ok("Links", f"{count(total, 'link')} placed by transforms.")
+        return
+    ctx.error(
+        "Links",
+        f"{len(lost)} of {count(total, 'link')} without a transform: {names(lost)}. "
+        "What was seen before is grey where it was.",
+    )
+    for link, reason in reasons.items():
+        ctx.error(f"Link {link}", reason)
+
+
+def report_link(link: str, pose: Pose, ctx: Context) -> None:
+    """Say where a link is in the fixed frame."""
+    x, y, z = pose.position
+    qw, qx, qy, qz = pose.wxyz
+    ctx.ok(
+        f"Link {link}",
+        f"Position ({x:.3f}, {y:.3f}, {z:.3f}) m, "
+        f"orientation x, y, z, w ({qx:.4f}, {qy:.4f}, {qz:.4f}, {qw:.4f}).",
+    )
+
+
+def report_joint(joint: Joint, ctx: Context) -> None:
+    """Say how a joint moves."""
+    unit = "m" if joint.type == "prismatic" else "rad"
+    text = f"{joint.type.capitalize()}, from {joint.parent} to {joint.child}"
+    if joint.limits:
+        text += f", {joint.limits[0]:g} to {joint.limits[1]:g} {unit}"
+    if has_axis(joint):
+        text += ", axis ({:g}, {:g}, {:g})".format(*joint.axis)
+    ctx.ok(f"Joint {joint.name}", text + ".")
+
+
+def has_axis(joint: Joint) -> bool:
+    """Whether a joint moves along or about an axis."""
+    return joint.type not in ("fixed", "floating") and any(joint.axis)
+
+
+def names(listed: Sequence[str]) -> str:
+    """The first of some names, and how many more there are."""
+    rest = len(listed) - NAMED
+    return ", ".join(listed[:NAMED]) + (f" and {rest} more" if rest > 0 else "")
+
+
+def count(number: int, noun: str) -> str:
+    """A number of things."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _listed(missing: Sequence[Missing]) -> str:
+    first = " ".join(f"Link '{m.link}': {m.reason}" for m in missing[:NAMED])
+    rest = len(missing) - NAMED
+    return f"{first} And {rest} more." if rest > 0 else first

@@ -1,0 +1,212 @@
+"""What displays of points have in common: RViz's properties of point clouds."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from webviz import Color, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
+from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, ramp
+from webviz_displays.shared.geometry import coordinate
+
+U8 = NDArray[np.uint8]
+F32 = NDArray[np.float32]
+
+BY_INTENSITY = ("color_transformer", ("Intensity", "Auto"))
+"""Where options of this transformer have a meaning: Auto, where there is one, may choose it."""
+BY_AXIS = ("color_transformer", ("AxisColor", "Auto"))
+"""Where options of this transformer have a meaning."""
+
+SOLIDS_LIMIT = 20_000
+"""A browser without a GPU draws so many lit solids once a second."""
+
+_SOLIDS: dict[str, Literal["box", "sphere"]] = {"Boxes": "box", "Spheres": "sphere"}
+
+_AXES = ("X", "Y", "Z")
+_LEAST_SPAN = 1e-3
+"""Metres; a planar scan differs by rounding only, which is no reason for a rainbow."""
+
+# A pixel dot is a line so short that only its width is seen; along no axis, so that it is hardly
+# ever seen from its end, where it would vanish.
+_DOT = np.array((0.2e-3, 0.3e-3, 0.9e-3), np.float32)
+
+
+class ValueBounds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Between which coordinates the rainbow of AxisColor lies."""
+
+    value: Annotated[bool, Prop(help="Take the bounds from the points of each message.")] = True
+    min_value: Annotated[
+        float, Prop(unit="m", when=("value", False), help="Coordinate that is drawn red.")
+    ] = -10.0
+    max_value: Annotated[
+        float, Prop(unit="m", when=("value", False), help="Coordinate that is drawn magenta.")
+    ] = 10.0
+
+
+class PointsDisplay(Display):
+    """Base of displays that draw points and colour them by a value."""
+
+    topic: Annotated[Topic, Prop(help="Topic of the points.")] = Topic()
+    style: Annotated[
+        Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"],
+        Prop(help="Shape of each point; Squares and Tiles face the camera here."),
+    ] = "Flat Squares"
+    size: Annotated[
+        float, Prop(gt=0, unit="m", rviz="Size (m)", help="Edge or diameter of each point.")
+    ] = 0.01
+    size_pixels: Annotated[
+        float,
+        Prop(
+            ge=1,
+            unit="px",
+            rviz="Size (Pixels)",
+            when=("style", "Points"),
+            help="Diameter on the screen.",
+        ),
+    ] = 3.0
+    alpha: Annotated[
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Opacity of Spheres and Boxes; what is flat is opaque in the browser and fades "
+            "towards dark grey.",
+        ),
+    ] = 1.0
+    decay_time: Annotated[
+        float, Prop(ge=0, unit="s", help="How long messages stay; 0 shows the newest only.")
+    ] = 0.0
+    # Each display has its own choices of these two.
+    color_transformer: Any = "Intensity"
+    channel_name: Any = "intensity"
+    use_rainbow: Annotated[
+        bool,
+        Prop(
+            rviz="Use rainbow",
+            when=BY_INTENSITY,
+            help="Red is low and magenta high, instead of a ramp between two colours.",
+        ),
+    ] = True
+    invert_rainbow: Annotated[
+        bool, Prop(when=("use_rainbow", True), help="Magenta is low and red high.")
+    ] = False
+    min_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
+    ] = (0, 0, 0)
+    max_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
+    ] = (255, 255, 255)
+    autocompute_intensity_bounds: Annotated[
+        bool,
+        Prop(
+            when=BY_INTENSITY,
+            help="Take the lowest and highest value from each message.",
+        ),
+    ] = True
+    min_intensity: Annotated[
+        float,
+        Prop(when=("autocompute_intensity_bounds", False), help="Value with the lowest colour."),
+    ] = 0.0
+    max_intensity: Annotated[
+        float,
+        Prop(when=("autocompute_intensity_bounds", False), help="Value with the highest colour."),
+    ] = 4096.0
+    color: Annotated[
+        Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
+    ] = (255, 255, 255)
+    axis: Annotated[
+        Literal["X", "Y", "Z"],
+        Prop(when=BY_AXIS, help="The coordinate that is coloured."),
+    ] = "Z"
+    autocompute_value_bounds: Annotated[
+        ValueBounds,
+        Prop(when=BY_AXIS, help="Bounds of the coordinate."),
+    ] = ValueBounds()
+    use_fixed_frame: Annotated[
+        bool,
+        Prop(
+            when=BY_AXIS,
+            help="Colour by coordinates in the fixed frame instead of the sensor's.",
+        ),
+    ] = True
+
+    def history(self) -> Keep:
+        """What came within the decay time, or the newest."""
+        return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
+
+    def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose) -> U8:
+        """Colours (N, 3) of AxisColor.
+
+        Args:
+            xyz: points (N, 3).
+            own: of their coordinates in the frame of the sensor.
+            fixed: of their coordinates in the fixed frame.
+        """
+        pose = fixed if self.use_fixed_frame else own
+        values = coordinate(pose, xyz, _AXES.index(self.axis))
+        limits = self.autocompute_value_bounds
+        low, high = limits.min_value, limits.max_value
+        if limits.value:
+            low, high = bounds(values, _LEAST_SPAN)
+        return ramp(values, low, high)
+
+    def intensity_colors(self, values: ArrayLike) -> U8:
+        """Colours (N, 3) of Intensity for values (N,)."""
+        low, high = self.min_intensity, self.max_intensity
+        if self.autocompute_intensity_bounds:
+            low, high = bounds(values)
+        stops = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
+        return ramp(
+            values, low, high, stops if self.use_rainbow else (self.min_color, self.max_color)
+        )
+
+    def draw_points(
+        self,
+        xyz: NDArray[Any],
+        colors: U8 | Rgb,
+        group: Group,
+        ctx: Context,
+        box_wxyz: ArrayLike | None = None,
+    ) -> None:
+        """Draw points in the chosen style.
+
+        Args:
+            xyz: points (N, 3), finite.
+            colors: (N, 3) or one for all.
+            group: where to draw.
+            ctx: collects statuses.
+            box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
+                their sides along its axes.
+        """
+        too_many = len(xyz) > SOLIDS_LIMIT
+        if self.style in _SOLIDS and not too_many:
+            wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
+            shape = _SOLIDS[self.style]
+            # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
+            is_data = shape == "sphere"
+            group.instances("solids", shape, xyz, self.size, colors, wxyzs, self.alpha, is_data)
+            return
+        if isinstance(colors, tuple):
+            colors = faded_color(colors, self.alpha)
+        else:
+            colors = faded(colors, self.alpha)
+        if self.style == "Points":
+            dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
+            if not isinstance(colors, tuple):
+                colors = np.repeat(colors[:, None], 2, axis=1)
+            group.lines("points", dots, colors, self.size_pixels)
+            return
+        outline = "circle" if self.style == "Spheres" else "square"
+        if self.style in _SOLIDS:
+            ctx.ok(
+                "Style",
+                f"{self.style} are drawn as {'discs' if outline == 'circle' else 'squares'} that "
+                f"face the camera: a browser can light {SOLIDS_LIMIT} solids, not {len(xyz)}.",
+            )
+        elif self.style != "Flat Squares":
+            ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
+        group.points("points", xyz, colors, self.size, outline)

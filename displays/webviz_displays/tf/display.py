@@ -1,0 +1,191 @@
+"""The tree of coordinate frames."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Display, FramePoses, Pose, Prop, Sample
+from webviz.data.transforms.reasons import distinct
+from webviz_displays.tf.fading import Ages, fade
+from webviz_displays.tf.frame_filter import FrameFilter, compiled, parent_indices
+from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
+from webviz_displays.tf.frame_readout import readout
+from webviz_displays.tf.frame_tree import outline
+
+SECOND = 1_000_000_000
+
+NAMED = 5
+"""Reasons of lost frames that get a status of their own."""
+
+READ_OUT = 20
+"""Frames that say where they are."""
+
+
+@dataclass(eq=False)
+class _Known:
+    """What is derived from the names and the shape of the tree."""
+
+    version: tuple[int, int]
+    selected: NDArray[np.bool_]
+    parents: NDArray[np.int64]
+    tree: str
+
+
+class TF(Display):
+    """The coordinate frames, their names, and an arrow from each to its parent."""
+
+    rviz = "rviz_default_plugins/TF"
+
+    show_names: Annotated[bool, Prop(help="Write each frame's name below its origin.")] = False
+    show_axes: Annotated[bool, Prop(help="Draw each frame's axes: x red, y green, z blue.")] = True
+    show_arrows: Annotated[bool, Prop(help="Draw an arrow from each frame to its parent.")] = True
+    marker_scale: Annotated[
+        float, Prop(gt=0, help="Size of names, axes and arrows; at 1 an axis is 0.2 m long.")
+    ] = 1.0
+    update_interval: Annotated[
+        float, Prop(ge=0, unit="s", help="Least time between updates; 0 is as often as possible.")
+    ] = 0.0
+    frame_timeout: Annotated[
+        float,
+        Prop(
+            ge=1,
+            unit="s",
+            help="A frame not updated for a third of this time turns grey, then it disappears.",
+        ),
+    ] = 15.0
+    filter_whitelist: Annotated[
+        str,
+        Prop(
+            rviz="Filter (whitelist)",
+            help="Show only frames in whose name this regular expression is found.",
+        ),
+    ] = ""
+    filter_blacklist: Annotated[
+        str,
+        Prop(
+            rviz="Filter (blacklist)",
+            help="Hide frames in whose name this regular expression is found.",
+        ),
+    ] = ""
+    all_enabled: Annotated[
+        bool, Prop(rviz="Frames/All Enabled", help="Show the frames without a switch of their own.")
+    ] = True
+    frames: Annotated[
+        dict[str, bool],
+        Prop(help="Switches of single frames, by name; those switched on say where they are."),
+    ] = msgspec.field(default_factory=dict)
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Properties or the fixed frame changed: derive everything anew."""
+        whitelist = _pattern("Filter (whitelist)", self.filter_whitelist, ctx)
+        blacklist = _pattern("Filter (blacklist)", self.filter_blacklist, ctx)
+        ages = ctx.state.get("ages") if ctx.state.get("fixed") == ctx.frames.fixed_frame else None
+        ctx.state.clear()
+        ctx.state["fixed"] = ctx.frames.fixed_frame
+        ctx.state["ages"] = ages or Ages()
+        ctx.state["filter"] = FrameFilter(whitelist, blacklist, self.frames, self.all_enabled)
+
+    def tick(self, ctx: Context) -> None:
+        """Draw every frame where it is at the latest common time with the fixed frame."""
+        state, now_ns = ctx.state, ctx.frames.now_ns
+        if (last := state.get("last")) and now_ns - last[0] < self.update_interval * SECOND:
+            _, groups, statuses = last
+            ctx.groups.update(groups)
+            ctx.statuses.update(statuses)
+            return
+        poses = ctx.frames.all()
+        if not poses.names:
+            ctx.warn("Frames", "No transforms: nothing has arrived on /tf or /tf_static.")
+            return
+        known = self._known(ctx, poses.names)
+        ages = state["ages"].update(poses.stamps_ns, now_ns)
+        is_young = ages <= self.frame_timeout
+        shown = known.selected & poses.ok & is_young
+        self._draw(shown, poses, known.parents, ages, ctx)
+        self._report(known.selected, shown, poses, ctx)
+        ctx.ok("Tree", f"{known.tree}.")
+        groups = {key: group for key, group in ctx.groups.items() if group is not ctx}
+        state["last"] = (now_ns, groups, dict(ctx.statuses))
+
+    def _known(self, ctx: Context, names: list[str]) -> _Known:
+        known: _Known | None = ctx.state.get("known")
+        version = (ctx.frames.buffer.structure_version, len(names))
+        if known is None or known.version != version:
+            selected = ctx.state["filter"].select(names)
+            parents = parent_indices(ctx.frames, names)
+            known = _Known(version, selected, parents, outline(names, parents))
+            ctx.state["known"] = known
+        return known
+
+    def _draw(
+        self,
+        shown: NDArray[np.bool_],
+        poses: FramePoses,
+        parents: NDArray[np.int64],
+        ages: NDArray[np.float64],
+        ctx: Context,
+    ) -> None:
+        rows = np.flatnonzero(shown)
+        if not len(rows):
+            return
+        # Nodes are float32: far from the origin only what is relative to a near point is exact.
+        near = np.round(poses.positions[rows].mean(axis=0) / 1000.0) * 1000.0
+        x, y, z = near.tolist()
+        group = ctx.follow(None, offset=Pose((x, y, z)), key="near")
+        greyness, opacity = fade(ages[rows], self.frame_timeout)
+        scale = self.marker_scale
+        marks = Marks(poses.positions[rows] - near, greyness, opacity)
+        if self.show_axes:
+            add_axes(group, marks, poses.wxyzs[rows], scale)
+        if self.show_arrows:
+            has_parent = (parents[rows] >= 0) & poses.ok[parents[rows]]
+            tips = poses.positions[parents[rows]] - near
+            add_arrows(group, marks.only(has_parent), tips[has_parent], scale)
+        if self.show_names:
+            add_names(group, marks, tuple(poses.names[row] for row in rows), scale)
+
+    def _report(
+        self,
+        selected: NDArray[np.bool_],
+        shown: NDArray[np.bool_],
+        poses: FramePoses,
+        ctx: Context,
+    ) -> None:
+        lost = np.flatnonzero(selected & ~poses.ok)
+        count, total, wanted = int(shown.sum()), len(poses.names), int(selected.sum())
+        old = wanted - count - len(lost)
+        parts = [f"{count} of {total} frames shown" if count < total else f"{count} frames shown"]
+        if wanted < total:
+            parts.append(f"{total - wanted} switched off or filtered out")
+        if len(lost):
+            parts.append(f"{len(lost)} have no transform to '{ctx.frames.fixed_frame}'")
+        if old:
+            parts.append(f"{old} not updated for more than {self.frame_timeout:g} s")
+        say = ctx.ok if count and not old and not len(lost) else ctx.warn
+        say("Frames", ", ".join(parts) + ".")
+        # Explanations hold times, so they are renewed, but not on every tick.
+        moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
+        if ctx.state.get("moment") != moment:
+            names = sorted(poses.names[place] for place in lost)
+            ctx.state["moment"] = moment
+            ctx.state["reasons"] = distinct(names, ctx.frames.explain, NAMED)
+        for name, reason in ctx.state["reasons"].items():
+            ctx.warn(name, reason)
+        for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:
+            if name not in ctx.statuses and (text := readout(ctx.frames, name)):
+                ctx.ok(name, text)
+
+
+def _pattern(key: str, text: str, ctx: Context) -> re.Pattern[str] | None:
+    try:
+        return compiled(text)
+    except ValueError as error:
+        ctx.error(key, str(error))
+        return None

@@ -1,0 +1,100 @@
+"""How the TF display draws frames. All sizes and colours are RViz's, at a marker scale of 1.
+
+Frames are drawn in at most three batches: fresh, grey and faint. Transparent solids have to be
+sorted by a browser, and made anew for each new opacity, so they are kept apart from the others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Group, Solid
+from webviz_displays.shared.geometry import matrices
+from webviz_displays.shared.rods import Rods, rods
+from webviz_displays.tf.fading import faded
+
+F64 = NDArray[np.float64]
+U8 = NDArray[np.uint8]
+
+AXIS_LENGTH, AXIS_DIAMETER = 0.2, 0.02
+SHAFT_DIAMETER, HEAD_DIAMETER, HEAD_LENGTH = 0.01, 0.04, 0.1
+TEXT_HEIGHT = 0.1
+LEAST_DISTANCE = 0.001
+"""Metres to the parent from which on there is an arrow."""
+
+_AXES = np.array(((255.0, 0.0, 0.0), (0.0, 255.0, 0.0), (0.0, 0.0, 255.0)))
+_ARROW = np.array(((204.0, 204.0, 76.5), (255.0, 25.5, 153.0)))
+"""Shaft and head."""
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """The frames to draw.
+
+    Args:
+        positions: (N, 3), metres.
+        greyness, opacity: (N,), 0 to 1.
+    """
+
+    positions: F64
+    greyness: F64
+    opacity: F64
+
+    def only(self, rows: NDArray[np.bool_]) -> Marks:
+        """Some of them."""
+        return Marks(self.positions[rows], self.greyness[rows], self.opacity[rows])
+
+
+def add_axes(group: Group, marks: Marks, wxyzs: F64, scale: float) -> None:
+    """Axes; a batch of axes has fixed colours, so those of ageing frames are solids."""
+    length, diameter = AXIS_LENGTH * scale, AXIS_DIAMETER * scale
+    fresh = marks.greyness == 0.0
+    if fresh.any():
+        group.axes("axes", marks.positions[fresh], wxyzs[fresh], length, diameter / 2)
+    if fresh.all():
+        return
+    ageing = marks.only(~fresh)
+    tails = np.repeat(ageing.positions, 3, axis=0)
+    ways = length * np.swapaxes(matrices(wxyzs[~fresh]), 1, 2).reshape(-1, 3)
+    colors = faded(_AXES, ageing.greyness).reshape(-1, 3)
+    opacity = np.repeat(ageing.opacity, 3)
+    _add(group, "cylinder", "old axes", rods(tails, tails + ways, diameter), colors, opacity)
+
+
+def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
+    """Arrows to `tips` (N, 3), a shaft of one colour and a head of another."""
+    ways = tips - marks.positions
+    distances = np.linalg.norm(ways, axis=1)
+    far = distances > LEAST_DISTANCE
+    marks, tips, ways, distances = marks.only(far), tips[far], ways[far], distances[far]
+    if not len(tips):
+        return
+    # As in RViz an arrow shorter than a head has a head of that share of its length.
+    full = HEAD_LENGTH * scale
+    lengths = np.minimum(np.where(distances < full, full * distances, full), distances)
+    necks = tips - (lengths / distances)[:, None] * ways
+    shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale)
+    heads = rods(necks, tips, HEAD_DIAMETER * scale)
+    shaft_colors, head_colors = np.moveaxis(faded(_ARROW, marks.greyness), 1, 0)
+    _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity)
+    _add(group, "cone", "heads", heads, head_colors, marks.opacity)
+
+
+def add_names(group: Group, marks: Marks, names: tuple[str, ...], scale: float) -> None:
+    """Names below the origins, wherever one looks from."""
+    group.labels("names", marks.positions, names, TEXT_HEIGHT * scale, below=True)
+
+
+def _add(group: Group, shape: Solid, key: str, solids: Rods, colors: U8, opacity: F64) -> None:
+    """Opaque solids as `key`, transparent ones apart."""
+    faint = opacity < 1.0
+    if not faint.all():
+        positions, scales, wxyzs = (array[~faint] for array in solids)
+        group.instances(key, shape, positions, scales, colors[~faint], wxyzs)
+    if faint.any():
+        positions, scales, wxyzs = (array[faint] for array in solids)
+        each = opacity[faint].astype(np.float32)
+        group.instances(f"faint {key}", shape, positions, scales, colors[faint], wxyzs, each)

@@ -1,0 +1,1 @@
+"""What plug-ins are made of: properties, displays, nodes, samples, statuses, views."""

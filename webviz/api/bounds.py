@@ -1,0 +1,140 @@
+"""How far what is drawn reaches."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Node,
+    Points,
+    Pose,
+)
+
+F64 = NDArray[np.float64]
+
+_GLB_HEADER, _CHUNK_HEADER = 12, 8
+_DEEPEST = 64
+_CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, 8).T
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """A box along the axes.
+
+    Args:
+        low, high: float64 (3,), its corners in metres.
+    """
+
+    low: F64
+    high: F64
+
+    def moved(self, pose: Pose) -> Box:
+        """The box, along the outer axes, around this one at a pose."""
+        corners = np.where(_CORNERS, self.high, self.low) @ _rotation(pose).T + pose.position
+        return Box(corners.min(axis=0), corners.max(axis=0))
+
+
+def bounds(node: Node) -> Box | None:
+    """The box around a node, in its own coordinates; None if there is nothing to see of it."""
+    return _around(_EXTENTS[type(node)](node))
+
+
+def union(boxes: Iterable[Box]) -> Box | None:
+    """The box around several; None if there are none."""
+    boxes = list(boxes)
+    if not boxes:
+        return None
+    low = np.min([box.low for box in boxes], axis=0)
+    return Box(low, np.max([box.high for box in boxes], axis=0))
+
+
+Extents = tuple[Any, Any]
+"""Points (N, 3), and how far each reaches in every direction: a number, (N, 1) or (N, 3)."""
+
+
+def _around(extents: Extents) -> Box | None:
+    points, reach = np.asarray(extents[0], dtype=np.float64).reshape(-1, 3), extents[1]
+    low, high = points - reach, points + reach
+    finite = np.isfinite(low).all(axis=1) & np.isfinite(high).all(axis=1)
+    if not finite.any():
+        return None
+    return Box(low[finite].min(axis=0), high[finite].max(axis=0))
+
+
+def _of_instances(node: Instances) -> Extents:
+    half = np.asarray(node.scales, dtype=np.float64) / 2.0
+    if node.wxyzs is not None:  # turned as it may be, it stays within the ball around it
+        half = np.linalg.norm(half, axis=-1, keepdims=True)
+    return node.positions, half
+
+
+def _of_glb(node: Glb) -> Extents:
+    (length,) = struct.unpack_from("<I", node.data, _GLB_HEADER)
+    start = _GLB_HEADER + _CHUNK_HEADER
+    document = msgspec.json.decode(node.data[start : start + length])
+    scene = document.get("scenes", [{}])[document.get("scene", 0)]
+    corners = list(_corners(document, scene.get("nodes", []), np.eye(4), 0))
+    return np.concatenate(corners) if corners else np.zeros((0, 3)), 0.0
+
+
+def _corners(document: dict[str, Any], nodes: list[int], outer: F64, depth: int) -> Iterator[F64]:
+    """Corners of the boxes of all meshes below some nodes of a glTF, each float64 (8, 3)."""
+    for index in nodes if depth < _DEEPEST else ():
+        node = document["nodes"][index]
+        matrix = outer @ _matrix(node)
+        meshes = [document["meshes"][node["mesh"]]] if "mesh" in node else []
+        for primitive in (each for mesh in meshes for each in mesh["primitives"]):
+            accessor = document["accessors"][primitive["attributes"]["POSITION"]]
+            box = np.where(_CORNERS, accessor["max"], accessor["min"])
+            yield box @ matrix[:3, :3].T + matrix[:3, 3]
+        yield from _corners(document, node.get("children", []), matrix, depth + 1)
+
+
+def _matrix(node: dict[str, Any]) -> F64:
+    """Where a node of a glTF is in its parent, float64 (4, 4)."""
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
+    matrix = np.eye(4)
+    matrix[:3, :3] = _rotation(Pose(wxyz=(w, x, y, z))) * node.get("scale", (1.0, 1.0, 1.0))
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
+
+
+def _rotation(pose: Pose) -> F64:
+    w, x, y, z = pose.wxyz
+    return np.array(
+        (
+            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+        )
+    )
+
+
+_EXTENTS: dict[type, Callable[[Any], Extents]] = {
+    Points: lambda node: (node.xyz, node.size / 2.0),
+    Lines: lambda node: (node.segments, node.width / 2.0 if node.unit == "m" else 0.0),
+    Arrows: lambda node: (node.segments, max(node.shaft_radius, node.head_radius)),
+    Axes: lambda node: (node.positions, node.length),
+    Labels: lambda node: (node.positions, node.height),
+    Mesh: lambda node: (node.vertices, 0.0),
+    Instances: _of_instances,
+    Glb: _of_glb,
+    Image: lambda node: ([(0.0, 0.0, 0.0), (node.width, node.height, 0.0)], 0.0),
+}

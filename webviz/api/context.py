@@ -1,0 +1,263 @@
+"""What a display draws on.
+
+A `Context` is made for one call of a hook and collects what the display says: nodes, where they
+belong, statuses. The framework compares that with the call before and changes the scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from webviz.api import nodes
+from webviz.api.frames import Frames, is_placeable
+from webviz.api.nodes import Node, Pose, Rgb, Solid
+from webviz.api.status import Level, Status
+from webviz.data.transforms.geometry import REACH_M
+
+When = Literal["latest", "now"]
+"""The latest common time of a frame and the fixed frame, or the time of the viewer's clock."""
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where a group of nodes is.
+
+    Args:
+        frame: frame id; None is the fixed frame.
+        when: the time at which the transform to the fixed frame is taken.
+        offset: pose of the group in `frame`.
+        keep_last: stay at the last pose while there is no transform, instead of being hidden.
+        interval_s: least time between moves; 0 is on every frame of the loop.
+    """
+
+    frame: str | None = None
+    when: When = "latest"
+    offset: Pose = Pose()
+    keep_last: bool = False
+    interval_s: float = 0.0
+
+
+class Group:
+    """Nodes that move together, each under a key of its own."""
+
+    def __init__(self, placement: Placement) -> None:
+        self.placement = placement
+        self.nodes: dict[str, Node] = {}
+        self.poses: dict[str, Pose] = {}
+
+    def add(self, key: str, node: Node, pose: Pose | None = None) -> None:
+        """Draw a ready-made node, at a pose in the coordinates of the group.
+
+        Raises:
+            TypeError: it is none of the nodes of `webviz.api.nodes`.
+            ValueError: the pose cannot be drawn.
+        """
+        if not isinstance(node, Node):
+            raise TypeError(f"{key!r} is no node: {node!r:.80}")
+        if pose is not None:
+            self.poses[key] = _checked(pose, key)
+        self.nodes[key] = node
+
+    def points(
+        self,
+        key: str,
+        xyz: ArrayLike,
+        colors: ArrayLike | Rgb,
+        size: float,
+        shape: Literal["square", "circle"] = "square",
+    ) -> None:
+        """Draw points; see `webviz.api.nodes.Points`."""
+        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape)
+
+    def lines(
+        self,
+        key: str,
+        segments: ArrayLike,
+        colors: ArrayLike | Rgb,
+        width: float = 1.0,
+        unit: Literal["px", "m"] = "px",
+    ) -> None:
+        """Draw independent segments; see `webviz.api.nodes.Lines`."""
+        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), _colors(colors), width, unit)
+
+    def strip(
+        self,
+        key: str,
+        xyz: ArrayLike,
+        color: Rgb,
+        width: float = 1.0,
+        unit: Literal["px", "m"] = "px",
+    ) -> None:
+        """Draw one line through points, float (N, 3)."""
+        points = _f32(xyz, 3)
+        segments = np.stack([points[:-1], points[1:]], axis=1)
+        self.nodes[key] = nodes.Lines(segments, color, width, unit)
+
+    def arrows(
+        self,
+        key: str,
+        segments: ArrayLike,
+        colors: ArrayLike | Rgb,
+        shaft_radius: float,
+        head_radius: float,
+        head_length: float,
+    ) -> None:
+        """Draw arrows from tails to tips; see `webviz.api.nodes.Arrows`."""
+        self.nodes[key] = nodes.Arrows(
+            _f32(segments, 2, 3), _colors(colors), shaft_radius, head_radius, head_length
+        )
+
+    def axes(
+        self, key: str, positions: ArrayLike, wxyzs: ArrayLike, length: float, radius: float
+    ) -> None:
+        """Draw coordinate axes; see `webviz.api.nodes.Axes`."""
+        self.nodes[key] = nodes.Axes(_f32(positions, 3), _f32(wxyzs, 4), length, radius)
+
+    def labels(
+        self,
+        key: str,
+        positions: ArrayLike,
+        texts: tuple[str, ...],
+        height: float,
+        below: bool = False,
+    ) -> None:
+        """Draw texts; see `webviz.api.nodes.Labels`."""
+        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height, below)
+
+    def instances(
+        self,
+        key: str,
+        shape: Solid,
+        positions: ArrayLike,
+        scales: ArrayLike,
+        colors: ArrayLike | Rgb,
+        wxyzs: ArrayLike | None = None,
+        opacity: float | NDArray[np.float32] = 1.0,
+        is_data: bool = False,
+    ) -> None:
+        """Draw many solids; `scales` may be one size for all. See `webviz.api.nodes.Instances`."""
+        xyz = _f32(positions, 3)
+        sizes = np.ascontiguousarray(np.broadcast_to(np.asarray(scales, np.float32), xyz.shape))
+        turns = None if wxyzs is None else _f32(wxyzs, 4)
+        self.nodes[key] = nodes.Instances(
+            xyz, sizes, _colors(colors), shape, turns, opacity, is_data
+        )
+
+    def image(
+        self,
+        key: str,
+        cells: NDArray[np.uint8],
+        width: float,
+        height: float,
+        layer: int = 0,
+        palette: NDArray[np.uint8] | None = None,
+    ) -> None:
+        """Draw a flat picture; see `webviz.api.nodes.Image`."""
+        self.nodes[key] = nodes.Image(cells, width, height, layer, palette)
+
+
+class Background(Protocol):
+    """Runs slow work beside the frame loop."""
+
+    def __call__(
+        self,
+        key: object,
+        fn: Callable[..., Any],
+        *args: Any,
+        stop: Callable[[], None] | None = None,
+    ) -> Any:
+        """The result of `fn(*args)` if it is there, else None.
+
+        `stop` is called from any thread once the result is not wanted any more, to end `fn`.
+        """
+        ...
+
+
+class Context(Group):
+    """Collects what one call of a hook draws.
+
+    Nodes added to the context itself lie in the frame of the sample at its stamp (`draw`) or in
+    the fixed frame (`draw_all`, `tick`); those of `follow` move with a frame.
+
+    Args:
+        frames: the transforms of this moment; knows the fixed frame and the time.
+        background: see `Background`.
+        state: belongs to the display, for what it must remember between calls.
+        placement: of the context's own nodes.
+        order: place of the display in the list of displays; later ones lie on top.
+    """
+
+    def __init__(
+        self,
+        frames: Frames,
+        background: Background,
+        state: dict[str, Any],
+        placement: Placement = Placement(),
+        order: int = 0,
+    ) -> None:
+        super().__init__(placement)
+        self.order = order
+        self.frames = frames
+        self.background = background
+        self.state = state
+        self.groups: dict[str, Group] = {"": self}
+        self.statuses: dict[str, Status] = {}
+
+    def follow(
+        self,
+        frame: str | None,
+        *,
+        when: When = "latest",
+        offset: Pose = Pose(),
+        keep_last: bool = False,
+        interval_s: float = 0.0,
+        key: str = "",
+    ) -> Group:
+        """A group of nodes that moves with a frame; see `Placement`.
+
+        Args:
+            frame: frame id; None or "" is the fixed frame.
+            when, offset, keep_last, interval_s: see `Placement`.
+            key: tells groups of one frame apart.
+
+        Raises:
+            ValueError: the offset cannot be drawn.
+        """
+        _checked(offset, f"{frame or 'the fixed frame'} {key}".rstrip())
+        placement = Placement(frame or None, when, offset, keep_last, interval_s)
+        return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
+
+    def ok(self, key: str, text: str) -> None:
+        """Say that something is as it should be."""
+        self.statuses[key] = Status(Level.OK, text)
+
+    def warn(self, key: str, text: str) -> None:
+        """Say what is doubtful, and what to do about it."""
+        self.statuses[key] = Status(Level.WARN, text)
+
+    def error(self, key: str, text: str) -> None:
+        """Say what is wrong, and what to do about it."""
+        self.statuses[key] = Status(Level.ERROR, text)
+
+
+def _checked(pose: Pose, what: str) -> Pose:
+    if not is_placeable(pose):
+        x, y, z = pose.position
+        text = f"The position ({x:.3g}, {y:.3g}, {z:.3g}) m or the orientation of {what!r}"
+        raise ValueError(f"{text} is not finite, or farther than {REACH_M:.0e} m.")
+    return pose
+
+
+def _f32(values: ArrayLike, *shape: int) -> NDArray[np.float32]:
+    return np.ascontiguousarray(values, dtype=np.float32).reshape(-1, *shape)
+
+
+def _colors(colors: ArrayLike | Rgb) -> NDArray[np.uint8] | Rgb:
+    if isinstance(colors, tuple) and len(colors) == 3 and all(isinstance(c, int) for c in colors):
+        return colors  # pyright: ignore[reportReturnType]
+    return np.ascontiguousarray(colors, dtype=np.uint8)

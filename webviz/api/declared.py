@@ -1,0 +1,165 @@
+"""What has properties: each is declared once, by a field.
+
+    size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each point.")] = 0.03
+
+That one declaration gives its control in the panel, its key in the config file, its check and its
+place in the docs and in .rviz files. Displays, tools and panels are `Declared`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
+
+import msgspec
+
+Byte = Annotated[int, msgspec.Meta(ge=0, le=255)]
+Color = tuple[Byte, Byte, Byte]
+"""Red, green and blue, 0 to 255."""
+
+
+class Topic(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A topic and how to subscribe to it. In a config file the bare name is enough."""
+
+    name: str = ""
+    reliability: Literal["auto", "reliable", "best_effort"] = "auto"
+    durability: Literal["auto", "volatile", "transient_local"] = "auto"
+    depth: Annotated[int, msgspec.Meta(ge=0)] = 0
+    """0 is what suits the message type."""
+    filter_size: Annotated[int, msgspec.Meta(ge=1)] = 10
+    """Messages that may wait for their transform."""
+
+
+def Prop(
+    *,
+    help: str = "",
+    unit: str = "",
+    rviz: str = "",
+    when: tuple[str, object] | None = None,
+    widget: Literal["", "frame", "slider"] = "",
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+) -> msgspec.Meta:
+    """What is known of a property besides its type and default.
+
+    Args:
+        help: one sentence, the control's tooltip.
+        unit: "m", "s", "px", ...
+        rviz: RViz's name, where it is not the name in snake_case written with spaces.
+        when: (property, value) on which this property has a meaning; several values as a tuple.
+        widget: how to edit it, where the type alone does not tell.
+        gt, ge, lt, le: bounds.
+    """
+    extra = {"unit": unit, "rviz": rviz, "when": when, "widget": widget}
+    extra = {key: value for key, value in extra.items() if value}
+    bounds: dict[str, Any] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
+    return msgspec.Meta(description=help or None, extra=extra, **bounds)
+
+
+class Declared(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False, weakref=True):
+    """Base of all that has properties."""
+
+    rviz: ClassVar[str] = ""
+    """The class of the counterpart in a .rviz file."""
+
+    name: Annotated[str, msgspec.Meta(description="Shown in lists.")] = ""
+
+
+P = TypeVar("P", bound=Declared)
+
+
+def default_name(cls: type[Declared]) -> str:
+    """The name it has when nobody gave it one."""
+    return cls.__name__
+
+
+def make(cls: type[P], values: dict[str, Any]) -> P:
+    """A display, tool or panel from plain values, as a config file has them.
+
+    A topic may be its bare name. A nested setting given in part keeps its own defaults
+    for the rest.
+
+    Raises:
+        msgspec.ValidationError: a value does not fit; the text ends with the path of the value.
+    """
+    defaults = {f.name: f.default for f in msgspec.structs.fields(cls)}
+    merged = {key: _merge(defaults.get(key), value) for key, value in values.items()}
+    declared = msgspec.convert(merged, cls, strict=True)
+    _check_finite(declared, "$")
+    if not declared.name:
+        declared.name = default_name(cls)
+    return declared
+
+
+def set_property(declared: Declared, path: str, value: Any) -> None:
+    """Set one property, nested ones by a dotted path (`topic.depth`).
+
+    Raises:
+        msgspec.ValidationError: the value does not fit; nothing was changed.
+        AttributeError: there is no such property.
+    """
+    head, _, rest = path.partition(".")
+    if head not in declared.__struct_fields__:
+        raise AttributeError(f"{type(declared).__name__} has no property {head!r}")
+    whole = _replaced(getattr(declared, head), rest.split(".") if rest else [], value)
+    checked = make(type(declared), {head: whole})
+    setattr(declared, head, getattr(checked, head))
+
+
+def _replaced(current: Any, path: list[str], value: Any) -> Any:
+    """`current` as plain values, with what lies at a path replaced."""
+    plain = msgspec.to_builtins(current)
+    if not path:
+        return _merge(current, value)
+    inner = plain if isinstance(plain, dict) else {}
+    return {**inner, path[0]: _replaced(inner.get(path[0]), path[1:], value)}
+
+
+def _merge(default: Any, value: Any) -> Any:
+    """`value` as a whole value of the type of `default`, with what it leaves out taken from it."""
+    if isinstance(default, Topic) and isinstance(value, str):
+        value = {"name": value}
+    if isinstance(default, msgspec.Struct) and isinstance(value, dict):
+        whole = {f.name: getattr(default, f.name) for f in msgspec.structs.fields(default)}
+        return msgspec.to_builtins(
+            {**whole, **{key: _merge(whole.get(key), item) for key, item in value.items()}}
+        )
+    if isinstance(value, msgspec.Struct):
+        return msgspec.to_builtins(value)
+    return value
+
+
+def _check_finite(value: Any, path: str) -> None:
+    """YAML can say .inf and .nan, and bounds such as gt=0 let infinity through."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise msgspec.ValidationError(f"Expected a finite number, got {value} - at `{path}`")
+    if isinstance(value, msgspec.Struct):
+        for name in value.__struct_fields__:
+            _check_finite(getattr(value, name), f"{path}.{name}")
+    elif isinstance(value, tuple | list):
+        for index, item in enumerate(value):
+            _check_finite(item, f"{path}[{index}]")
+
+
+def to_values(declared: Declared) -> dict[str, Any]:
+    """The properties that differ from the defaults, as plain values for a config file."""
+    defaults = msgspec.to_builtins(type(declared)(name=default_name(type(declared))))
+    values = _difference(msgspec.to_builtins(declared), defaults)
+    for name, value in values.items():
+        if isinstance(getattr(declared, name), Topic) and set(value) == {"name"}:
+            values[name] = value["name"]
+    return values
+
+
+def _difference(values: dict[str, Any], defaults: dict[str, Any]) -> dict[str, Any]:
+    result = {}
+    for key, value in values.items():
+        default = defaults.get(key)
+        if isinstance(value, dict) and isinstance(default, dict):
+            if difference := _difference(value, default):
+                result[key] = difference
+        elif value != default:
+            result[key] = value
+    return result

@@ -1,0 +1,159 @@
+"""The transforms of one moment, as displays see them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.nodes import Pose
+from webviz.data.transforms import (
+    Explanation,
+    FramesIn,
+    Transform,
+    TransformBuffer,
+    TransformException,
+    explain,
+)
+from webviz.data.transforms.geometry import REACH_M, is_within_reach
+from webviz.data.transforms.geometry import compose as compose_tuples
+
+
+@dataclass(frozen=True)
+class FramePoses:
+    """All frames in the fixed frame, each at its latest common time with it.
+
+    Args:
+        names: frame ids, in order of first mention.
+        positions: float64 (N, 3), metres.
+        wxyzs: float64 (N, 4), unit quaternions.
+        stamps_ns: int64 (N,), the latest common time; 0 where all transforms are static.
+        ok: bool (N,), where there is a pose that can be drawn; the other rows mean nothing.
+    """
+
+    names: list[str]
+    positions: NDArray[np.float64]
+    wxyzs: NDArray[np.float64]
+    stamps_ns: NDArray[np.int64]
+    ok: NDArray[np.bool_]
+
+
+class Frames:
+    """Poses of frames in the fixed frame at one tick of the frame loop; computed once each.
+
+    A frame whose transforms do not compose to a finite pose within `REACH_M` has none.
+
+    Args:
+        buffer: not to be changed while this object is in use.
+        fixed_frame: frame id that everything is drawn in.
+        now_ns: ROS time of the tick.
+    """
+
+    def __init__(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> None:
+        self.buffer = buffer
+        self.fixed_frame = fixed_frame
+        self.now_ns = now_ns
+        self._version = buffer.version
+        self._poses: dict[tuple[str, int], Pose | None] = {}
+        self._all: FramePoses | None = None
+        self._is_all_wanted = False
+
+    def next(self, fixed_frame: str, now_ns: int) -> Frames:
+        """The frames of the next tick; what no transform changed is not computed again."""
+        frames = Frames(self.buffer, fixed_frame, now_ns)
+        frames._is_all_wanted = self._is_all_wanted
+        if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
+            frames._all = self._all
+            frames._poses = {key: pose for key, pose in self._poses.items() if key[1] == 0}
+        return frames
+
+    def prepare(self, names: Iterable[str]) -> None:
+        """Compute the latest poses of many frames in one pass, before they are asked for singly."""
+        missing = [name for name in names if (name, 0) not in self._poses]
+        if not missing:
+            return
+        if self._is_all_wanted:  # in the tick before, so that some of them cost nothing
+            self._is_all_wanted = False  # it is again when somebody else asks
+            poses = self._compute_all()
+            places = {name: place for place, name in enumerate(poses.names)}
+            known = [places[name] for name in missing if name in places]
+            positions, wxyzs, ok = poses.positions[known], poses.wxyzs[known], poses.ok[known]
+            missing = [name for name in missing if name in places]
+        else:
+            some = self.buffer.poses_in(self.fixed_frame, missing)
+            positions, wxyzs, ok = some.translations, np.roll(some.rotations, 1, axis=1), _ok(some)
+        rows = zip(missing, positions.tolist(), wxyzs.tolist(), ok.tolist(), strict=True)
+        for name, position, wxyz, is_ok in rows:
+            self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
+
+    def at(self, frame: str, stamp_ns: int) -> Pose | None:
+        """Pose of a frame at a stamp (0: the latest common time), None if there is none."""
+        key = (frame, stamp_ns)
+        if key not in self._poses:
+            try:
+                pose = to_pose(self.buffer.lookup(self.fixed_frame, frame, stamp_ns))
+                self._poses[key] = pose if is_placeable(pose) else None
+            except TransformException:
+                self._poses[key] = None
+        return self._poses[key]
+
+    def latest(self, frame: str) -> Pose | None:
+        """Pose of a frame at its latest common time with the fixed frame."""
+        return self.at(frame, 0)
+
+    def now(self, frame: str) -> Pose | None:
+        """Pose of a frame now, or at the latest common time if now is not known yet."""
+        return self.at(frame, self.now_ns) or self.at(frame, 0)
+
+    def why_not(self, frame: str, stamp_ns: int = 0) -> str:
+        """Why a frame has no pose, and what to do; a sentence."""
+        return self.explain(frame, stamp_ns).sentence
+
+    def explain(self, frame: str, stamp_ns: int = 0) -> Explanation:
+        """Why a frame has no pose, and what to do."""
+        return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns)
+
+    def all(self) -> FramePoses:
+        """Every frame that was ever mentioned."""
+        self._is_all_wanted = True
+        return self._compute_all()
+
+    def _compute_all(self) -> FramePoses:
+        if self._all is None:
+            poses = self.buffer.poses_in(self.fixed_frame)
+            self._all = FramePoses(
+                poses.frames,
+                poses.translations,
+                np.roll(poses.rotations, 1, axis=1),
+                poses.stamps_ns,
+                _ok(poses),
+            )
+        return self._all
+
+
+def to_pose(transform: Transform) -> Pose:
+    """A transform as the pose of its source frame in its target frame."""
+    x, y, z, w = transform.rotation
+    return Pose(transform.translation, (w, x, y, z))
+
+
+def is_placeable(pose: Pose) -> bool:
+    """Whether something can be drawn at a pose: it is finite and within `REACH_M`."""
+    return is_within_reach(_flat(pose))
+
+
+def compose(a: Pose, b: Pose) -> Pose:
+    """The pose `b`, given in the coordinates of `a`."""
+    x, y, z, qx, qy, qz, qw = compose_tuples(_flat(a), _flat(b))
+    return Pose((x, y, z), (qw, qx, qy, qz))
+
+
+def _ok(poses: FramesIn) -> NDArray[np.bool_]:
+    return poses.ok & (np.abs(poses.translations) <= REACH_M).all(axis=1)
+
+
+def _flat(pose: Pose) -> tuple[float, float, float, float, float, float, float]:
+    w, x, y, z = pose.wxyz
+    return (*pose.position, x, y, z, w)

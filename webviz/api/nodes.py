@@ -1,0 +1,222 @@
+"""What displays draw: plain data that any scene can show.
+
+A node is a frozen description in the coordinates of the frame it is placed in (metres, x forward,
+y left, z up). Displays make nodes, tests read them, `webviz.edges.scene` turns them into messages
+of viser. Arrays belong to the node once it is made: nobody may change them afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+F32 = NDArray[np.float32]
+U8 = NDArray[np.uint8]
+Rgb = tuple[int, int, int]
+Solid = Literal["box", "sphere", "cylinder", "cone"]
+
+_COMPARED = 4096
+"""Rows of arrays that are compared at once."""
+
+
+class _Node:
+    """Equality by content, so that the scene sends only what changed."""
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(
+            same(getattr(self, f.name), getattr(other, f.name))
+            for f in fields(self)  # pyright: ignore[reportArgumentType]
+        )
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType]
+
+
+def same(a: object, b: object) -> bool:
+    """Whether two values are equal; arrays that differ are told apart without reading all."""
+    if a is b:
+        return True
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        parts = (slice(i, i + _COMPARED) for i in range(0, len(a), _COMPARED))
+        return a.shape == b.shape and all(np.array_equal(a[part], b[part]) for part in parts)
+    return not isinstance(a, np.ndarray) and not isinstance(b, np.ndarray) and a == b
+
+
+@dataclass(frozen=True, eq=False)
+class Points(_Node):
+    """Squares or discs that face the camera, unlit and in exact colours.
+
+    Args:
+        xyz: float32 (N, 3), metres; finite.
+        colors: uint8 (N, 3), or one colour for all.
+        size: edge or diameter in metres.
+        shape: outline of each point.
+    """
+
+    xyz: F32
+    colors: U8 | Rgb
+    size: float
+    shape: Literal["square", "circle"] = "square"
+
+
+@dataclass(frozen=True, eq=False)
+class Lines(_Node):
+    """Independent line segments.
+
+    Args:
+        segments: float32 (N, 2, 3), metres; finite.
+        colors: uint8 (N, 2, 3), or one colour for all.
+        width: in `unit`.
+        unit: "px" keeps the width on the screen, "m" in the world.
+    """
+
+    segments: F32
+    colors: U8 | Rgb
+    width: float = 1.0
+    unit: Literal["px", "m"] = "px"
+
+
+@dataclass(frozen=True, eq=False)
+class Arrows(_Node):
+    """Arrows of one thickness.
+
+    Args:
+        segments: float32 (N, 2, 3), tail and tip of each arrow in metres; finite.
+        colors: uint8 (N, 3), or one colour for all.
+        shaft_radius, head_radius, head_length: metres.
+    """
+
+    segments: F32
+    colors: U8 | Rgb
+    shaft_radius: float
+    head_radius: float
+    head_length: float
+
+
+@dataclass(frozen=True, eq=False)
+class Axes(_Node):
+    """Coordinate axes, red x, green y, blue z.
+
+    Args:
+        positions: float32 (N, 3), metres.
+        wxyzs: float32 (N, 4), unit quaternions with w first, as viser has them.
+        length, radius: metres.
+    """
+
+    positions: F32
+    wxyzs: F32
+    length: float
+    radius: float
+
+
+@dataclass(frozen=True, eq=False)
+class Labels(_Node):
+    """Light texts with a dark outline that face the camera.
+
+    Args:
+        positions: float32 (N, 3), metres.
+        texts: one for each position.
+        height: of a line, metres; capitals are 0.6 of it, as in RViz.
+        below: whether they hang below their positions on the screen, instead of around them.
+    """
+
+    positions: F32
+    texts: tuple[str, ...]
+    height: float
+    below: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh(_Node):
+    """A lit triangle mesh of one colour.
+
+    Args:
+        vertices: float32 (N, 3), metres.
+        faces: uint32 (M, 3), counter-clockwise seen from outside.
+        color: of the whole mesh.
+        opacity: 0 to 1.
+    """
+
+    vertices: F32
+    faces: NDArray[np.uint32]
+    color: Rgb
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Instances(_Node):
+    """Many lit solids, drawn as one.
+
+    Opaque ones cost a browser least; opacities are for what seldom changes.
+
+    Args:
+        positions: float32 (N, 3), of the middles, metres.
+        scales: float32 (N, 3), extents along x, y and z, metres; a cylinder or cone stands along z.
+        colors: uint8 (N, 3), or one colour for all.
+        shape: of all of them.
+        wxyzs: float32 (N, 4), unit quaternions with w first; None leaves all unturned.
+        opacity: 0 to 1, float32 (N,) or one for all.
+        is_data: whether the colours are data, so that shading hardly changes them.
+    """
+
+    positions: F32
+    scales: F32
+    colors: U8 | Rgb
+    shape: Solid = "box"
+    wxyzs: F32 | None = None
+    opacity: float | F32 = 1.0
+    is_data: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Glb(_Node):
+    """A binary glTF: a mesh with its own materials and textures."""
+
+    data: bytes
+
+
+@dataclass(frozen=True, eq=False)
+class Image(_Node):
+    """A flat picture in the x-y plane, unlit, with sharp cells (nearest filtering).
+
+    Args:
+        cells: RGBA, uint8 (H, W, 4), or rows of `palette`, uint8 (H, W), which cost a fraction. As
+            in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
+        width, height: extent along x and y in metres; the corner of cell (0, 0) is the origin.
+        layer: of two pictures in one plane, the one of the higher layer lies on top.
+        palette: RGBA, uint8 (256, 4).
+    """
+
+    cells: U8
+    width: float
+    height: float
+    layer: int = 0
+    palette: U8 | None = None
+
+    @property
+    def rgba(self) -> U8:
+        """The colours of all cells, uint8 (H, W, 4)."""
+        return self.cells if self.palette is None else self.palette[self.cells]
+
+
+Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Glb | Image
+
+
+def has_content(node: Node) -> bool:
+    """Whether there is anything to see of a node."""
+    content = getattr(node, fields(node)[0].name)
+    return len(content) > 0
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where something is: `position` x, y, z in metres, `wxyz` a unit quaternion."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)

@@ -1,0 +1,150 @@
+"""Other views of what a view looks at: of another type, from another frame, of a box."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from webviz.api.nodes import Pose
+from webviz.api.views.placement import (
+    FIELD_OF_VIEW,
+    FLAT_FIELD_OF_VIEW,
+    RAISED,
+    STEEPEST,
+    Camera,
+    Vector,
+    camera_of,
+    view_of,
+)
+from webviz.api.views.types import (
+    FPS,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+)
+
+NEAREST = 1e-3
+"""Of the distance that was: from nearer, no direction is left."""
+REACH = 10.0
+"""Metres to what an FPS view looks at where that is not the ground."""
+FARTHEST = 1000.0
+MARGIN = 1.15
+SMALLEST = 0.05
+"""Radius in metres of what a camera comes close to."""
+FLATTER = math.tan(FLAT_FIELD_OF_VIEW / 2.0) / math.tan(FIELD_OF_VIEW / 2.0)
+
+
+@dataclass(frozen=True)
+class Rig:
+    """Where the coordinates of a view lie in the fixed frame: at `origin`, turned by `yaw`."""
+
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    yaw: float = 0.0
+
+    def outward(self, camera: Camera) -> Camera:
+        """A camera of these coordinates in the fixed frame."""
+        origin = np.array(self.origin)
+        return Camera(*(_turned(p, self.yaw) + origin for p in (camera.position, camera.look_at)))
+
+    def inward(self, camera: Camera) -> Camera:
+        """A camera of the fixed frame in these coordinates."""
+        origin = np.array(self.origin)
+        return Camera(*(_turned(p - origin, -self.yaw) for p in (camera.position, camera.look_at)))
+
+
+def rig_of(cls: type[View], pose: Pose | None) -> Rig:
+    """How a view of a type follows its target frame.
+
+    Args:
+        cls: only a ThirdPersonFollower turns with the frame.
+        pose: of the frame in the fixed frame; None where there is none to follow.
+    """
+    if pose is None:
+        return Rig()
+    w, x, y, z = pose.wxyz
+    yaw = math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z))
+    return Rig(pose.position, yaw if cls is ThirdPersonFollower else 0.0)
+
+
+def mimic(
+    view: View, rig: Rig, cls: type[View], frame: str, new_rig: Rig, height_px: float
+) -> View:
+    """A view of another type or target frame that shows the same as nearly as it can."""
+    if type(view) is cls:
+        camera = camera_of(view, height_px)
+        return view_of(cls, frame, new_rig.inward(rig.outward(camera)), height_px)
+    camera = new_rig.inward(rig.outward(_eye(view, height_px)))
+    return _fitted(cls, frame, camera, height_px)
+
+
+def focus(
+    view: View, rig: Rig, low: Vector, high: Vector, width_px: float, height_px: float
+) -> View:
+    """The view from the same direction with a box in its middle, as large as fits.
+
+    Args:
+        view: what is seen now.
+        rig: of its target frame.
+        low, high: corners of the box in the fixed frame, in metres.
+        width_px, height_px: of the picture.
+    """
+    radius = max(float(np.linalg.norm(high - low)) / 2.0, SMALLEST)
+    narrow = math.atan(math.tan(FIELD_OF_VIEW / 2.0) * min(1.0, width_px / height_px))
+    eye = rig.outward(_eye(view, height_px))
+    return _looking(
+        view, rig, eye, (low + high) / 2.0, MARGIN * radius / math.sin(narrow), height_px
+    )
+
+
+def _looking(
+    view: View, rig: Rig, eye: Camera, at: Vector, distance: float, height_px: float
+) -> View:
+    back = (eye.position - eye.look_at) / eye.distance
+    camera = rig.inward(Camera(at + distance * back, at))
+    return _fitted(type(view), view.target_frame, camera, height_px)
+
+
+def _eye(view: View, height_px: float) -> Camera:
+    """A camera with perspective that shows a view or nearly, and looks at what it is about."""
+    camera = camera_of(view, height_px)
+    if isinstance(view, TopDownOrtho):
+        distance = camera.distance * FLATTER
+        yaw = view.angle - math.pi / 2
+        level = math.cos(STEEPEST)
+        back = (level * math.cos(yaw), level * math.sin(yaw), math.sin(STEEPEST))
+        return Camera(camera.look_at + distance * np.array(back), camera.look_at)
+    if isinstance(view, FPS):
+        forward = (camera.look_at - camera.position) / camera.distance
+        reach = -camera.position[2] / forward[2] if abs(forward[2]) > 1e-3 else -1.0
+        reach = reach if 0.0 < reach < FARTHEST else REACH
+        return Camera(camera.position, camera.position + reach * forward)
+    return camera
+
+
+def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
+    """The view of a type that shows what a camera with perspective shows."""
+    back = (eye.position - eye.look_at) / eye.distance
+    if cls is TopDownOrtho:
+        level = math.hypot(back[0], back[1])
+        yaw = math.atan2(back[1], back[0]) if level > 1e-6 else -math.pi / 2
+        scale = height_px / 2.0 / math.tan(FIELD_OF_VIEW / 2.0) / eye.distance
+        x, y = eye.look_at[:2].tolist()
+        flat = TopDownOrtho(scale=min(max(scale, 1e-5), 1e6), angle=yaw + math.pi / 2, x=x, y=y)
+        return view_of(cls, frame, camera_of(flat, height_px), height_px)
+    raised = RAISED * math.hypot(back[0], back[1])
+    if cls is not FPS and cls is not Orbit and back[2] > 0.05 - raised:
+        # Along the line of sight to where the focal point lies on the ground.
+        step = (eye.look_at[2] - raised * eye.distance) / (back[2] + raised)
+        # A camera that stands on the ground would look at itself, from no direction.
+        if NEAREST * eye.distance < eye.distance + step < FARTHEST:
+            eye = Camera(eye.position, eye.look_at - step * back)
+    return view_of(cls, frame, eye, height_px)
+
+
+def _turned(point: Vector, yaw: float) -> Vector:
+    x, y, z = point.tolist()
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return np.array((cos * x - sin * y, sin * x + cos * y, z))

@@ -1,0 +1,136 @@
+"""Where a camera stands for a view, and which view a camera shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from webviz.api.views.types import (
+    FPS,
+    Orbit,
+    TopDownOrtho,
+    View,
+)
+
+FIELD_OF_VIEW = math.pi / 4
+"""Vertical; RViz's, which comes from Ogre."""
+FLAT_FIELD_OF_VIEW = math.radians(1.0)
+"""Of a camera far above, in whose picture without perspective the ground is as large as in its own.
+
+Whoever asks the camera for its field of view and distance then sizes and moves things correctly.
+"""
+RAISED = 0.2
+"""How far XYOrbit is moved along the camera's own up, in distances; RViz's."""
+STEEPEST = 1.5698
+"""Pitch of a camera above its focal point, whose yaw is still known."""
+EYE = 1e-3
+"""Metres from the camera of an FPS view to the point that it is turned about."""
+TILT = 1e-5
+"""Radians that a camera for TopDownOrtho leans, so that its angle is known."""
+DIGITS = 6
+
+Vector = NDArray[np.float64]
+"""float64 (3,), metres."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera that stands upright, in the coordinates of a target frame."""
+
+    position: Vector
+    look_at: Vector
+
+    @property
+    def distance(self) -> float:
+        """From the camera to what it looks at, in metres."""
+        return float(np.linalg.norm(self.position - self.look_at))
+
+
+def camera_of(view: View, height_px: float) -> Camera:
+    """The camera that shows a view in a picture of that height."""
+    if isinstance(view, FPS):
+        position = np.array(view.position)
+        return Camera(position, position - EYE * _direction(view.yaw + math.pi, view.pitch))
+    if isinstance(view, TopDownOrtho):
+        at = np.array((view.x, view.y, 0.0))
+        distance = height_px / view.scale / 2.0 / math.tan(FLAT_FIELD_OF_VIEW / 2.0)
+        return Camera(at + distance * _direction(view.angle - math.pi / 2, math.pi / 2 - TILT), at)
+    at = np.array(view.focal_point)
+    if not isinstance(view, Orbit):
+        at += RAISED * view.distance * _up(view.yaw, view.pitch)
+    return Camera(at + view.distance * _direction(view.yaw, view.pitch), at)
+
+
+def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> View:
+    """The view of a type that a camera shows which was placed for that type.
+
+    The reverse of `camera_of`, rounded to six digits behind the point and kept within what a view
+    may have.
+
+    Args:
+        cls: type of the view.
+        frame: target frame whose coordinates `camera` is in.
+        camera: as `camera_of` placed it, or as somebody moved it since.
+        height_px: of the picture.
+    """
+    offset = camera.position - camera.look_at
+    distance = max(float(np.linalg.norm(offset)), 1e-9)
+    yaw = math.atan2(offset[1], offset[0])
+    pitch = math.asin(min(max(offset[2] / distance, -1.0), 1.0))
+    if issubclass(cls, FPS):
+        return FPS(
+            target_frame=frame,
+            yaw=_rounded(_wrapped(yaw + math.pi)),
+            pitch=_pitch(pitch),
+            position=_point(camera.position),
+        )
+    if issubclass(cls, TopDownOrtho):
+        scale = height_px / 2.0 / math.tan(FLAT_FIELD_OF_VIEW / 2.0) / distance
+        return TopDownOrtho(
+            target_frame=frame,
+            scale=min(max(_rounded(scale), 1e-5), 1e6),
+            angle=_rounded(_wrapped(yaw + math.pi / 2)),
+            x=_rounded(camera.look_at[0]),
+            y=_rounded(camera.look_at[1]),
+        )
+    raised = 0.0 if issubclass(cls, Orbit) else RAISED * distance
+    pitch = _pitch(pitch)
+    return cls(
+        target_frame=frame,
+        distance=min(max(_rounded(distance), 10.0**-DIGITS), 1e6),
+        yaw=_rounded(yaw),
+        pitch=pitch,
+        focal_point=_point(camera.look_at - raised * _up(yaw, pitch)),
+    )
+
+
+def _direction(yaw: float, pitch: float) -> Vector:
+    """Unit vector to a camera from what it looks at."""
+    return np.array(
+        (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
+    )
+
+
+def _up(yaw: float, pitch: float) -> Vector:
+    """Unit vector to the top of the picture, for a camera in that direction."""
+    return _direction(yaw, pitch + math.pi / 2)
+
+
+def _wrapped(angle: float) -> float:
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def _rounded(value: float) -> float:
+    return round(float(value), DIGITS) + 0.0  # no minus zero
+
+
+def _pitch(pitch: float) -> float:
+    return min(max(_rounded(pitch), -STEEPEST), STEEPEST)
+
+
+def _point(xyz: ArrayLike) -> tuple[float, float, float]:
+    x, y, z = (np.round(np.asarray(xyz, dtype=np.float64), DIGITS) + 0.0).tolist()
+    return x, y, z

@@ -1,0 +1,100 @@
+"""ROS 2 messages without ROS: definitions, decoding of received bytes, and encoding.
+
+`decode` takes the type as text and the bytes as they came from DDS or a bag. The message it
+returns has the field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays
+are read-only numpy arrays, mostly views of the bytes, also where ROS has a sequence of points or
+poses (`webviz.data.messages.geometry` says which). Some messages have typed classes here; the
+class of any other is `message_class(type_name)`. All are built as in rclpy:
+`Header(frame_id="map")`. `encode` makes the bytes of any type from such messages, or from nested
+mappings.
+"""
+
+from webviz.data.messages.classes import message_class
+from webviz.data.messages.decode import decode, peek_header, register
+from webviz.data.messages.encode import encode
+from webviz.data.messages.errors import (
+    DecodeError,
+    DefinitionError,
+    EncodeError,
+    MessageError,
+    UnknownTypeError,
+)
+from webviz.data.messages.geometry import (
+    Duration,
+    FrameTransform,
+    Header,
+    Point,
+    Pose,
+    PoseArray,
+    PoseSequence,
+    PoseStamped,
+    PoseStampedSequence,
+    PoseWithCovariance,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    TFMessage,
+    Time,
+    Twist,
+    TwistWithCovariance,
+    Vector3,
+)
+from webviz.data.messages.text import to_text
+from webviz.data.messages.types import (
+    Clock,
+    JointState,
+    LaserScan,
+    MapMetaData,
+    OccupancyGrid,
+    OccupancyGridUpdate,
+    Odometry,
+    Path,
+    PointCloud2,
+    PointField,
+    String,
+)
+from webviz.data.messages.typestore import definition, type_exists, type_hash
+
+__all__ = [
+    "Clock",
+    "DecodeError",
+    "DefinitionError",
+    "Duration",
+    "EncodeError",
+    "FrameTransform",
+    "Header",
+    "JointState",
+    "LaserScan",
+    "MapMetaData",
+    "MessageError",
+    "OccupancyGrid",
+    "OccupancyGridUpdate",
+    "Odometry",
+    "Path",
+    "Point",
+    "PointCloud2",
+    "PointField",
+    "Pose",
+    "PoseArray",
+    "PoseSequence",
+    "PoseStamped",
+    "PoseStampedSequence",
+    "PoseWithCovariance",
+    "PoseWithCovarianceStamped",
+    "Quaternion",
+    "String",
+    "TFMessage",
+    "Time",
+    "Twist",
+    "TwistWithCovariance",
+    "UnknownTypeError",
+    "Vector3",
+    "decode",
+    "definition",
+    "encode",
+    "message_class",
+    "peek_header",
+    "register",
+    "to_text",
+    "type_exists",
+    "type_hash",
+]

@@ -1,0 +1,116 @@
+"""Reading primitives of CDR, the encoding of ROS 2 messages on the wire and in bags.
+
+Format: OMG DDSI-RTPS 2.5, section 10 (encapsulation header), and CORBA 3.3 part 2, section 9.3
+(CDR transfer syntax). Four bytes of encapsulation come first; every primitive is aligned to its
+own size, counted from the byte after them.
+"""
+
+from __future__ import annotations
+
+import sys
+from struct import Struct
+
+import numpy as np
+
+from webviz.data.messages.errors import MessageError
+
+ENCAPSULATION_SIZE = 4
+LITTLE_ENDIAN = b"\0\1\0\0"
+"""The encapsulation of plain CDR in this byte order."""
+_BOOL = np.dtype(np.bool_)
+_ORDERS = {0: ">", 1: "<"}
+_NATIVE = "<" if sys.byteorder == "little" else ">"
+_UINT32 = {order: Struct(order + "I").unpack_from for order in "<>"}
+_TIME = {order: Struct(order + "iI").unpack_from for order in "<>"}
+
+
+class CdrError(MessageError):
+    """What is wrong with the bytes; `Reader.pos` says where."""
+
+
+class Reader:
+    """A cursor over one encapsulated message.
+
+    Attributes:
+        data: The whole message, read-only, encapsulation included.
+        pos: Index in `data` of the next byte to read; after an error, where reading stopped.
+        order: Byte order of the message in `struct` notation, "<" or ">".
+    """
+
+    __slots__ = ("_uint32", "data", "order", "pos", "size")
+
+    def __init__(self, data: bytes | bytearray | memoryview) -> None:
+        self.data = data if isinstance(data, bytes) else memoryview(data).cast("B").toreadonly()
+        self.pos = 0
+        self.size = len(self.data)
+        if self.size < ENCAPSULATION_SIZE:
+            raise CdrError("it is too short to hold an encapsulation header")
+        representation = self.data[0] << 8 | self.data[1]
+        if representation not in _ORDERS:
+            raise CdrError(
+                f"its encapsulation 0x{representation:04x} is not plain CDR (XCDR2 and "
+                "parameter lists are not supported)"
+            )
+        self.order = _ORDERS[representation]
+        self._uint32 = _UINT32[self.order]
+        self.pos = ENCAPSULATION_SIZE
+
+    def align(self, size: int) -> None:
+        """Skip the padding before a primitive of `size` bytes (1, 2, 4 or 8)."""
+        self.pos += (ENCAPSULATION_SIZE - self.pos) & (size - 1)
+
+    def count(self) -> int:
+        """Read the uint32 number of elements of a sequence."""
+        pos = (self.pos + 3) & ~3
+        (count,) = self._uint32(self.data, pos)
+        self.pos = pos + 4
+        return count
+
+    def stamp(self) -> int:
+        """Read a builtin_interfaces/Time as nanoseconds."""
+        self.align(4)
+        sec, nanosec = _TIME[self.order](self.data, self.pos)
+        self.pos += 8
+        return sec * 1_000_000_000 + nanosec
+
+    def string(self) -> str:
+        """Read a string; bytes that are not UTF-8 become U+FFFD."""
+        pos = (self.pos + 3) & ~3
+        (length,) = self._uint32(self.data, pos)
+        start = pos + 4
+        end = start + length
+        if end > self.size:
+            self.pos = pos
+            raise CdrError(f"a string of {length} bytes is longer than what is left")
+        if length == 0:  # not CDR, which counts the closing NUL, but written by some
+            self.pos = end
+            return ""
+        if self.data[end - 1]:
+            self.pos = pos
+            raise CdrError(f"a string of {length} bytes does not end in NUL")
+        self.pos = end
+        return str(self.data[start : end - 1], "utf-8", "replace")
+
+    def array(self, dtype: np.dtype, count: int) -> np.ndarray:
+        """Read `count` primitives as a read-only array, a view if the byte order is native.
+
+        Args:
+            dtype: A numeric or boolean dtype in native byte order.
+            count: How many to read; nothing is allocated before it is known that they fit.
+        """
+        if count == 0:  # padding belongs to the first element, so there is none
+            return np.frombuffer(b"", dtype)
+        itemsize = dtype.itemsize
+        start = self.pos + ((ENCAPSULATION_SIZE - self.pos) & (itemsize - 1))
+        end = start + count * itemsize
+        if end > self.size:
+            raise CdrError(f"{count} elements of {dtype} are more than what is left")
+        self.pos = end
+        if dtype is _BOOL:  # any other byte than 0 or 1 in a bool array is undefined behaviour
+            array = np.frombuffer(self.data, np.uint8, count, start) != 0
+        elif self.order == _NATIVE:
+            return np.frombuffer(self.data, dtype, count, start)
+        else:
+            array = np.frombuffer(self.data, dtype.newbyteorder(), count, start).astype(dtype)
+        array.flags.writeable = False
+        return array

@@ -1,0 +1,115 @@
+"""The class of each message type: written out by hand, or made from its definition."""
+
+from __future__ import annotations
+
+import keyword
+from functools import cache
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from webviz.data.messages import geometry, types
+from webviz.data.messages.geometry import zeros
+from webviz.data.messages.typestore import Field, constants, fields, full_name
+
+DTYPES = {
+    name: np.dtype(dtype)
+    for name, dtype in {
+        "bool": np.bool_,
+        "byte": np.uint8,
+        "char": np.uint8,
+        "int8": np.int8,
+        "uint8": np.uint8,
+        "int16": np.int16,
+        "uint16": np.uint16,
+        "int32": np.int32,
+        "uint32": np.uint32,
+        "int64": np.int64,
+        "uint64": np.uint64,
+        "float32": np.float32,
+        "float64": np.float64,
+    }.items()
+}
+"""ROS primitive to numpy type, for all primitives of fixed size."""
+
+CODES = {name: "?" if name == "bool" else dtype.char for name, dtype in DTYPES.items()}
+CODES |= {"int64": "q", "uint64": "Q"}
+"""ROS primitive to the code of `struct`; numpy's "l" and "L" have no fixed size there."""
+
+WRITTEN: dict[str, type] = {
+    f"{package}/msg/{name}": getattr(module, name)
+    for module, package, names in (
+        (geometry, "builtin_interfaces", "Duration Time"),
+        (geometry, "std_msgs", "Header"),
+        (geometry, "geometry_msgs", "Point Pose PoseArray PoseStamped PoseWithCovariance"),
+        (geometry, "geometry_msgs", "PoseWithCovarianceStamped Quaternion Twist"),
+        (geometry, "geometry_msgs", "TwistWithCovariance Vector3"),
+        (geometry, "tf2_msgs", "TFMessage"),
+        (types, "map_msgs", "OccupancyGridUpdate"),
+        (types, "nav_msgs", "MapMetaData OccupancyGrid Odometry Path"),
+        (types, "rosgraph_msgs", "Clock"),
+        (types, "sensor_msgs", "JointState LaserScan PointCloud2 PointField"),
+        (types, "std_msgs", "String"),
+    )
+    for name in names.split()
+}
+"""Types with a hand-written class. Their definition is fixed."""
+
+VECTORS = {
+    "geometry_msgs/msg/Point": ("float64", 3),
+    "geometry_msgs/msg/Point32": ("float32", 3),
+    "geometry_msgs/msg/Vector3": ("float64", 3),
+    "geometry_msgs/msg/Quaternion": ("float64", 4),
+    "std_msgs/msg/ColorRGBA": ("float32", 4),
+}
+"""Messages of k equal numbers: a sequence of N of them is one (N, k) array."""
+
+SEQUENCES: dict[str, type] = {
+    "geometry_msgs/msg/Pose": geometry.PoseSequence,
+    "geometry_msgs/msg/PoseStamped": geometry.PoseStampedSequence,
+}
+"""Messages whose sequences have a class of their own."""
+
+
+@cache
+def message_class(type_name: str) -> type[Any]:
+    """The class of a message type; its constructor takes the fields by name, as in rclpy.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    name = full_name(type_name)
+    if name in WRITTEN:
+        return WRITTEN[name]
+    definition = [(attribute(f.name), Any, _default(f)) for f in fields(name)]
+    return msgspec.defstruct(
+        name.rpartition("/")[2],
+        definition,
+        module=__name__,
+        namespace=dict(constants(name)),
+        frozen=True,
+        eq=False,
+    )
+
+
+def attribute(name: str) -> str:
+    """The Python attribute of a field: its name, with "_" behind if that is a keyword."""
+    return f"{name}_" if keyword.iskeyword(name) else name
+
+
+def _default(field: Field) -> Any:
+    """ROS's default of a field: zero, empty, or a message of defaults."""
+    if field.size is None:
+        if field.is_message:
+            return msgspec.field(default_factory=lambda: message_class(field.base)())
+        return DTYPES[field.base].type(0).item() if field.base in DTYPES else ""
+    if field.base in DTYPES:
+        return zeros(DTYPES[field.base], field.size)
+    if field.base in VECTORS:
+        dtype, width = VECTORS[field.base]
+        return zeros(DTYPES[dtype], field.size, width)
+    if field.base in SEQUENCES and field.size == 0:
+        return msgspec.field(default_factory=SEQUENCES[field.base])
+    make = (lambda: message_class(field.base)()) if field.is_message else str
+    return msgspec.field(default_factory=lambda: [make() for _ in range(field.size or 0)])

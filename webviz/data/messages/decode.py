@@ -1,0 +1,98 @@
+"""From received bytes to messages."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from functools import cache
+from typing import Any, TypeVar
+
+from webviz.data.messages import typestore
+from webviz.data.messages.cdr import CdrError, Reader
+from webviz.data.messages.classes import WRITTEN, message_class
+from webviz.data.messages.decoders import decoder
+from webviz.data.messages.encoders import encoder
+from webviz.data.messages.errors import DecodeError
+
+T = TypeVar("T")
+Bytes = bytes | bytearray | memoryview
+
+
+def decode(type_name: str, cdr: Bytes) -> Any:
+    """Decode a message.
+
+    Numeric arrays are read-only views of `cdr`, which they keep alive.
+
+    Args:
+        type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
+        cdr: The message as received, encapsulation header included. Bytes behind its end are
+            ignored (writers pad).
+
+    Returns:
+        An object with the fields of the type, an instance of `message_class(type_name)`.
+
+    Raises:
+        DecodeError: The bytes are not a message of this type.
+        UnknownTypeError: No definition of the type is known.
+    """
+    return _read(type_name, cdr, lambda reader: decoder(type_name, reader.order)(reader))
+
+
+def peek_header(type_name: str, cdr: Bytes) -> tuple[str, int] | None:
+    """Read only the header of a message.
+
+    Returns:
+        Frame id and stamp in nanoseconds; None if the type does not begin with a std_msgs/Header.
+
+    Raises:
+        DecodeError: The bytes are too short or not CDR.
+        UnknownTypeError: No definition of the type is known.
+    """
+    return _read(type_name, cdr, _peek) if _has_header(type_name) else None
+
+
+def register(type_name: str, text: str) -> None:
+    """Learn a message type at run time, for example from its publisher.
+
+    A definition that differs from the one known replaces it: the publisher is right.
+
+    Args:
+        type_name: The type that `text` defines.
+        text: Its .msg text. Types it holds follow, each behind a line of "=" and "MSG: pkg/Type",
+            as `definition` returns them and bags store them.
+
+    Raises:
+        DefinitionError: The text cannot be read, a type in it is missing or holds itself, or it
+            contradicts a type that webviz has its own class for, such as Header.
+    """
+    typestore.add(type_name, text, fixed=WRITTEN)
+    for cached in (message_class, decoder, encoder, _has_header):
+        cached.cache_clear()
+
+
+@cache
+def _has_header(type_name: str) -> bool:
+    fields = typestore.fields(type_name)
+    return bool(fields) and fields[0].base == "std_msgs/msg/Header" and fields[0].size is None
+
+
+def _peek(reader: Reader) -> tuple[str, int]:
+    stamp_ns = reader.stamp()
+    return reader.string(), stamp_ns
+
+
+def _read(type_name: str, cdr: Bytes, read: Callable[[Reader], T]) -> T:
+    """Call `read`, and say of what is wrong with the bytes where it is wrong."""
+    pos = 0
+    try:
+        reader = Reader(cdr)
+    except CdrError as error:
+        problem = str(error)
+    else:
+        try:
+            return read(reader)
+        except CdrError as error:
+            problem, pos = str(error), reader.pos
+        except struct.error:
+            problem, pos = "it ends in the middle of a value", reader.pos
+    raise DecodeError(f"Not a {type_name}: {problem} (at byte {pos} of {len(cdr)}).")

@@ -1,0 +1,36 @@
+"""From values to the bytes of messages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from webviz.data.messages.cdr import LITTLE_ENDIAN
+from webviz.data.messages.encoders import Misfit, encoder
+from webviz.data.messages.errors import EncodeError
+
+
+def encode(type_name: str, values: Any = None) -> bytes:
+    """Encode a message as ROS 2 does: plain CDR, little endian, without padding behind its end.
+
+    Args:
+        type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
+        values: A mapping of field names to values, nested ones for messages in it; or an instance
+            of `message_class(type_name)`, or any other object with such attributes. Fields that a
+            mapping leaves out have their default. Arrays are numpy arrays, lists or other sequences
+            of numbers; those of points and quaternions may be (N, 3) and (N, 4). None is a message
+            of defaults.
+
+    Returns:
+        The bytes as `decode` takes them, encapsulation header included.
+
+    Raises:
+        EncodeError: A value does not fit. The text names the field and what it takes.
+        UnknownTypeError: No definition of the type is known.
+    """
+    out = bytearray(LITTLE_ENDIAN)
+    try:
+        encoder(type_name)(out, {} if values is None else values)
+    except Misfit as misfit:
+        end = "" if misfit.reason.endswith("?") else "."
+        raise EncodeError(f"{type_name}{misfit.where}: {misfit.reason}{end}") from misfit
+    return bytes(out)

@@ -1,0 +1,282 @@
+"""An encoder for any message type, built once from its definition."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from struct import Struct, error
+from typing import Any
+
+import numpy as np
+
+from webviz.data.messages.cdr import ENCAPSULATION_SIZE
+from webviz.data.messages.classes import CODES, DTYPES, VECTORS, attribute, message_class
+from webviz.data.messages.geometry import (
+    NANOSECONDS,
+    FrameTransform,
+    PoseSequence,
+    PoseStampedSequence,
+)
+from webviz.data.messages.typestore import Field, fields, full_name
+
+Write = Callable[[bytearray, Any], None]
+"""Appends a value to a message."""
+
+_ABSENT = object()
+_COUNT = Struct("<I").pack
+
+
+class Misfit(Exception):
+    """A value that does not fit its field.
+
+    Args:
+        reason: What was expected and what came, without a full stop.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.path: list[str | int] = []
+        """To the field, innermost first."""
+
+    @property
+    def where(self) -> str:
+        """The path as text, such as ".poses[3].pose.position.x"."""
+        parts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in self.path)
+        return "".join(reversed(list(parts)))
+
+
+@cache
+def encoder(type_name: str) -> Write:
+    """The function that appends a message of this type.
+
+    Raises:
+        UnknownTypeError: No definition of the type, or of one it holds, is known.
+    """
+    name = full_name(type_name)
+    steps = [(field.name, attribute(field.name), _writer(field)) for field in fields(name)]
+    names = [field.name for field in fields(name)]
+    attributes = [attribute(name) for name in names]
+    defaults = message_class(name)()
+
+    def write(out: bytearray, message: Any) -> None:
+        if isinstance(message, FrameTransform):
+            message = _stamped(message)
+        elif name in VECTORS and isinstance(message, tuple | list | np.ndarray):
+            message = _components(name, names, message)
+        is_mapping = isinstance(message, Mapping)
+        if is_mapping and (unknown := [key for key in message if key not in names]):
+            raise Misfit(_no_field(name, unknown[0], names))
+        if not is_mapping and not all(hasattr(message, each) for each in attributes):
+            raise _expected(f"a mapping or a {name}", message)
+        for field, python_name, write_field in steps:
+            value = message.get(field, _ABSENT) if is_mapping else getattr(message, python_name)
+            try:
+                write_field(out, getattr(defaults, python_name) if value is _ABSENT else value)
+            except Misfit as misfit:
+                misfit.path.append(field)
+                raise
+
+    return write
+
+
+def _writer(field: Field) -> Write:
+    one = _writer_of_one(field)
+    if field.size is None:
+        return one
+    if field.base in DTYPES:
+        return _numbers(field, field.base)
+    if field.base in VECTORS:
+        return _elements(field, one, _numbers(field, *VECTORS[field.base]))
+    return _elements(field, one)
+
+
+def _writer_of_one(field: Field) -> Write:
+    if field.is_message:
+        return encoder(field.base)
+    if field.base == "string":
+        return _string(field.longest)
+    return _number(field.base)
+
+
+def _number(base: str) -> Write:
+    code = Struct("<" + CODES[base])
+    is_bool = base == "bool"
+
+    def write(out: bytearray, value: Any) -> None:
+        try:
+            data = code.pack(value)
+        except (error, OverflowError, TypeError, ValueError):
+            raise _expected(_range(base), value) from None
+        if is_bool and value not in (0, 1):
+            raise _expected(_range(base), value)
+        _align(out, code.size)
+        out += data
+
+    return write
+
+
+def _string(longest: int) -> Write:
+    def write(out: bytearray, value: Any) -> None:
+        if not isinstance(value, str) or "\0" in value:
+            raise _expected("text without NUL", value)
+        try:
+            data = value.encode()
+        except UnicodeEncodeError:
+            raise _expected("text that UTF-8 can hold", value) from None
+        if longest and len(data) > longest:
+            raise _expected(f"text of at most {longest} bytes", value)
+        _align(out, 4)
+        out += _COUNT(len(data) + 1) + data + b"\0"
+
+    return write
+
+
+def _numbers(field: Field, base: str, width: int = 1) -> Write:
+    """An array of numbers, (N,) or (N, width)."""
+    dtype = DTYPES[base]
+
+    def write(out: bytearray, value: Any) -> None:
+        given = _array(value, base)
+        if given.size == 0:
+            given = given.reshape((0, width) if width > 1 else 0)
+        if given.shape[1:] != ((width,) if width > 1 else ()):
+            raise _expected(f"shape {'(N,)' if width == 1 else f'(N, {width})'}", given.shape)
+        _count(out, field, len(given))
+        with np.errstate(over="ignore", invalid="ignore"):  # what does not fit is found below
+            exact = given.astype(dtype.newbyteorder("<"))
+        if given.dtype != dtype:
+            _check(given, exact, base)
+        if given.size:  # padding belongs to the first element, so there is none without
+            _align(out, dtype.itemsize)
+            out += exact.tobytes()
+
+    return write
+
+
+def _array(value: Any, base: str) -> np.ndarray:
+    if isinstance(value, bytes | bytearray | memoryview):
+        return np.frombuffer(value, np.uint8)
+    try:
+        given = np.asarray(value)
+    except ValueError:  # rows of several lengths
+        raise _expected(f"an array of {base}", value) from None
+    if given.dtype.kind not in "biuf" or not given.ndim:
+        raise _expected(f"an array of {_range(base)}", value)
+    return given
+
+
+def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
+    """Refuse numbers that the type of the field cannot hold; floats may be rounded."""
+    with np.errstate(invalid="ignore"):
+        if exact.dtype.kind == "f":
+            lost = np.isinf(exact) & ~np.isinf(given.astype(np.float64))
+        else:
+            lost = (exact != given) | ((exact < 0) != (given < 0))  # int64 as uint64 compares equal
+    if lost.any():
+        index = int(np.flatnonzero(lost)[0])
+        misfit = _expected(_range(base), given.ravel()[index].item())
+        misfit.path.append(index)
+        raise misfit
+
+
+def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
+    """An array of messages or strings; `many` writes those that come as an array of numbers."""
+
+    def write(out: bytearray, value: Any) -> None:
+        if isinstance(value, np.ndarray) and many:
+            many(out, value)
+            return
+        is_several = isinstance(value, Sequence | np.ndarray | PoseSequence | PoseStampedSequence)
+        if not is_several or isinstance(value, str | bytes):
+            raise _expected(f"a sequence of {field.base}", value)
+        _count(out, field, len(value))
+        if isinstance(value, PoseSequence) and len(value):
+            _align(out, 8)
+            out += np.hstack([value.positions, value.orientations]).astype("<f8").tobytes()
+            return
+        if isinstance(value, PoseStampedSequence) and len(set(value.frame_ids)) == 1:
+            one(out, value[0])
+            out += _further(value)
+            return
+        for index, element in enumerate(value):
+            try:
+                one(out, element)
+            except Misfit as misfit:
+                misfit.path.append(index)
+                raise
+
+    return write
+
+
+def _further(poses: PoseStampedSequence) -> bytes:
+    """All but the first of poses of one frame: each ends at a multiple of 8, so all are alike."""
+    name = poses.frame_ids[0].encode() + b"\0"
+    names = ["sec", "nanosec", "length", "name", "numbers"]
+    numbers = (12 + len(name) + 7) // 8 * 8
+    layout: Any = {
+        "names": names,
+        "formats": ["<i4", "<u4", "<u4", f"V{len(name)}", ("<f8", 7)],
+        "offsets": [0, 4, 8, 12, numbers],
+        "itemsize": numbers + 56,
+    }
+    rows = np.zeros(len(poses) - 1, np.dtype(layout))
+    rows["sec"], rows["nanosec"] = np.divmod(poses.stamps_ns[1:], NANOSECONDS)
+    rows["length"], rows["name"] = len(name), np.void(name)
+    rows["numbers"] = np.hstack([poses.positions[1:], poses.orientations[1:]])
+    return rows.tobytes()
+
+
+def _stamped(transform: FrameTransform) -> dict[str, Any]:
+    """A TransformStamped as its definition has it."""
+    sec, nanosec = divmod(transform.stamp_ns, NANOSECONDS)
+    return {
+        "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": transform.parent},
+        "child_frame_id": transform.child,
+        "transform": {"translation": transform.translation, "rotation": transform.rotation},
+    }
+
+
+def _components(name: str, names: list[str], values: Any) -> dict[str, Any]:
+    if len(values) != len(names):
+        raise _expected(f"the {len(names)} numbers of a {name}", values)
+    return dict(zip(names, values, strict=True))
+
+
+def _count(out: bytearray, field: Field, count: int) -> None:
+    """Append the number of elements, where that can vary."""
+    if field.size and count != field.size:
+        raise Misfit(f"expected {field.size} elements, got {count}")
+    if field.most and count > field.most:
+        raise Misfit(f"expected at most {field.most} elements, got {count}")
+    if not field.size:
+        _align(out, 4)
+        out += _COUNT(count)
+
+
+def _align(out: bytearray, size: int) -> None:
+    """Append the padding before a primitive of `size` bytes (1, 2, 4 or 8)."""
+    out += bytes((ENCAPSULATION_SIZE - len(out)) & (size - 1))
+
+
+def _expected(what: str, value: Any) -> Misfit:
+    text = repr(value)
+    return Misfit(f"expected {what}, got {text if len(text) <= 60 else text[:57] + '...'}")
+
+
+def _range(base: str) -> str:
+    """The name of a primitive, and what fits."""
+    dtype = DTYPES.get(base)
+    if dtype is None or dtype.kind == "f":
+        return base
+    if dtype.kind == "b":
+        return "bool (true or false)"
+    limits = np.iinfo(dtype)
+    return f"{base} ({limits.min} to {limits.max})"
+
+
+def _no_field(name: str, wrong: object, names: list[str]) -> str:
+    [near] = difflib.get_close_matches(str(wrong), names, 1) or [""]
+    hint = f"did you mean {near}?" if near else f"its fields are {', '.join(names)}"
+    return f"{name} has no field {wrong!r:.60}; {hint}"

@@ -1,0 +1,172 @@
+"""Which message types are known, and how they are laid out.
+
+rosbags knows the ROS 2 core interfaces and reads .msg text; only its definitions are used, never
+the code it generates from them, because definitions may come from a stranger's publisher.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+from functools import cache
+from typing import Any, NamedTuple
+
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+
+from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages.errors import DefinitionError, MessageError, UnknownTypeError
+
+_TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
+
+
+class Field(NamedTuple):
+    """One field of a message.
+
+    Attributes:
+        name: As in the .msg file.
+        base: Name of a primitive ("float32", "string") or of a message type.
+        is_message: Whether `base` is a message type.
+        size: None for a single value, 0 for a sequence, else the length of a fixed array.
+        most: Elements that a sequence may have, 0 for any number.
+        longest: Bytes that a string may have, 0 for any number.
+    """
+
+    name: str
+    base: str
+    is_message: bool
+    size: int | None
+    most: int = 0
+    longest: int = 0
+
+
+@cache
+def _store() -> Any:
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for type_name, text in DEFINITIONS.items():
+        store.fielddefs.update(get_types_from_msg(text, type_name))
+    return store
+
+
+@cache
+def full_name(type_name: str) -> str:
+    """The three-part name of a type: "std_msgs/String" becomes "std_msgs/msg/String".
+
+    Raises:
+        UnknownTypeError: `type_name` is not the name of a ROS 2 type.
+    """
+    full = type_name if type_name.count("/") != 1 else type_name.replace("/", "/msg/")
+    if not _TYPE_NAME.fullmatch(full):
+        raise UnknownTypeError(
+            f"{type_name!r} is not the name of a message type, such as sensor_msgs/msg/LaserScan."
+        )
+    return full
+
+
+def type_exists(type_name: str) -> bool:
+    """Whether messages of this type can be decoded."""
+    try:
+        return full_name(type_name) in _store().fielddefs
+    except UnknownTypeError:
+        return False
+
+
+def fields(type_name: str) -> list[Field]:
+    """The fields of a type in the order of the wire.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    return _fields_of(_definition(type_name))
+
+
+def constants(type_name: str) -> dict[str, bool | int | float | str]:
+    """The constants of a type, such as `ARROW` of a marker.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    return {name: value for name, _, value in _definition(type_name)[0]}
+
+
+def definition(type_name: str) -> str:
+    """The .msg text of a type, followed by those of the types it holds, as bags store it.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    _definition(type_name)
+    return _store().generate_msgdef(full_name(type_name), ros_version=2)[0]
+
+
+def type_hash(type_name: str) -> str:
+    """The hash by which ROS 2 tells versions of a type apart (REP 2016), "RIHS01_...".
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    _definition(type_name)
+    return _store().hash_rihs01(full_name(type_name))
+
+
+def add(type_name: str, text: str, fixed: Container[str]) -> None:
+    """Learn a type from its .msg text, but never change those in `fixed`.
+
+    See `webviz.data.messages.register`.
+    """
+    name = full_name(type_name)
+    try:
+        learnt = get_types_from_msg(text, name)
+    except TypesysError as error:  # it quotes the whole definition, in the parser's own words
+        raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
+    if name not in learnt:  # such as a service's, whose types would be messages
+        raise DefinitionError(f"The definition of {name} does not define it.")
+    known = _store().fielddefs
+    for key in learnt:
+        if key in fixed and _fields_of(learnt[key]) != fields(key):
+            raise DefinitionError(f"The definition of {name} holds a {key} unlike ROS 2's.")
+    before = {key: known[key] for key in learnt if key in known}
+    known.update(learnt)
+    try:
+        _check_closed(name, ())
+    except MessageError:
+        for key in learnt:
+            del known[key]
+        known.update(before)
+        raise
+
+
+def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
+    """Raise unless every type that `type_name` holds is known and none holds itself."""
+    if type_name in inside:
+        raise DefinitionError(f"{type_name} cannot hold a {type_name}.")
+    if type_name not in _store().fielddefs:
+        raise DefinitionError(f"{inside[-1]} holds a {type_name}, whose definition is missing.")
+    for name in {field.base for field in fields(type_name) if field.is_message}:
+        _check_closed(name, (*inside, type_name))
+
+
+def _definition(type_name: str) -> Any:
+    found = _store().fielddefs.get(full_name(type_name))
+    if found is None:
+        raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
+    return found
+
+
+def _fields_of(definition: Any) -> list[Field]:
+    return [_field(name, *description) for name, description in definition[1]]
+
+
+def _field(name: str, kind: Nodetype, value: Any) -> Field:
+    size, most = None, 0
+    if kind == Nodetype.ARRAY:
+        (inner, base), size = value
+    elif kind == Nodetype.SEQUENCE:
+        (inner, base), most = value
+        size = 0
+    else:
+        inner, base = kind, value
+    is_message = inner == Nodetype.NAME
+    if is_message:
+        return Field(name, base, True, size, most)
+    return Field(name, base[0], False, size, most, base[1])

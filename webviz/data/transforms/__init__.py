@@ -1,0 +1,44 @@
+"""Transforms between frames over time, as true as tf2."""
+
+from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.diagnosis import Diagnosis, FrameReport, diagnose, tree_text
+from webviz.data.transforms.errors import (
+    BackwardExtrapolationException,
+    ConnectivityException,
+    ExtrapolationException,
+    ForwardExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    NoDataForExtrapolationException,
+    TimeoutException,
+    TransformException,
+)
+from webviz.data.transforms.explain import explain
+from webviz.data.transforms.filter import MessageFilter
+from webviz.data.transforms.many_frames import FramesIn
+from webviz.data.transforms.reasons import Explanation, Kind
+from webviz.data.transforms.records import Rejection, Transform
+
+__all__ = [
+    "BackwardExtrapolationException",
+    "ConnectivityException",
+    "Diagnosis",
+    "Explanation",
+    "ExtrapolationException",
+    "ForwardExtrapolationException",
+    "FrameReport",
+    "FramesIn",
+    "InvalidArgumentException",
+    "Kind",
+    "LookupException",
+    "MessageFilter",
+    "NoDataForExtrapolationException",
+    "Rejection",
+    "TimeoutException",
+    "Transform",
+    "TransformBuffer",
+    "TransformException",
+    "diagnose",
+    "explain",
+    "tree_text",
+]

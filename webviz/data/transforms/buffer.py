@@ -1,0 +1,359 @@
+"""The transform buffer: tf2's BufferCore in plain Python."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from math import isnan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.transforms import many_frames
+from webviz.data.transforms.cache import Cache, StaticCache, TimeCache
+from webviz.data.transforms.errors import NS_PER_S
+from webviz.data.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
+from webviz.data.transforms.listing import frames_as_yaml
+from webviz.data.transforms.many_frames import FramesIn
+from webviz.data.transforms.many_inserts import insert_expected
+from webviz.data.transforms.many_stamps import lookup_many
+from webviz.data.transforms.publishers import Publishers
+from webviz.data.transforms.records import Rejection, Transform, fault_of, too_old
+from webviz.data.transforms.shape import Shape
+from webviz.data.transforms.tree import FrameTree
+
+QUATERNION_TOLERANCE = 10e-3
+"""How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
+
+
+_SILENT = np.errstate(over="ignore", invalid="ignore")
+"""Huge transforms compose to infinity and NaN without a word, as floats do."""
+
+
+class TransformBuffer:
+    """Transforms of the last seconds, and the pose of any frame in any other at a time.
+
+    Answers as tf2's BufferCore (ROS 2 Jazzy) does, its error texts included. A stamp is an int in
+    nanoseconds; 0 asks for the latest time common to all links of the chain.
+
+    There is no lock, by design: the frame loop alone inserts, clears and reads. Subscriptions hand
+    over raw messages; the loop decodes and inserts them at the start of a tick, so all that is
+    looked up within a tick sees one state.
+
+    Args:
+        cache_time_ns: how much history each moving frame keeps (tf2's and RViz's default is 10 s).
+
+    Attributes:
+        nodes: who stands behind an authority, where that is known, for sentences.
+        version: changes whenever something was stored or cleared.
+        structure_version: changes when frames, parents, static poses or the kind of a frame did:
+            what follows from the shape of the tree alone can be kept while it stands.
+    """
+
+    def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
+        self.cache_time_ns = cache_time_ns
+        self.nodes: Mapping[str, str] = {}
+        self.version = 0
+        self.structure_version = 0
+        self._tree = FrameTree()
+        self._publishers: dict[str, Publishers] = {}
+        self._rejections: dict[str, Rejection] = {}
+        self._shape: tuple[int, Shape] | None = None
+        """What the last question for many frames followed from, and at which structure version."""
+        self._largest: tuple[int, tuple[str, int]] | None = None
+
+    @property
+    def tree(self) -> FrameTree:
+        """The frames and their samples; for reading."""
+        return self._tree
+
+    @property
+    def rejections(self) -> Mapping[str, Rejection]:
+        """Per child frame the last refusal; nothing where nothing was refused."""
+        return self._rejections
+
+    @property
+    def publishers(self) -> Mapping[str, Publishers]:
+        """Per child frame who published it."""
+        return self._publishers
+
+    def set_transform(
+        self,
+        parent: str,
+        child: str,
+        stamp_ns: int,
+        translation: tuple[float, float, float],
+        rotation: tuple[float, float, float, float],
+        is_static: bool = False,
+        authority: str = "",
+        received_ns: int = 0,
+    ) -> bool:
+        """Store the pose of `child` in `parent`.
+
+        One leading slash is stripped from the frame ids. The quaternion (x, y, z, w) may have any
+        length but zero. A frame that changes between static and moving loses its history.
+
+        Args:
+            parent: frame that the pose is given in.
+            child: frame that it is the pose of.
+            stamp_ns: when; without meaning for a static transform.
+            translation: (x, y, z) in metres; infinity is accepted, NaN is not.
+            rotation: (x, y, z, w).
+            is_static: it holds at all times.
+            authority: who published it, as far as known.
+            received_ns: when it was received, for the diagnosis; 0 if not known.
+
+        Returns:
+            Whether it was stored (a repeated sample counts as stored); if not, `rejections` tells
+            why.
+        """
+        if parent[:1] == "/":
+            parent = parent[1:]
+        if child[:1] == "/":
+            child = child[1:]
+        x, y, z = translation
+        qx, qy, qz, qw = canonical(*rotation)
+        if (
+            child == parent
+            or not child
+            or not parent
+            or isnan(x)
+            or isnan(y)
+            or isnan(z)
+            or not abs(qw * qw + qx * qx + qy * qy + qz * qz - 1.0) < QUATERNION_TOLERANCE
+        ):
+            fault = fault_of(parent, child, translation)
+            return self._reject(child, stamp_ns, received_ns, fault)
+
+        tree = self._tree
+        cache = tree.caches.get(child)
+        if cache is None or cache.is_static != is_static:
+            cache = self._new_cache(parent, child, is_static)
+        elif parent not in tree.names:
+            tree.names[parent] = None
+            self.structure_version += 1
+        before = cache.newest
+        sample = ((x, y, z, qx, qy, qz, qw), parent)
+        if not cache.insert(stamp_ns, sample):
+            fault = too_old(stamp_ns, cache.newest_stamp)
+            return self._reject(child, stamp_ns, received_ns, fault)
+        after = cache.newest
+        assert after is not None
+        if before is None or before[1] != after[1] or (is_static and before != after):
+            self.structure_version += 1
+        claim = sample if is_static else authority
+        publishers = self._publishers.get(child)
+        if publishers is None:
+            publishers = self._publishers[child] = Publishers(authority, claim)
+        elif publishers.claim != claim:
+            horizon_ns = cache.newest_stamp - self.cache_time_ns
+            publishers.take_over(authority, claim, stamp_ns, horizon_ns)
+        publishers.current = authority
+        if received_ns:
+            publishers.delay_ns = received_ns - stamp_ns
+        self.version += 1
+        return True
+
+    def set_moving(
+        self,
+        names: Sequence[tuple[str, str]],
+        stamps_ns: Sequence[int],
+        poses: NDArray[np.float64],
+        authority: str,
+        received_ns: int,
+    ) -> None:
+        """`set_transform` for N moving transforms of one message.
+
+        Args:
+            names: N times a parent and its child.
+            stamps_ns: N stamps.
+            poses: float64 (N, 7), translations in metres and rotations (x, y, z, w).
+            authority: who published them.
+            received_ns: when they were received.
+        """
+        others = insert_expected(
+            self._tree, self._publishers, names, stamps_ns, poses, authority, received_ns
+        )
+        self.version += len(names) - len(others)
+        for place in others:
+            parent, child = names[place]
+            x, y, z, qx, qy, qz, qw = poses[place].tolist()
+            self.set_transform(
+                *(parent, child, stamps_ns[place], (x, y, z), (qx, qy, qz, qw)),
+                *(False, authority, received_ns),
+            )
+
+    def lookup(self, target: str, source: str, stamp_ns: int) -> Transform:
+        """The pose of `source` in `target` at a time; 0 means the latest common time.
+
+        The same frame twice gives the identity without asking whether it exists.
+
+        Raises:
+            InvalidArgumentException: a frame id is empty or starts with a slash.
+            LookupException: a frame is unknown, or the tree contains a loop.
+            ConnectivityException: nothing connects the frames.
+            ExtrapolationException: a link has no data around that time; one of its three kinds.
+        """
+        pose, stamp_ns = self._pose(target, source, stamp_ns)
+        return _transform(pose, stamp_ns)
+
+    @_SILENT
+    def lookup_many(
+        self, target: str, source: str, stamps_ns: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """`lookup` at many times at once: a scan per beam, a trail.
+
+        Args:
+            target: frame to express the poses in.
+            source: frame whose poses are asked for.
+            stamps_ns: int64 (N,) in any order.
+
+        Returns:
+            Translations float64 (N, 3) in metres, rotations float64 (N, 4) as (x, y, z, w), and
+            bool (N,): whether `lookup` would succeed. Where it would not, the poses are NaN.
+        """
+        return lookup_many(self._tree, target, source, stamps_ns)
+
+    @_SILENT
+    def poses_in(
+        self, target: str, frames: Iterable[str] | None = None, stamp_ns: int = 0
+    ) -> FramesIn:
+        """`lookup(target, frame, stamp_ns)` for many frames in one pass.
+
+        Args:
+            target: frame to express the poses in.
+            frames: frames whose poses are asked for; by default all of `frames()`.
+            stamp_ns: one time for all; 0 means for each its latest common time with the target.
+        """
+        names = self.frames() if frames is None else list(frames)
+        if stamp_ns == 0 and len(names) >= many_frames.ARRAYS_PAY_FROM:
+            shape = self._shape_of(target, names)
+            if shape.is_usable and (found := shape.poses()):
+                return FramesIn.of(names, *found)
+        valid = set() if self._tree.fault(target) else {n for n in names if not self._tree.fault(n)}
+        return many_frames.poses_in(self._tree, target, names, valid, stamp_ns)
+
+    def lookup_full(
+        self, target: str, target_stamp_ns: int, source: str, source_stamp_ns: int, fixed: str
+    ) -> Transform:
+        """Where `source` was at one time, seen from `target` at another; `fixed` did not move.
+
+        The stamp returned is the one of the target's side.
+
+        Raises:
+            TransformException: as `lookup`, for each of the two steps.
+        """
+        self._tree.validate("lookupTransform argument target_frame", target)
+        self._tree.validate("lookupTransform argument source_frame", source)
+        self._tree.validate("lookupTransform argument fixed_frame", fixed)
+        to_fixed, _ = self._pose(fixed, source, source_stamp_ns)
+        to_target, stamp_ns = self._pose(target, fixed, target_stamp_ns)
+        pose = compose_as_matrices(to_target, to_fixed)
+        return Transform(pose[:3], pose[3:], stamp_ns)
+
+    def can_transform(self, target: str, source: str, stamp_ns: int) -> bool:
+        """Whether `lookup` would succeed."""
+        return self.can_transform_error(target, source, stamp_ns) is None
+
+    def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
+        """The text of tf2's canTransform, or None if the transform is available."""
+        return self._tree.can_transform_error(target, source, stamp_ns)
+
+    def latest_common_time(self, target: str, source: str) -> int:
+        """The newest time at which every link between the frames has data, as tf2 computes it.
+
+        Returns:
+            Nanoseconds; 0 if all links are static.
+
+        Raises:
+            TransformException: as `lookup`, except for extrapolation.
+        """
+        self._tree.validate("get_latest_common_time", target)
+        self._tree.validate("get_latest_common_time", source)
+        return self._tree.latest_common_time(target, source)
+
+    def clear(self) -> None:
+        """Forget the samples of moving frames; as in tf2 the rest stays, static transforms too."""
+        for cache in self._tree.caches.values():
+            cache.clear()
+        self._rejections.clear()
+        self.forget_publishers()
+        self.version += 1
+        self.structure_version += 1
+
+    def forget_publishers(self) -> None:
+        """Forget who quarrelled over which frame, as when publishers came or went."""
+        for publishers in self._publishers.values():
+            publishers.forget()
+
+    def rigid_root(self, frame: str) -> str:
+        """The uppermost frame that static transforms join with this one; itself if there is none.
+
+        Frames of one rigid root never move against each other. Stands until `structure_version`
+        changes.
+        """
+        return self._tree.rigid_root(frame)
+
+    def who(self, child: str) -> list[str]:
+        """Who published a child frame lately, as far as known, the current one last."""
+        publishers = self._publishers.get(child)
+        names = publishers.names() if publishers else []
+        return [self.nodes.get(name, name) for name in names if name]
+
+    def largest_tree(self) -> tuple[str, int]:
+        """The root of the tree with the most frames, and how many it has; "" and 0 without any."""
+        if self._largest is None or self._largest[0] != self.structure_version:
+            sizes = Counter(self._tree.root(frame) for frame in self._tree.names)
+            (largest,) = sizes.most_common(1) or [("", 0)]
+            self._largest = (self.structure_version, largest)
+        return self._largest[1]
+
+    def all_frames_as_string(self) -> str:
+        """One line per child frame, word for word as tf2."""
+        return self._tree.as_text()
+
+    def all_frames_as_yaml(self, now_ns: int = 0) -> str:
+        """Parent, publisher, rate and age per child frame, word for word as tf2."""
+        return frames_as_yaml(self._tree, self._publishers, now_ns)
+
+    def frames(self) -> list[str]:
+        """All frame ids ever mentioned, in order of first mention."""
+        return list(self._tree.names)
+
+    def _pose(self, target: str, source: str, stamp_ns: int) -> tuple[Pose, int]:
+        if target == source:
+            if stamp_ns == 0:
+                stamp_ns = self._tree.latest_common_time(target, source)
+            return IDENTITY, stamp_ns
+        self._tree.validate("lookupTransform argument target_frame", target)
+        self._tree.validate("lookupTransform argument source_frame", source)
+        return self._tree.resolve(target, source, stamp_ns)
+
+    def _shape_of(self, target: str, frames: list[str]) -> Shape:
+        if self._shape is not None:
+            version, shape = self._shape
+            if (version, target, frames) == (self.structure_version, shape.target, shape.frames):
+                return shape
+        shape = Shape(self._tree, target, frames)
+        self._shape = (self.structure_version, shape)
+        return shape
+
+    def _new_cache(self, parent: str, child: str, is_static: bool) -> Cache:
+        cache = StaticCache() if is_static else TimeCache(self.cache_time_ns)
+        tree = self._tree
+        tree.caches[child] = cache
+        tree.names.setdefault(child)
+        tree.names.setdefault(parent)
+        return cache
+
+    def _reject(self, child: str, stamp_ns: int, received_ns: int, fault: tuple[str, str]) -> bool:
+        last = self._rejections.get(child)
+        count = last.count + 1 if last else 1
+        self._rejections[child] = Rejection(*fault, count, stamp_ns, received_ns)
+        return False
+
+
+def _transform(pose: Pose, stamp_ns: int) -> Transform:
+    """tf2 returns a rotation only after the way through a matrix."""
+    x, y, z, qx, qy, qz, qw = pose
+    return Transform((x, y, z), canonical(qx, qy, qz, qw), stamp_ns)

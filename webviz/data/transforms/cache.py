@@ -1,0 +1,252 @@
+"""What is remembered of one child frame: its samples over time, or its one static pose."""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_right
+
+from webviz.data.transforms.errors import (
+    BackwardExtrapolationException,
+    ExtrapolationException,
+    ForwardExtrapolationException,
+    NoDataForExtrapolationException,
+    format_stamp,
+)
+from webviz.data.transforms.geometry import Pose, interpolate
+
+# A bound on memory that tf2 lacks: a publisher whose clock stands still never lets data grow old.
+# 65536 samples are 10 s at 6.5 kHz.
+MAX_SAMPLES = 65_536
+
+NEVER_NS = -(1 << 63)
+"""Before every stamp."""
+
+Sample = tuple[Pose, str]
+"""A pose and the parent frame it is given in."""
+
+Bracket = tuple[Pose, Pose, float, str]
+"""The poses before and after a time, the ratio between them, and their parent frame."""
+
+
+class StaticCache:
+    """The one pose of a frame that holds at any time."""
+
+    __slots__ = ("sample",)
+    is_static = True
+    newest_stamp = 0
+    oldest_stamp = 0
+
+    def __init__(self) -> None:
+        self.sample: Sample | None = None
+
+    def __len__(self) -> int:
+        return 1
+
+    @property
+    def newest(self) -> Sample | None:
+        """The sample; None only before the first insert."""
+        return self.sample
+
+    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+        """Overwrite the pose; the stamp has no meaning."""
+        self.sample = sample
+        return True
+
+    def at(self, stamp_ns: int) -> Sample | None:
+        """The sample, whatever the time."""
+        return self.sample
+
+    def bracket(self, stamp_ns: int) -> Bracket | None:
+        """The sample, whatever the time."""
+        if self.sample is None:
+            return None
+        pose, parent = self.sample
+        return pose, pose, 0.0, parent
+
+    def clear(self) -> None:
+        """Static transforms outlive a cleared buffer."""
+
+
+class TimeCache:
+    """The samples of a moving frame, ascending by stamp.
+
+    Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
+    readers must not change them.
+
+    Attributes:
+        mixed_ns: the samples newer than this have one parent.
+    """
+
+    __slots__ = ("_cache_time_ns", "_dead", "_packed", "mixed_ns", "samples", "stamps")
+    is_static = False
+
+    def __init__(self, cache_time_ns: int) -> None:
+        self.stamps: list[int] = []
+        self.samples: list[Sample] = []
+        self.mixed_ns = NEVER_NS
+        self._cache_time_ns = cache_time_ns
+        # The poses once more, side by side, as far as `poses` was ever asked for: to gather them
+        # anew each time takes longer than all the arithmetic on them. The pruned ones stay at its
+        # beginning until they are half of it.
+        self._packed = array("d")
+        self._dead = 0
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    @property
+    def newest_stamp(self) -> int:
+        """Nanoseconds; 0 if empty."""
+        return self.stamps[-1] if self.stamps else 0
+
+    @property
+    def oldest_stamp(self) -> int:
+        """Nanoseconds; 0 if empty."""
+        return self.stamps[0] if self.stamps else 0
+
+    @property
+    def newest(self) -> Sample | None:
+        """The sample of the newest stamp, or None if empty."""
+        return self.samples[-1] if self.samples else None
+
+    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+        """Insert in order; an exact duplicate counts as stored but is not kept twice.
+
+        Old samples are pruned before the new one is inserted, measured by the newest stamp so far:
+        as in tf2, one old sample can survive a jump forward until the next insert.
+
+        Returns:
+            False if the sample is older than the newest by more than the cache time.
+        """
+        stamps = self.stamps
+        if not stamps:
+            stamps.append(stamp_ns)
+            self.samples.append(sample)
+            return True
+        newest = stamps[-1]
+        horizon = newest - self._cache_time_ns
+        if stamps[0] < horizon:
+            self._drop_oldest(self._count_before(horizon))
+        elif len(stamps) >= MAX_SAMPLES:
+            self._drop_oldest(1)
+        if stamp_ns > newest:
+            if sample[1] != self.samples[-1][1]:
+                self.mixed_ns = newest
+            stamps.append(stamp_ns)
+            self.samples.append(sample)
+            return True
+        if stamp_ns < horizon:
+            return False
+        place = bisect_right(stamps, stamp_ns)
+        i = place - 1
+        while i >= 0 and stamps[i] == stamp_ns:
+            if self.samples[i] == sample:
+                return True
+            i -= 1
+        if sample[1] != self.samples[-1][1]:
+            self.mixed_ns = max(self.mixed_ns, stamp_ns)
+        stamps.insert(place, stamp_ns)
+        self.samples.insert(place, sample)
+        del self._packed[7 * (self._dead + place) :]
+        return True
+
+    def poses(self, part: slice) -> array[float]:
+        """A copy of the poses of `samples[part]`, seven numbers each."""
+        gathered = len(self._packed) // 7 - self._dead
+        for pose, _ in self.samples[gathered:]:
+            self._packed.extend(pose)
+        start, stop, _ = part.indices(len(self.stamps))
+        return self._packed[7 * (self._dead + start) : 7 * (self._dead + stop)]
+
+    def _count_before(self, horizon_ns: int) -> int:
+        count = 1
+        while self.stamps[count] < horizon_ns:
+            count += 1
+        return count
+
+    def _drop_oldest(self, count: int) -> None:
+        del self.stamps[:count]
+        del self.samples[:count]
+        if self._packed:
+            self._dead += count
+            if 7 * self._dead > len(self._packed) // 2:
+                del self._packed[: 7 * self._dead]
+                self._dead = 0
+
+    def at(self, stamp_ns: int) -> Sample | None:
+        """The sample interpolated at a time; 0 means the newest; None if `refusal` says why not."""
+        stamps = self.stamps
+        if not stamps:
+            return None
+        newest = stamps[-1]
+        if stamp_ns == newest or stamp_ns == 0:
+            return self.samples[-1]
+        oldest = stamps[0]
+        if stamp_ns == oldest:
+            return self.samples[0]
+        if not oldest < stamp_ns < newest:
+            return None
+        i = bisect_right(stamps, stamp_ns)
+        before = self.samples[i - 1]
+        after = self.samples[i]
+        parent = before[1]
+        if parent != after[1]:
+            return before  # no interpolation across re-parenting
+        start = stamps[i - 1]
+        ratio = float(stamp_ns - start) / float(stamps[i] - start)
+        return interpolate(before[0], after[0], ratio), parent
+
+    def bracket(self, stamp_ns: int) -> Bracket | None:
+        """What `at` would interpolate at a time; the same pose twice where it would not."""
+        stamps = self.stamps
+        if not stamps:
+            return None
+        newest = stamps[-1]
+        oldest = stamps[0]
+        if stamp_ns == newest or stamp_ns == 0:
+            pose, parent = self.samples[-1]
+            return pose, pose, 0.0, parent
+        if stamp_ns == oldest:
+            pose, parent = self.samples[0]
+            return pose, pose, 0.0, parent
+        if not oldest < stamp_ns < newest:
+            return None
+        i = bisect_right(stamps, stamp_ns)
+        pose, parent = self.samples[i - 1]
+        after, other = self.samples[i]
+        if parent != other:
+            return pose, pose, 0.0, parent
+        start = stamps[i - 1]
+        return pose, after, float(stamp_ns - start) / float(stamps[i] - start), parent
+
+    def refusal(self, stamp_ns: int) -> tuple[type[ExtrapolationException], str]:
+        """Why `at` gave nothing, as tf2's exception and the beginning of its text."""
+        stamps = self.stamps
+        if not stamps:
+            return NoDataForExtrapolationException, ""
+        asked, newest, oldest = (format_stamp(s) for s in (stamp_ns, stamps[-1], stamps[0]))
+        if len(stamps) == 1:
+            return NoDataForExtrapolationException, (
+                f"Lookup would require extrapolation at time {asked}, "
+                f"but only time {newest} is in the buffer"
+            )
+        if stamp_ns > stamps[-1]:
+            return ForwardExtrapolationException, (
+                f"Lookup would require extrapolation into the future.  Requested time {asked} "
+                f"but the latest data is at time {newest}"
+            )
+        return BackwardExtrapolationException, (
+            f"Lookup would require extrapolation into the past.  Requested time {asked} "
+            f"but the earliest data is at time {oldest}"
+        )
+
+    def clear(self) -> None:
+        """Forget all samples; the frame itself stays known."""
+        self.stamps.clear()
+        self.samples.clear()
+        del self._packed[:]
+        self._dead = 0
+        self.mixed_ns = NEVER_NS
+
+
+Cache = StaticCache | TimeCache

@@ -1,0 +1,59 @@
+"""Whether the clocks of those who publish transforms agree with ours."""
+
+from __future__ import annotations
+
+from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.errors import NS_PER_S
+from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, in_words
+
+TOLERANCE_NS = 1_500_000_000
+"""Offset that is no fault: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
+RECENT_NS = 10 * NS_PER_S
+SHOWN = 3
+
+
+def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
+    """Say which transforms are stamped with another time than ours, and by how much.
+
+    Args:
+        buffer: transforms inserted with the time at which they were received.
+        now_ns: the current ROS time; 0 if not known.
+
+    Returns:
+        A sentence; empty if all is well.
+    """
+    offsets: dict[str, int] = {}  # stamp minus time of reception
+    for child, publishers in buffer.publishers.items():
+        cache, delay_ns = buffer.tree.caches[child], publishers.delay_ns
+        if not isinstance(cache, TimeCache) or not cache.stamps or delay_ns is None:
+            continue
+        received_ns = cache.stamps[-1] + delay_ns
+        if now_ns - received_ns < RECENT_NS:
+            offsets[child] = -delay_ns
+    wrong = {child: ns for child, ns in offsets.items() if abs(ns) > TOLERANCE_NS}
+    if not now_ns or not wrong:
+        return ""
+    worst = max(wrong.values(), key=abs)
+    child = max(wrong, key=lambda child: abs(wrong[child]))
+    stamp_ns = buffer.tree.caches[child].newest_stamp
+    if stamp_ns < YEAR_NS and now_ns > WALL_NS:
+        return (
+            f'"{child}" is stamped with simulated time ({stamp_ns / NS_PER_S:.1f} s), but webviz '
+            "follows the clock of this computer. Start it with --ros-args -p use_sim_time:=true."
+        )
+    offset = f"{in_words(worst)} {'ahead of' if worst > 0 else 'behind'}"
+    if len(wrong) == len(offsets) and abs(worst) > HOUR_NS:
+        return (
+            f"The transforms are stamped {offset} the time of this computer, as those of a "
+            "replayed bag are. To follow its time, play it with --clock and start webviz with "
+            "--ros-args -p use_sim_time:=true."
+        )
+    names = [f'"{child}"' for child in wrong]
+    shown = ", ".join(names[:SHOWN]) + (" …" if len(names) > SHOWN else "")
+    who = "All transforms" if len(wrong) == len(offsets) else f"The transforms of {shown}"
+    rest = "" if len(wrong) == len(offsets) else ", the others are not"
+    return (
+        f"{who} are stamped {offset} the clock of this computer{rest}: synchronise the clocks of "
+        "the machines (chrony, NTP)."
+    )

@@ -1,0 +1,176 @@
+"""Why a frame has no pose at a time, in words and numbers, and what to do about it."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.errors import ConnectivityException, LookupException, TransformException
+from webviz.data.transforms.explain_time import explain_time
+from webviz.data.transforms.geometry import REACH_M, is_within_reach
+from webviz.data.transforms.reasons import Explanation, Kind
+from webviz.data.transforms.tree import FrameTree, ancestors
+
+SLIP = 0.85
+"""Similarity, by difflib, from which a name is taken for a slip of another."""
+
+
+def explain(
+    buffer: TransformBuffer, fixed_frame: str, frame: str, stamp_ns: int, now_ns: int = 0
+) -> Explanation:
+    """Say why `frame` has no pose in `fixed_frame` at a stamp.
+
+    Args:
+        buffer: the transforms.
+        fixed_frame: frame that everything is shown in.
+        frame: frame of the data.
+        stamp_ns: time of the data; 0 means the latest.
+        now_ns: the current ROS time, 0 if it is not known.
+    """
+    if frame == fixed_frame and frame:
+        return Explanation(Kind.AVAILABLE, "Transform OK")
+    faulty = _invalid(buffer, fixed_frame, frame)
+    if faulty:
+        return faulty
+    tree = buffer.tree
+    try:
+        pose, stamp_ns = tree.resolve(fixed_frame, frame, stamp_ns)
+    except LookupException:
+        return _loop(tree, fixed_frame, frame)
+    except ConnectivityException:
+        return _not_connected(tree, fixed_frame, frame)
+    except TransformException as error:
+        return explain_time(buffer, fixed_frame, frame, stamp_ns, now_ns, str(error))
+    if not is_within_reach(pose):
+        return _out_of_reach(tree, fixed_frame, frame, stamp_ns)
+    return Explanation(Kind.AVAILABLE, "Transform OK")
+
+
+def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanation | None:
+    """What is wrong with the names alone."""
+    if not frame:
+        return Explanation(
+            Kind.EMPTY_FRAME,
+            "The frame_id is empty: the publisher has to name the frame its data is given in "
+            "(header.frame_id).",
+        )
+    if not fixed_frame:
+        return Explanation(Kind.EMPTY_FRAME, "There is no fixed frame: choose one.")
+    for name, what in ((frame, "The frame_id"), (fixed_frame, "The fixed frame")):
+        if name[0] == "/":
+            return Explanation(
+                Kind.LEADING_SLASH,
+                f'{what} "{name}" starts with a slash, which frame ids in ROS 2 must not: '
+                f'call it "{name.lstrip("/")}".',
+            )
+    names = buffer.tree.names
+    if not names:
+        return Explanation(
+            Kind.NO_TRANSFORMS,
+            f'There is no transform at all, so "{frame}" has no place in "{fixed_frame}": is '
+            "anything publishing on /tf or /tf_static (robot_state_publisher, odometry, "
+            "localisation)?",
+        )
+    if fixed_frame not in names:
+        sentence = unknown_fixed_frame(buffer, fixed_frame)
+        return Explanation(Kind.UNKNOWN_FIXED_FRAME, sentence)
+    if frame not in names:
+        text = f'Frame "{frame}" does not exist'
+        if near := _nearest(buffer, frame):
+            sentence = f'{text}. Did you mean "{near}"? Fix the frame_id of the data.'
+        else:
+            sentence = (
+                f"{text}: no transform to it has arrived. Start the node that publishes it, such "
+                "as robot_state_publisher, or fix the frame_id of the data."
+            )
+        return Explanation(Kind.UNKNOWN_FRAME, sentence)
+    return None
+
+
+def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> str:
+    """Say that no transform names the fixed frame, and which one to use instead."""
+    text = f'Fixed frame "{fixed_frame}" does not exist.'
+    if near := _nearest(buffer, fixed_frame):
+        return f'{text} Did you mean "{near}"?'
+    root, size = buffer.largest_tree()
+    if fixed_frame == "map":
+        text += " Start localisation or SLAM, or use"
+    else:
+        text += " Use"
+    return f'{text} "{root}", the root of the largest tree ({size} frames): -f {root}'
+
+
+def _nearest(buffer: TransformBuffer, name: str) -> str:
+    """The frame that a name is a slip of, "" if none is so near.
+
+    Frames that differ by a number, a namespace, left or right are frames of their own.
+    """
+    candidates = {frame.lower(): frame for frame in buffer.frames()}
+    slip = name.lower()
+    for frame in candidates:
+        if frame == slip or frame.rpartition("/")[-1] == slip or slip.rpartition("/")[-1] == frame:
+            return candidates[frame]
+    near = get_close_matches(slip, candidates, 1, SLIP)
+    return candidates[near[0]] if near and _digits(near[0]) == _digits(name) else ""
+
+
+def _digits(name: str) -> str:
+    return "".join(filter(str.isdigit, name))
+
+
+def _out_of_reach(tree: FrameTree, fixed_frame: str, frame: str, stamp_ns: int) -> Explanation:
+    up, down = ancestors(tree, frame), ancestors(tree, fixed_frame)
+    links: list[tuple[float, str, str]] = []
+    for child in set(up) ^ set(down):
+        sample = tree.caches[child].at(stamp_ns) if child in tree.caches else None
+        if sample is not None:
+            links.append((max(map(abs, sample[0][:3])), sample[1], child))
+    text = f'"{frame}" is more than {REACH_M:.0e} m from "{fixed_frame}", too far to be drawn.'
+    if links:
+        metres, parent, child = max(links)
+        text += f' The longest link on the way is "{parent}" → "{child}" with {metres:.3g} m.'
+    return Explanation(Kind.OUT_OF_REACH, f"{text} Fix the publisher of that transform.")
+
+
+def _loop(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:
+    for start in (frame, fixed_frame):
+        chain = ancestors(tree, start)
+        if chain[-1] in chain[:-1]:
+            loop = " → ".join(chain[chain.index(chain[-1]) :])
+            return Explanation(
+                Kind.LOOP,
+                f"The frames form a loop, each the child of the next: {loop}. Two publishers "
+                "disagree about who is whose parent: stop one of them.",
+            )
+    return Explanation(Kind.LOOP, "The frames formed a loop at that time.")
+
+
+def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:
+    root, fixed_root = ancestors(tree, frame)[-1], ancestors(tree, fixed_frame)[-1]
+    if root == fixed_root:
+        return Explanation(
+            Kind.NOT_CONNECTED,
+            f'At that time nothing connected "{frame}" with "{fixed_frame}"; now it does.',
+        )
+    for top in (root, fixed_root):
+        if top in tree.caches:
+            return Explanation(
+                Kind.NO_DATA,
+                f'No transform of "{top}" has come since the transforms were cleared, so '
+                f'"{frame}" is not connected with "{fixed_frame}".',
+            )
+    return Explanation(
+        Kind.NOT_CONNECTED,
+        f'"{frame}" and "{fixed_frame}" are in two trees that no transform connects: one has the '
+        f'root "{root}", the other "{fixed_root}". {_missing_link(tree, root, fixed_root)}',
+        cause=f"{root} {fixed_root}",
+    )
+
+
+def _missing_link(tree: FrameTree, root: str, fixed_root: str) -> str:
+    """What usually publishes the link between two trees (REP 105), or what to do about it."""
+    if fixed_root == "map" and root == "odom":
+        return 'Start localisation or SLAM, which publishes "map" → "odom", and initialise it.'
+    if root.startswith("base") and "odom" in tree.names and tree.root("odom") == fixed_root:
+        return f'Start the odometry of the robot, which publishes "odom" → "{root}".'
+    return "Publish a transform from one to the other, or choose a fixed frame in the first."

@@ -1,0 +1,173 @@
+"""Messages that wait until their frame has a pose: tf2's MessageFilter without callbacks."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
+
+from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.errors import TransformException
+from webviz.data.transforms.explain import explain
+from webviz.data.transforms.geometry import is_within_reach
+from webviz.data.transforms.reasons import Explanation, Kind, in_words
+
+P = TypeVar("P")
+
+
+@dataclass(frozen=True, slots=True)
+class _Waiting(Generic[P]):
+    payload: P
+    frame: str
+    stamp_ns: int
+    duration_ns: int
+
+    def stamps(self) -> tuple[int, ...]:
+        """The times at which a transform is needed."""
+        if self.duration_ns and self.stamp_ns:
+            return self.stamp_ns, self.stamp_ns + self.duration_ns
+        return (self.stamp_ns,)
+
+
+class MessageFilter(Generic[P]):
+    """Holds messages back until the fixed frame can be reached from their frame at their stamp.
+
+    Every message is tried at once; only those that must wait take a place in the queue. When it is
+    full the oldest is given up. A newer message never takes the place of one that became ready.
+    A zero stamp asks for the latest transform.
+
+    Args:
+        queue_size: how many may wait (RViz's Filter size).
+    """
+
+    def __init__(self, queue_size: int = 10) -> None:
+        self._queue_size = max(queue_size, 1)
+        self._new: list[_Waiting[P]] = []
+        self._queue: deque[_Waiting[P]] = deque()
+        self._drops: Counter[Kind] = Counter()
+        self._given_up: _Waiting[P] | None = None
+        self._lost = 0
+        self._tried: tuple[int, str] | None = None
+
+    @property
+    def drops(self) -> Mapping[Kind, int]:
+        """How many messages were given up since the start or `clear`, by reason."""
+        return self._drops
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether messages wait or were given up since one last became ready."""
+        return bool(self._queue) or self._given_up is not None
+
+    def __len__(self) -> int:
+        return len(self._queue) + len(self._new)
+
+    def add(
+        self, payload: P, frame: str, stamp_ns: int, now_ns: int = 0, duration_ns: int = 0
+    ) -> None:
+        """Let a message in; `ready` will try it.
+
+        Args:
+            payload: whatever `ready` is to return.
+            frame: its frame id; one leading slash is stripped, as tf2's filter does.
+            stamp_ns: its time; 0 means the latest.
+            now_ns: the current ROS time, 0 if it is not known.
+            duration_ns: the transform must exist up to so long after the stamp too (a scan).
+        """
+        frame = frame.removeprefix("/")
+        self._new.append(_Waiting(payload, frame, stamp_ns, duration_ns))
+
+    def ready(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0) -> list[P]:
+        """The messages that became transformable, in order of arrival."""
+        state = (buffer.version, fixed_frame)
+        waiting = [] if state == self._tried else list(self._queue)
+        if waiting:
+            self._queue.clear()
+        self._tried = state
+        done: list[P] = []
+        for message in (*waiting, *self._new):
+            if not message.frame:
+                self._give_up(message, Kind.EMPTY_FRAME)
+            elif all(buffer.can_transform(fixed_frame, message.frame, t) for t in message.stamps()):
+                if _is_within_reach(buffer, fixed_frame, message):
+                    done.append(message.payload)
+                else:
+                    self._give_up(message, Kind.OUT_OF_REACH)
+            elif _is_too_old(buffer, fixed_frame, message):
+                self._give_up(message, Kind.BEHIND)
+            else:
+                self._queue.append(message)
+        self._new.clear()
+        if done:
+            self._given_up, self._lost = None, 0
+        while len(self._queue) > self._queue_size:
+            self._give_up(self._queue.popleft(), Kind.QUEUE_FULL)
+        return done
+
+    def explanation(
+        self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0
+    ) -> Explanation | None:
+        """Why nothing is ready: of the message that waits longest, else of the last one given up.
+
+        None if nothing waits and nothing was given up since a message last became ready.
+        """
+        message = self._queue[0] if self._queue else self._given_up
+        if message is None:
+            return None
+        reason = _why(buffer, fixed_frame, message, now_ns)
+        caught_up = reason.kind == Kind.AVAILABLE or reason.is_catching_up
+        if self._lost and caught_up:
+            reason = self._queue_full(buffer, fixed_frame, now_ns)
+        if self._lost:
+            were = "message was" if self._lost == 1 else "messages were"
+            reason = replace(reason, sentence=f"{reason.sentence} {self._lost} {were} given up.")
+        return reason
+
+    def clear(self) -> None:
+        """Forget all messages and counts, as after a jump of time."""
+        self._new.clear()
+        self._queue.clear()
+        self._drops.clear()
+        self._given_up, self._lost, self._tried = None, 0, None
+
+    def _give_up(self, message: _Waiting[P], kind: Kind) -> None:
+        self._drops[kind] += 1
+        self._lost += 1
+        self._given_up = message
+
+    def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:
+        """Transforms do come, but later than the queue can wait."""
+        text = f"The queue of {self._queue_size} messages is full before their transforms come"
+        remedy = "raise the filter size"
+        if len(self._queue) > 1:
+            newest = self._queue[-1]
+            lag = _why(buffer, fixed_frame, newest, now_ns).lag_ns
+            period = (newest.stamp_ns - self._queue[0].stamp_ns) / (len(self._queue) - 1)
+            if lag > 0 and period > 0:
+                text = f"{text}, which are {in_words(lag)} late"
+                remedy = f"{remedy} to {int(lag / period) + 2}"
+        return Explanation(Kind.QUEUE_FULL, f"{text}: {remedy}, or speed up what publishes them.")
+
+
+def _why(
+    buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P], now_ns: int
+) -> Explanation:
+    """What keeps a message from its place: the first of its stamps that has none."""
+    reasons = [explain(buffer, fixed_frame, message.frame, t, now_ns) for t in message.stamps()]
+    return next((r for r in reasons if r.kind != Kind.AVAILABLE), reasons[0])
+
+
+def _is_within_reach(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
+    """Whether a message can be drawn where the transforms place it."""
+    pose = buffer.lookup(fixed_frame, message.frame, message.stamp_ns)
+    return is_within_reach((*pose.translation, *pose.rotation))
+
+
+def _is_too_old(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
+    """Whether no transform for it can come any more (tf2's rule)."""
+    try:
+        newest = buffer.latest_common_time(fixed_frame, message.frame)
+    except TransformException:
+        return False
+    return 0 != message.stamp_ns < newest - buffer.cache_time_ns

@@ -1,0 +1,235 @@
+"""All frames in one: every pose of a tick in one pass, link by link."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.transforms.arrays import (
+    C128,
+    F64,
+    canonical_many,
+    compose_many,
+    interpolate_many,
+    interpolation_table,
+    inverse_many,
+    poses_to_rows,
+    to_rows,
+)
+from webviz.data.transforms.errors import TransformException
+from webviz.data.transforms.geometry import IDENTITY, Pose, canonical, compose, interpolate, inverse
+from webviz.data.transforms.tree import FrameTree
+
+ARRAYS_PAY_FROM = 75
+"""Links, or frames, from which numpy is faster than floats (measured: see the benchmark)."""
+
+
+@dataclass(frozen=True)
+class FramesIn:
+    """The poses of frames in one target frame.
+
+    Attributes:
+        frames: frame ids.
+        translations: float64 (N, 3), metres.
+        rotations: float64 (N, 4), unit quaternions (x, y, z, w).
+        stamps_ns: int64 (N,), the time each pose holds for; 0 if all its links are static.
+        ok: bool (N,), whether `lookup` would succeed; the other rows are NaN.
+    """
+
+    frames: list[str]
+    translations: F64
+    rotations: F64
+    stamps_ns: NDArray[np.int64]
+    ok: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, frames: list[str], rows: F64, stamps_ns: NDArray[np.int64]) -> FramesIn:
+        """From the poses as rows (7, N), NaN where there is none."""
+        return cls(frames, rows[:3].T.copy(), rows[3:].T.copy(), stamps_ns, ~np.isnan(rows[6]))
+
+
+@dataclass
+class _Links:
+    """Links at some time, each once, a link's parent before it; from a top down to the frames.
+
+    A top is a root, or the frame below a link that has no data at the time.
+    """
+
+    starts: list[Pose] = field(default_factory=list)
+    ends: list[Pose] = field(default_factory=list)
+    """The very object in `starts` where nothing is to be interpolated."""
+    ratios: list[float] = field(default_factory=list)
+    parents: list[int] = field(default_factory=list)
+    depths: list[int] = field(default_factory=list)
+    tops: list[int] = field(default_factory=list)
+
+    def chain(self, tree: FrameTree, frame: str, stamp_ns: int, known: dict[str, int]) -> int:
+        """Number of the link that ends in a frame, with all above it; -1 if they form a loop.
+
+        Args:
+            tree: where to look.
+            frame: where to begin.
+            stamp_ns: when; 0 means the newest of each link.
+            known: numbers of the links already made for this time.
+        """
+        climbed: list[tuple[str, Pose, Pose, float]] = []
+        while (number := known.get(frame)) is None:
+            cache = tree.caches.get(frame)
+            bracket = cache.bracket(stamp_ns) if cache is not None else None
+            if bracket is None:
+                number = known[frame] = len(self.starts)
+                self._append(IDENTITY, IDENTITY, 0.0, -1, 0, number)
+                break
+            known[frame] = -1  # met again before it gets its number: a loop
+            start, end, ratio, parent = bracket
+            climbed.append((frame, start, end, ratio))
+            frame = parent
+        if number < 0:
+            return number
+        top, depth = self.tops[number], self.depths[number]
+        for frame, start, end, ratio in reversed(climbed):
+            depth += 1
+            parent_number, number = number, len(self.starts)
+            known[frame] = number
+            self._append(start, end, ratio, parent_number, depth, top)
+        return number
+
+    def _append(
+        self, start: Pose, end: Pose, ratio: float, parent: int, depth: int, top: int
+    ) -> None:
+        self.starts.append(start)
+        self.ends.append(end)
+        self.ratios.append(ratio)
+        self.parents.append(parent)
+        self.depths.append(depth)
+        self.tops.append(top)
+
+    def poses_by_floats(self) -> list[Pose]:
+        """The pose of every frame in its top."""
+        poses: list[Pose] = []
+        for start, end, ratio, parent in zip(
+            self.starts, self.ends, self.ratios, self.parents, strict=True
+        ):
+            link = start if end is start else interpolate(start, end, ratio)
+            above = poses[parent] if parent >= 0 else IDENTITY
+            poses.append(link if above is IDENTITY else compose(above, link))
+        return poses
+
+    def poses_by_arrays(self) -> C128:
+        """The same as pairs (4, links): all interpolated at once, then joined level by level."""
+        table = interpolation_table(poses_to_rows(self.starts), poses_to_rows(self.ends))
+        poses = interpolate_many(table, np.array(self.ratios))
+        parents, depths = np.array(self.parents), np.array(self.depths)
+        by_depth = np.argsort(depths, kind="stable")
+        borders = np.searchsorted(depths[by_depth], np.arange(2, depths.max() + 2))
+        for low, high in pairwise(borders):
+            level = by_depth[low:high]
+            poses[:, level] = compose_many(poses[:, parents[level]], poses[:, level])
+        return poses
+
+
+def poses_in(
+    tree: FrameTree, target: str, frames: list[str], valid: set[str], stamp_ns: int
+) -> FramesIn:
+    """`TransformBuffer.poses_in`; `valid` are those frames that can be looked up at all."""
+    links = _Links()
+    out = np.full((7, len(frames)), np.nan)
+    known: dict[int, dict[str, int]] = {}
+    found: list[int] = []
+    pairs: list[tuple[int, int]] = []
+    odd: list[int] = []
+    stamps = _stamps(tree, target, frames, stamp_ns)
+    for i, (frame, stamp) in enumerate(zip(frames, stamps, strict=True)):
+        if frame == target:
+            out[:, i] = IDENTITY
+            continue
+        if stamp is None or frame not in valid:
+            continue
+        at_stamp = known.setdefault(stamp, {})
+        if (number := at_stamp.get(frame)) is None:
+            number = links.chain(tree, frame, stamp, at_stamp)
+        if (base := at_stamp.get(target)) is None:
+            base = links.chain(tree, target, stamp, at_stamp)
+        if number < 0 or base < 0:
+            odd.append(i)
+        elif links.tops[number] == links.tops[base]:
+            found.append(i)
+            pairs.append((base, number))
+
+    if len(links.starts) < ARRAYS_PAY_FROM:
+        floats = links.poses_by_floats()
+        for i, (base, number) in zip(found, pairs, strict=True):
+            pose = compose(inverse(floats[base]), floats[number])
+            out[:, i] = (*pose[:3], *canonical(*pose[3:]))
+    elif found:
+        arrays = links.poses_by_arrays()
+        bases, numbers = np.array(pairs).T
+        rows = to_rows(compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers]))
+        out[:3, found] = rows[:3]
+        out[3:, found] = canonical_many(rows[3:])
+    for i in odd:
+        with suppress(TransformException):
+            pose, _ = tree.resolve(target, frames[i], stamps[i] or 0)
+            out[:, i] = (*pose[:3], *canonical(*pose[3:]))
+    return FramesIn.of(frames, out, np.array([stamp or 0 for stamp in stamps], np.int64))
+
+
+def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> Sequence[int | None]:
+    """The time at which each frame is to be looked up; None if it has none."""
+    if stamp_ns != 0:
+        return [stamp_ns] * len(frames)
+    caches = tree.caches
+    spine: dict[str, int | None] = {}  # from target upwards -> newest common time up to there
+    frame: str = target
+    common: int | None = None
+    while frame not in spine:
+        spine[frame] = common
+        cache = caches.get(frame)
+        if cache is None or (newest := cache.newest) is None:
+            break
+        common = _older(common, cache.newest_stamp)
+        frame = newest[1]
+    else:
+        return [_latest_common_time(tree, target, frame) for frame in frames]
+
+    meets: dict[str, tuple[str, int | None] | None] = {frame: (frame, None) for frame in spine}
+    stamps: list[int | None] = []
+    for asked in frames:
+        if asked == target:
+            stamps.append(tree.latest_common_time(target, target))
+            continue
+        climbed: list[tuple[str, int]] = []
+        frame = asked
+        while frame not in meets:
+            meets[frame] = None  # a root elsewhere and a loop stay so
+            cache = caches.get(frame)
+            if cache is None or (newest := cache.newest) is None:
+                break
+            climbed.append((frame, cache.newest_stamp))
+            frame = newest[1]
+        meet = meets[frame]
+        if meet is None:
+            stamps.append(None)
+            continue
+        for frame, stamp in reversed(climbed):
+            meet = meets[frame] = (meet[0], _older(meet[1], stamp))
+        below, above = meet[1], spine[meet[0]]
+        stamps.append(_older(below, above or 0) or 0)
+    return stamps
+
+
+def _older(common: int | None, stamp: int) -> int | None:
+    """The older of the two; a stamp of 0 does not count."""
+    return stamp if stamp != 0 and (common is None or stamp < common) else common
+
+
+def _latest_common_time(tree: FrameTree, target: str, frame: str) -> int | None:
+    try:
+        return tree.latest_common_time(target, frame)
+    except TransformException:
+        return None

@@ -1,0 +1,107 @@
+"""Who gives a frame its transforms, and whether several quarrel over it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from webviz.data.transforms.cache import Sample
+
+Claim = str | Sample
+"""What tells publishers of one frame apart: the authority of a moving transform, and of a static
+one the parent and pose, as publishers of the same static transform agree."""
+
+MAX_REPLACED = 8
+"""Claims remembered per frame."""
+
+
+@dataclass(frozen=True)
+class Contest:
+    """Two claims to one frame that took turns.
+
+    Attributes:
+        claims: the two.
+        stamp_ns: of the transform by which the first of them returned.
+    """
+
+    claims: tuple[Claim, Claim]
+    stamp_ns: int
+
+    @property
+    def is_static(self) -> bool:
+        """Whether a static transform takes part: those are not repeated, so it cannot expire."""
+        return not all(isinstance(claim, str) for claim in self.claims)
+
+    def parents(self) -> list[str]:
+        """Parents of the static transforms that take part, each once."""
+        return list(dict.fromkeys(claim[1] for claim in self.claims if isinstance(claim, tuple)))
+
+
+class Publishers:
+    """The publishers heard of for one child frame, as far as they can be told apart.
+
+    One that takes over for good is a restart, or a sensor mounted anew; one that comes back after
+    it was replaced is a second publisher.
+
+    Attributes:
+        current: the authority of the last transform stored.
+        claim: what it claimed.
+        contest: the last two that took turns, or None.
+        delay_ns: how long after its stamp the last transform was received; None if not known.
+        changes: how often a static transform gave way or was given way to while no contest was
+            known. Whether it was a restart shows when the publishers are asked again.
+    """
+
+    __slots__ = ("_replaced", "changes", "claim", "contest", "current", "delay_ns")
+
+    def __init__(self, authority: str, claim: Claim) -> None:
+        self.current = authority
+        self.claim = claim
+        self.contest: Contest | None = None
+        self.delay_ns: int | None = None
+        self.changes = 0
+        self._replaced: dict[Claim, tuple[str, int]] = {}
+
+    def take_over(self, authority: str, claim: Claim, stamp_ns: int, horizon_ns: int) -> None:
+        """Note that another than the current claim was made.
+
+        Args:
+            authority: who made it.
+            claim: the claim.
+            stamp_ns: of its transform.
+            horizon_ns: authorities not heard of since this stamp are forgotten.
+        """
+        if self.contest is None and not (isinstance(claim, str) and isinstance(self.claim, str)):
+            self.changes += 1
+        self._replaced[self.claim] = (self.current, stamp_ns)
+        kept = {
+            old: (who, at)
+            for old, (who, at) in self._replaced.items()
+            if at > horizon_ns or not isinstance(old, str)
+        }
+        if claim in kept:
+            del kept[claim]
+            self.contest = Contest((self.claim, claim), stamp_ns)
+        self._replaced = dict(list(kept.items())[-MAX_REPLACED:])
+        self.claim, self.current = claim, authority
+
+    def forget(self) -> None:
+        """Forget all but the current claim."""
+        self.contest = None
+        self._replaced.clear()
+
+    def contested(self, newest_ns: int, cache_time_ns: int) -> Contest | None:
+        """The contest, unless it is over: the turns of moving transforms are long ago.
+
+        Args:
+            newest_ns: newest stamp of the frame.
+            cache_time_ns: how long is long.
+        """
+        contest = self.contest
+        if contest is None or contest.is_static or newest_ns - contest.stamp_ns <= cache_time_ns:
+            return contest
+        return None
+
+    def names(self) -> list[str]:
+        """The authorities heard of lately, the current one last."""
+        others = dict.fromkeys(who for who, _ in self._replaced.values() if who != self.current)
+        return [*others, self.current]

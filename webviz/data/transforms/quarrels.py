@@ -1,0 +1,87 @@
+"""Signs that a frame has two publishers, whether they can be told apart or not.
+
+The middleware does not say who published a transform. What two publishers of one frame leave
+behind are turns: of parents, of poses at one stamp, of stamps, of the pose itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import dist
+
+from webviz.data.transforms.buffer import TransformBuffer
+from webviz.data.transforms.cache import Sample, TimeCache
+from webviz.data.transforms.publishers import Contest
+
+RECENT = 100
+"""Newest samples searched."""
+MIN_TURNS = 6
+"""Changes of pose, one after the other, of which each goes back to where the one before came from:
+two publishers that speak in turn."""
+LEAP = 10.0
+"""How many times longer than the way of two steps each single step of a turn is."""
+MIN_LEAP_M = 0.01
+"""Less is the last digit of an encoder."""
+
+
+def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
+    """Sentences, one for each sign of two publishers of a child frame."""
+    cache = buffer.tree.caches[frame]
+    contest = buffer.publishers[frame].contested(cache.newest_stamp, buffer.cache_time_ns)
+    if contest:
+        yield _in_words(frame, contest)
+    if not isinstance(cache, TimeCache) or not cache.stamps:
+        return
+    samples, stamps = cache.samples[-RECENT:], cache.stamps[-RECENT:]
+    parents = [parent for _, parent in samples] if cache.mixed_ns >= stamps[0] else []
+    changes = sum(a != b for a, b in pairwise(parents))
+    if changes > 1:
+        both = " and ".join(f'"{name}"' for name in sorted(set(parents)))
+        yield (
+            f'"{frame}" changed its parent {changes} times between {both}: two publishers give it '
+            "different parents, stop one of them."
+        )
+        return
+    twins = len(stamps) - len(set(stamps))
+    if twins > 1:
+        yield (
+            f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
+            "or one whose clock stands still."
+        )
+    elif _takes_turns(samples):
+        yield f'"{frame}" leaps to and fro between two poses: two publishers, stop one of them.'
+
+
+def _in_words(frame: str, contest: Contest) -> str:
+    parents = contest.parents()
+    statics = [claim[0] for claim in contest.claims if isinstance(claim, tuple)]
+    if len(parents) == 2:
+        both = " and ".join(f'"{parent}"' for parent in parents)
+        return (
+            f'"{frame}" is given two parents by static transforms, {both}: stop one of their '
+            "publishers."
+        )
+    if len(statics) == 2:
+        apart = dist(statics[0][:3], statics[1][:3])
+        return (
+            f'"{frame}" is given two static poses in "{parents[0]}", {apart:.3f} m apart and '
+            "perhaps turned: stop one of their publishers."
+        )
+    if statics:
+        return (
+            f'"{frame}" is published on /tf and as a static transform in "{parents[0]}": stop one '
+            "of the publishers."
+        )
+    names = " and ".join(str(claim) or "an unknown node" for claim in contest.claims)
+    return f'"{frame}" has two publishers, {names}: stop one of them.'
+
+
+def _takes_turns(samples: Sequence[Sample]) -> bool:
+    """Whether the newest poses lie alternately in two places."""
+    newest = [pose[:3] for pose, _ in samples[-MIN_TURNS - 2 :]]
+    if len(newest) < MIN_TURNS + 2:
+        return False
+    steps = [dist(a, b) for a, b in pairwise(newest)]
+    two_steps = [dist(a, b) for a, b in zip(newest, newest[2:], strict=False)]
+    return min(steps) > max(LEAP * max(two_steps), MIN_LEAP_M)

@@ -1,0 +1,97 @@
+"""The reasons why a frame can have no pose, and durations in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from webviz.data.transforms.errors import NS_PER_S
+
+HOUR_NS = 3600 * NS_PER_S
+YEAR_NS = 365 * 24 * HOUR_NS
+
+WALL_NS = 1_000_000_000 * NS_PER_S
+"""Wall time, counted since 1970, has been beyond this since September 2001.
+
+Simulated time and time since boot start at 0: below a year it cannot be the wall clock.
+"""
+
+
+class Kind(StrEnum):
+    """What keeps a frame from having a pose."""
+
+    AVAILABLE = "available"
+    EMPTY_FRAME = "empty frame_id"
+    LEADING_SLASH = "leading slash"
+    NO_TRANSFORMS = "no transforms at all"
+    UNKNOWN_FRAME = "frame never seen"
+    UNKNOWN_FIXED_FRAME = "fixed frame never seen"
+    NOT_CONNECTED = "two trees"
+    LOOP = "loop"
+    AHEAD = "stamp ahead of the transforms"
+    BEHIND = "stamp older than the transforms"
+    CLOCKS = "clocks disagree"
+    JUMPED_BACK = "time jumped back"
+    NO_DATA = "too little data"
+    OUT_OF_REACH = "too far away"
+    QUEUE_FULL = "queue full"
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """One reason.
+
+    Attributes:
+        kind: which of the known reasons.
+        sentence: what is wrong, with numbers, and what to do next.
+        lag_ns: by how much the transforms are behind the stamp, if they are.
+        is_catching_up: the transforms are behind, but still come.
+        cause: names what is missing, the same for all frames that miss it; "" is only this frame.
+    """
+
+    kind: Kind
+    sentence: str
+    lag_ns: int = 0
+    is_catching_up: bool = False
+    cause: str = ""
+
+
+FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)
+"""Reasons that have nothing to do with a single frame."""
+MOST_TRIED = 20
+
+
+def distinct(
+    frames: Sequence[str], explain: Callable[[str], Explanation], most: int
+) -> dict[str, str]:
+    """Why frames have no pose: a sentence for each cause, by the first frame that has it.
+
+    Args:
+        frames: ids.
+        explain: says why one of them has no pose.
+        most: sentences.
+    """
+    found: dict[tuple[Kind, str], tuple[str, str]] = {}
+    for frame in frames[:MOST_TRIED]:
+        reason = explain(frame)
+        if reason.kind in FOR_ALL:
+            return {frame: reason.sentence}
+        found.setdefault((reason.kind, reason.cause or frame), (frame, reason.sentence))
+    return dict(list(found.values())[:most])
+
+
+def in_words(duration_ns: int) -> str:
+    """A duration in the unit that people would use."""
+    size = abs(duration_ns)
+    for limit, unit, digits, name in (
+        (10_000_000, 1_000_000, 1, "ms"),
+        (NS_PER_S, 1_000_000, 0, "ms"),
+        (120 * NS_PER_S, NS_PER_S, 1, "s"),
+        (2 * HOUR_NS, 60 * NS_PER_S, 0, "min"),
+        (48 * HOUR_NS, HOUR_NS, 1, "hours"),
+        (2 * YEAR_NS, 24 * HOUR_NS, 0, "days"),
+    ):
+        if size < limit:
+            return f"{size / unit:.{digits}f} {name}"
+    return f"{size / YEAR_NS:.0f} years"

@@ -1,0 +1,63 @@
+"""What the buffer hands out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isnan
+
+from webviz.data.transforms.errors import format_stamp
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """Maps coordinates of a source frame into a target frame.
+
+    Attributes:
+        translation: (x, y, z) in metres.
+        rotation: unit quaternion (x, y, z, w) as in ROS messages.
+        stamp_ns: the time it holds for, nanoseconds.
+    """
+
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    stamp_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class Rejection:
+    """Why the buffer last refused a transform of some child, and how many it has refused.
+
+    Attributes:
+        reason: tf2's word for it, such as `TF_OLD_DATA`.
+        sentence: the case in words.
+        count: transforms of this child refused since the buffer was made or cleared.
+        stamp_ns: stamp of the last one refused.
+        received_ns: when that one was received; 0 if not known.
+    """
+
+    reason: str
+    sentence: str
+    count: int
+    stamp_ns: int
+    received_ns: int = 0
+
+
+def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
+    """Why a transform is refused whatever its time: tf2's word for it, and the case in words."""
+    if child == parent:
+        return "TF_SELF_TRANSFORM", "the frame is its own parent"
+    if not child:
+        return "TF_NO_CHILD_FRAME_ID", "its child frame id is empty"
+    if not parent:
+        return "TF_NO_FRAME_ID", "its parent frame id is empty"
+    if any(isnan(value) for value in translation):
+        return "TF_NAN_INPUT", "its translation holds a NaN"
+    return "TF_NAN_INPUT", "its rotation holds a NaN or has length zero"
+
+
+def too_old(stamp_ns: int, newest_ns: int) -> tuple[str, str]:
+    """Why a transform is refused that is older than what the buffer keeps."""
+    return "TF_OLD_DATA", (
+        f"its stamp {format_stamp(stamp_ns)} is older than the newest, {format_stamp(newest_ns)}, "
+        "by more than the buffer keeps"
+    )

@@ -1,0 +1,1 @@
+"""Where webviz meets other systems: ROS, the scene and the panel of the page."""

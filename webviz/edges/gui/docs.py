@@ -1,0 +1,249 @@
+"""Writes the pages about the displays from their declarations: `python -m webviz.edges.gui.docs`.
+
+What a declaration cannot tell (what each status means, what differs from RViz2) stands in
+`notes.yaml` beside the pages; the pictures are those of `tests/pictures`.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import msgspec.inspect as inspect
+from ruamel.yaml import YAML
+
+from webviz.api.declared import Color, Topic
+from webviz.api.display import Display, inputs_of
+from webviz.api.properties import FIRST, Property, properties_of, value_at
+from webviz.api.registry import display_types
+
+ROOT = Path(__file__).parents[3]
+PAGES = ROOT / "displays/docs"
+PICTURES = ROOT / "tests/pictures"
+COMMAND = "python -m webviz.edges.gui.docs"
+BUILT_IN = ("webviz_displays", "webviz")
+
+COLOR = msgspec.inspect.type_info(Color)
+WORDS = {
+    inspect.BoolType: "true, false",
+    inspect.StrType: "text",
+    inspect.IntType: "whole number",
+    inspect.FloatType: "number",
+}
+
+
+class Notes(msgspec.Struct, forbid_unknown_fields=True):
+    """What is written by hand about one display.
+
+    Args:
+        statuses: what the display says under each key.
+        differs: where it does not do what RViz2 does, and why.
+    """
+
+    statuses: dict[str, str] = {}
+    differs: list[str] = []
+
+
+def pages() -> dict[str, str]:
+    """The text of every generated page by its file name."""
+    notes = read_notes()
+    types = {n: c for n, c in display_types().items() if c.__module__.split(".")[0] in BUILT_IN}
+    found = {
+        page_name(name): page(name, cls, notes.get(name, Notes())) for name, cls in types.items()
+    }
+    return found | {"README.md": index(types, notes["every display"])}
+
+
+def read_notes() -> Mapping[str, Notes]:
+    """What is written by hand, by the name of the display."""
+    text = (PAGES / "notes.yaml").read_text(encoding="utf-8")
+    return msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, Notes])
+
+
+def page_name(name: str) -> str:
+    """The file of a display's page: `LaserScan` has `laser_scan.md`."""
+    return f"{snake_case(name)}.md"
+
+
+def snake_case(name: str) -> str:
+    """`LaserScan` as `laser_scan`, `TF` as `tf`."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+
+
+def page(name: str, cls: type[Display], notes: Notes) -> str:
+    """Everything about one display."""
+    shown = pictures(snake_case(name))
+    lines = [f"# {name}", "", *paragraphs(cls), ""]
+    lines += [f"![{name}]({shown.pop('default')})", ""] if "default" in shown else []
+    lines += [f"RViz2's `{cls.rviz}`. In a config file: `- type: {name}`.", ""]
+    lines += inputs_table(cls)
+    lines += ["## Properties", "", *properties_table(cls), ""]
+    if notes.statuses:
+        lines += ["## Statuses", "", "Besides [those of every display](README.md#statuses):", ""]
+        lines += table(("status", "says"), [(f"**{k}**", v) for k, v in notes.statuses.items()])
+        lines += [""]
+    if notes.differs:
+        lines += ["## Differs from RViz2, because", ""]
+        lines += [f"- {sentence}" for sentence in notes.differs] + [""]
+    if shown:
+        lines += ["## Pictures", "", *gallery(shown), ""]
+    return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
+
+
+def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
+    """The page that leads to all others."""
+    lines = ["# The displays", ""]
+    rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
+    lines += table(("display", "shows"), rows)
+    lines += ["", "Where something looks wrong on a robot:", ""]
+    for path in sorted((PAGES / "stories").glob("*.md")):
+        title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+        lines.append(f"- [{title}](stories/{path.name})")
+    lines += ["", "## Statuses", "", "Every display says, as far as it applies:", ""]
+    lines += table(("status", "says"), [(f"**{k}**", v) for k, v in notes.statuses.items()])
+    lines += ["", "## Topics", "", "Each topic has, besides its name:", ""]
+    rows = [(f"`{f.name}`", values(f), default_of(f.default)) for f in topic_fields()]
+    lines += table(("key", "values", "default"), rows)
+    lines += [
+        "",
+        "A `depth` of 0 is what suits the message type; `filter_size` is how many messages may "
+        "wait for their transform.",
+    ]
+    lines += ["", "## Differs from RViz2, because", ""]
+    lines += [f"- {sentence}" for sentence in notes.differs]
+    return "\n".join([*lines, "", f"Written by `{COMMAND}`.", ""])
+
+
+def paragraphs(cls: type[Display]) -> list[str]:
+    """The docstring of a display, a line for each paragraph."""
+    text = "\n".join(line.strip() for line in (cls.__doc__ or "").splitlines()).strip()
+    return [" ".join(part.split()) for part in text.split("\n\n")]
+
+
+def pictures(folder: str) -> dict[str, str]:
+    """Links to the pictures of a display by what they show."""
+    found = sorted((PICTURES / folder).rglob("*.png"))
+    return {
+        path.stem.replace("_", " "): f"../../{path.relative_to(ROOT).as_posix()}" for path in found
+    }
+
+
+def gallery(shown: Mapping[str, str]) -> list[str]:
+    """Pictures, two in a row, each above what it shows."""
+    cells = [f"![{what}]({link})<br>{what}" for what, link in shown.items()]
+    rows = [(*cells[i : i + 2], "")[:2] for i in range(0, len(cells), 2)]
+    return table(("", ""), rows)
+
+
+def inputs_table(cls: type[Display]) -> list[str]:
+    """What a display subscribes to."""
+    rows = []
+    for name, declared in inputs_of(cls).items():
+        topic = value_at(cls(), name).name or f"the first topic + `{declared.suffix}`"
+        qos = "transient local, always" if declared.latched else "as its publishers offer"
+        rows.append((f"`{name}`", f"`{declared.type}`", topic, qos))
+    return [*table(("input", "message", "default topic", "QoS"), rows), ""] if rows else []
+
+
+def properties_table(cls: type[Display]) -> list[str]:
+    """All properties with what a declaration says of them."""
+    rows = list(property_rows(properties_of(cls), cls()))
+    return table(("property", "key", "values", "default", "what it does"), rows)
+
+
+def property_rows(found: tuple[Property, ...], display: Display) -> Iterator[tuple[str, ...]]:
+    """A row for each property, those of nested settings after their group's."""
+    for each in found:
+        if each.path in FIRST:
+            continue
+        if each.children and each.input is None:
+            yield from property_rows(each.children, display)
+            continue
+        when = ", ".join(
+            f"`{path}` is {' or '.join(map(default_of, values))}" for path, values in each.when
+        )
+        note = f" Where {when}." if when else ""
+        default = each.of(display)
+        told = default.name if isinstance(default, Topic) else default
+        yield each.label, f"`{each.path}`", values(each), default_of(told), f"{each.help}{note}"
+
+
+def values(each: Property | inspect.Field) -> str:
+    """What a property may be, in words."""
+    if isinstance(each, Property) and each.input is not None:
+        return "topic"
+    if isinstance(each, Property) and each.widget == "frame":
+        return "frame"
+    if isinstance(each, Property) and each.choices:
+        return ", ".join(f"`{choice}`" for choice in each.choices)
+    return type_words(each.type)
+
+
+def type_words(type_: inspect.Type) -> str:
+    """A type in words, with its bounds."""
+    if isinstance(type_, inspect.Metadata):
+        return type_words(type_.type)
+    if type_ == COLOR:
+        return "red, green, blue, 0 to 255 each"
+    match type_:
+        case inspect.LiteralType(values=choices):
+            return ", ".join(f"`{choice}`" for choice in choices)
+        case inspect.TupleType(item_types=items):
+            return f"{len(items)} times {type_words(items[0])}"
+        case inspect.ListType(item_type=item):
+            return f"list of {type_words(item)}"
+        case inspect.DictType(value_type=inspect.StructType(fields=fields)):
+            inner = "; ".join(f"`{f.name}`: {type_words(f.type)}" for f in fields)
+            return f"by name: {inner}"
+        case inspect.DictType(value_type=item):
+            return f"by name: {type_words(item)}"
+    return f"{WORDS[type(type_)]}{bounds(type_)}"
+
+
+def bounds(type_: Any) -> str:
+    """`, 0 to 1` or ` > 0`."""
+    low, high = getattr(type_, "ge", None), getattr(type_, "le", None)
+    if low is not None and high is not None:
+        return f", {low:g} to {high:g}"
+    signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
+    given = ((sign, getattr(type_, name, None)) for name, sign in signs.items())
+    return "".join(f" {sign} {limit:g}" for sign, limit in given if limit is not None)
+
+
+def default_of(value: Any) -> str:
+    """A value as a config file has it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(default_of(item) for item in value)}]"
+    if isinstance(value, int | float):
+        return f"{value:g}"
+    return f"`{value}`" if value else ""
+
+
+def topic_fields() -> list[inspect.Field]:
+    """What there is to choose of a topic besides its name."""
+    info = inspect.type_info(Topic)
+    assert isinstance(info, inspect.StructType)
+    return [field for field in info.fields if field.name != "name"]
+
+
+def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
+    """Lines of a Markdown table."""
+    lines = [head, ("---",) * len(head), *rows]
+    return [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines]
+
+
+def main() -> int:
+    """Write all pages."""
+    for name, text in pages().items():
+        (PAGES / name).write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

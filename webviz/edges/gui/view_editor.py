@@ -1,0 +1,102 @@
+"""What one browser looks at: the type of its view, the frame it follows, and its numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import msgspec
+import viser
+
+from webviz.api.views import FIXED_FRAME, VIEW_TYPES, View, type_of
+from webviz.edges.gui.control import Choice, Control
+from webviz.engine.commands import ChangeView, Command
+
+DIGITS = 3
+"""Decimals that are shown; a view that somebody moves has more."""
+
+HINTS = {
+    "distance": "From the camera to the focal point, in m.",
+    "yaw": "Direction of the camera, in rad.",
+    "pitch": "In rad; positive looks down.",
+    "focal_point": "What the camera turns about, in m.",
+    "position": "Of the camera, in m.",
+    "scale": "In px/m.",
+    "angle": "The picture is turned by it, in rad.",
+    "x": "In the middle of the picture, in m.",
+    "y": "In the middle of the picture, in m.",
+}
+
+
+class ViewEditor:
+    """The view of one browser, shown in that browser only.
+
+    Args:
+        client: that browser.
+        box: where the widgets go.
+        view: what it looks at.
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        box: viser.GuiFolderHandle,
+        view: View,
+        enqueue: Callable[[Command], None],
+    ) -> None:
+        self._gui = client.gui
+        self._browser = client.client_id
+        self._box = box
+        self._enqueue = enqueue
+        self._type: type[View] | None = None
+        self._numbers: dict[str, Control] = {}
+        with box:
+            hint = "How the camera moves; what is looked at stays."
+            self._types = Choice(self._gui, "Type", type_of(view), self._edit("type"), hint)
+            hint = "The camera moves with this frame."
+            follow = self._edit("target_frame")
+            self._frame = Choice(
+                self._gui, "Target Frame", view.target_frame, follow, hint, free=True
+            )
+
+    def update(self, view: View, frames: Sequence[str]) -> None:
+        """Show what the browser looks at now."""
+        self._types.offer(tuple(VIEW_TYPES), type_of(view))
+        self._frame.offer((FIXED_FRAME, *frames), view.target_frame)
+        if type(view) is not self._type:
+            self._type = type(view)
+            self._replace_numbers(view)
+        for name, control in self._numbers.items():
+            control.show(getattr(view, name))
+
+    def _replace_numbers(self, view: View) -> None:
+        for control in self._numbers.values():
+            control.widget.remove()
+        with self._box:
+            self._numbers = {
+                field.name: self._add(field.name, getattr(view, field.name))
+                for field in msgspec.structs.fields(type(view))
+                if field.name != "target_frame"
+            }
+
+    def _add(self, name: str, value: Any) -> Control:
+        label, edit, hint = name.replace("_", " ").title(), self._edit(name), HINTS[name]
+        if isinstance(value, tuple):
+            point: Any = self._gui.add_vector3(label, _rounded(value), step=0.1, hint=hint)
+            return Control(point, edit, _rounded, tuple)
+        number = self._gui.add_number(label, _rounded(value), step=10.0**-DIGITS, hint=hint)
+        number.precision = DIGITS
+        return Control(number, edit, _rounded, float)
+
+    def _edit(self, key: str) -> Callable[[Any], None]:
+        return lambda value: self._enqueue(ChangeView(key, value, self._browser))
+
+
+def _rounded(value: Any) -> Any:
+    """Numbers as they are shown; small ones keep digits that count."""
+    if isinstance(value, tuple):
+        return tuple(_rounded(part) for part in value)
+    least = -math.floor(math.log10(abs(value))) if value else 0
+    return round(float(value), max(DIGITS, min(least + 1, 6)))

@@ -1,0 +1,251 @@
+"""The viewer's ROS node: one thread that subscribes to raw messages and watches the graph."""
+
+from __future__ import annotations
+
+import functools
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import rclpy
+from rclpy.clock import ROSClock
+from rclpy.context import Context
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription as RclpySubscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from webviz.edges.ros import qos
+from webviz.edges.ros.control import Control
+from webviz.edges.ros.heap import Heap
+from webviz.edges.ros.types import message_class
+from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
+
+SPIN_S = 0.05
+"""How long to wait for messages before looking at wishes and the graph. It has to be finite: the
+events executor of rclpy 7.1.6 burns a core in an unlimited wait."""
+WANTED_POLL_S = 0.25
+GRAPH_POLL_S = 2.0
+INBOX_LIMIT = 1000
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+TF_LIMIT = 20_000
+"""Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
+
+
+class RosSource:
+    """Messages from the ROS graph, as raw bytes in an inbox.
+
+    Everything of rclpy happens in one thread of this object; the other methods may be called from
+    any thread.
+
+    Args:
+        args: command line arguments for ROS (`--ros-args ...`).
+        node_name: unless remapped by `args`.
+        domain_id: ROS domain, None for the one of the environment.
+    """
+
+    def __init__(
+        self,
+        args: Sequence[str] = (),
+        node_name: str = "webviz",
+        domain_id: int | None = None,
+    ) -> None:
+        self._heap = Heap()
+        self.inbox = Inbox()
+        self._context = Context()
+        rclpy.init(
+            args=list(args),
+            context=self._context,
+            domain_id=domain_id,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
+        # Type descriptions cannot be answered for types composed at run time (see `types`).
+        silent = Parameter("start_type_description_service", value=False)
+        self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
+        self._clock = self._node.get_clock()
+        self.control = Control(self._node)
+        self._wanted: Mapping[str, Subscription] = {}
+        self._held: dict[str, _Held] = {}
+        self._offers: dict[str, Offer] = {}
+        self._problems: dict[str, str] = {}
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="webviz-ros", daemon=True)
+        self._thread.start()
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these; takes effect within 50 ms."""
+        if subscriptions != self._wanted:
+            self._wanted = dict(subscriptions)
+
+    def offers(self) -> Mapping[str, Offer]:
+        """What is known of every topic of the graph."""
+        return self._offers
+
+    def now_ns(self) -> int:
+        """ROS time; 0 before the first /clock when use_sim_time is set."""
+        if isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active:
+            return self._clock.now().nanoseconds
+        return time.time_ns()
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic.
+
+        Raises:
+            ValueError: it is no valid topic name.
+        """
+        try:
+            return self._node.resolve_topic_name(topic)
+        except (InvalidTopicNameException, RuntimeError, ValueError) as error:
+            reason = str(error).partition(", at /")[0].rpartition("name: ")[2]
+            raise ValueError(f"{topic!r} is no topic name: {reason}") from error
+
+    def close(self) -> None:
+        """Leave the graph and end the thread."""
+        self._stop.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        executor = _executor(self._context)
+        executor.add_node(self._node)
+        next_wanted = next_graph = 0.0
+        wanted: Mapping[str, Subscription] = {}
+        try:
+            while not self._stop.is_set():
+                now = time.monotonic()
+                if now >= next_graph:
+                    next_graph = now + GRAPH_POLL_S
+                    self._look([name for name, _ in self._node.get_topic_names_and_types()])
+                    self._reconcile(self._wanted)
+                elif now >= next_wanted or wanted is not self._wanted:
+                    next_wanted = now + WANTED_POLL_S
+                    wanted = self._wanted
+                    self._look([*self._offers, *wanted], only=wanted)
+                    self._reconcile(wanted)
+                self._heap.turn()
+                self.control.turn()
+                executor.spin_once(timeout_sec=SPIN_S)
+        finally:
+            self.control.close()
+            executor.shutdown()
+            self._node.destroy_node()
+            self._context.try_shutdown()
+
+    def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> None:
+        """Refresh what is known of topics; those outside `only` keep what was known."""
+        offers = {}
+        for topic in topics:
+            if only is not None and topic not in only:
+                offers[topic] = self._offers[topic]
+                continue
+            infos = self._node.get_publishers_info_by_topic(topic)
+            publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
+            held = self._held.get(topic)
+            problem = self._problems.get(topic, "")
+            if held is None:
+                offers[topic] = Offer(publishers, None, problem)
+            else:
+                offers[topic] = Offer(publishers, held.policies, problem, held.wish.type)
+        if offers != self._offers:
+            self._offers = offers
+            self.inbox.arrived.set()
+
+    def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:
+        """Subscribe and unsubscribe until we hold what is wanted, in the QoS that fits now."""
+        for topic in [t for t in self._held if t not in wanted]:
+            self._release(topic)
+            self.inbox.close(topic)
+        for topic, wish in wanted.items():
+            publishers = self._offers[topic].publishers if topic in self._offers else ()
+            if publishers and all(p.type != wish.type for p in publishers):
+                self._release(topic)  # nothing could arrive, and the name has to stay free
+                continue
+            policies, is_mixed = qos.adapt(wish, publishers), qos.is_mixed(wish, publishers)
+            if policies[1] == "volatile" and not is_mixed:
+                wish = replace(wish, asked=0)  # nothing is latched that could be repeated
+            fitting = _Held(wish, policies, is_mixed)
+            if self._held.get(topic) != fitting:
+                self._release(topic)
+                self._subscribe(topic, fitting)
+
+    def _subscribe(self, topic: str, held: _Held) -> None:
+        self.inbox.open(topic, TF_LIMIT if held.wish.type == TF_TYPE else INBOX_LIMIT)
+        reliability, durability = held.policies
+        durabilities: list[qos.Durability] = [durability]
+        if held.is_mixed:
+            durabilities = ["transient_local", "volatile"]
+        try:
+            held.subscriptions = [
+                self._node.create_subscription(
+                    message_class(held.wish.type),
+                    topic,
+                    functools.partial(self._arrive, topic),
+                    qos.profile(held.wish, reliability, each),
+                    raw=True,
+                )
+                for each in durabilities
+            ]
+        except Exception as error:  # rclpy, the type support and DDS raise many kinds
+            self._problems[topic] = f"cannot subscribe: {' '.join(str(error).split())}"
+        else:
+            self._problems.pop(topic, None)
+        self._held[topic] = held
+
+    def _release(self, topic: str) -> None:
+        held = self._held.pop(topic, None)
+        for subscription in held.subscriptions if held else ():
+            self._node.destroy_subscription(subscription)
+
+    def _arrive(self, topic: str, cdr: bytes) -> None:
+        self._heap.note(len(cdr))
+        self.inbox.put(topic, Raw(cdr, self.now_ns()))
+
+
+class _Held:
+    """A subscription we hold; equal if it need not be made anew."""
+
+    def __init__(
+        self, wish: Subscription, policies: tuple[qos.Reliability, qos.Durability], is_mixed: bool
+    ) -> None:
+        self.wish = wish
+        self.policies = policies
+        self.is_mixed = is_mixed
+        self.subscriptions: list[RclpySubscription] = []
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Held) and (self.wish, self.policies, self.is_mixed) == (
+            other.wish,
+            other.policies,
+            other.is_mixed,
+        )
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType]
+
+
+def _executor(context: Context) -> Executor:
+    """The events executor where rclpy has it: 20 us a message, where the other rebuilds its wait
+    set on every wake-up (25 us for each subscription)."""
+    try:
+        from rclpy.experimental.events_executor import EventsExecutor
+    except ImportError:  # rclpy before 7.1.4
+        return SingleThreadedExecutor(context=context)
+    return EventsExecutor(context=context)  # pyright: ignore[reportReturnType]
+
+
+def _publisher(info: TopicEndpointInfo) -> Publisher:
+    # A publisher that is no ROS node has a placeholder for its name.
+    name = "" if info.node_name.startswith("_") else info.node_name
+    return Publisher(
+        node=f"{info.node_namespace.rstrip('/')}/{name}" if name else "",
+        type=info.topic_type,
+        reliability="reliable"
+        if info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        else "best_effort",
+        durability="transient_local"
+        if info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+        else "volatile",
+    )

@@ -1,0 +1,68 @@
+"""Many boxes, spheres or cylinders."""
+
+from __future__ import annotations
+
+import numpy as np
+from viser import SceneApi, SceneNodeHandle
+
+from webviz.api.nodes import F32, Instances
+from webviz.edges.scene.drawn import Props, SingleNode, finite_rows, rgb_array
+from webviz.edges.scene.lines import linear
+from webviz.edges.scene.solids import SOLIDS
+
+_NONE = np.zeros((0, 3), np.float32)
+_UNTURNED = np.array((1.0, 0.0, 0.0, 0.0), np.float32)
+
+
+class InstancesDrawn(SingleNode[Instances]):
+    """All solids of a node in one draw call: viser's batched meshes."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a node without solids."""
+        return scene.add_batched_meshes_simple(
+            name,
+            *SOLIDS["box"],
+            np.zeros((0, 4), np.float32),
+            _NONE,
+            batched_scales=_NONE,
+            batched_colors=(0, 0, 0),
+            lod="off",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def props(self, node: Instances) -> tuple[Props, ...]:
+        """The solid, where and in which colour, then opacity; what is not finite is left out.
+
+        A browser makes the batch anew for each new solid and opacity, hence sets of their own.
+        """
+        positions = np.ascontiguousarray(node.positions, dtype=np.float32)
+        scales = np.ascontiguousarray(node.scales, dtype=np.float32)
+        wxyzs = np.tile(_UNTURNED, (len(positions), 1)) if node.wxyzs is None else node.wxyzs
+        wxyzs = np.ascontiguousarray(wxyzs, dtype=np.float32)
+        colors, opacity = np.asarray(node.colors, np.uint8), node.opacity
+        rows = finite_rows(positions, scales, wxyzs)
+        if rows is not None:
+            positions, scales, wxyzs = positions[rows], scales[rows], wxyzs[rows]
+            colors = colors if colors.ndim == 1 else colors[rows]
+            opacity = opacity[rows] if isinstance(opacity, np.ndarray) else opacity
+        solid = SOLIDS[node.shape]
+        return (
+            {"vertices": solid.vertices, "faces": solid.faces},
+            {"material": "toon3" if node.is_data else "standard"},  # see shade_script.py
+            {
+                "batched_positions": positions,
+                "batched_wxyzs": wxyzs,
+                "batched_scales": scales,
+                "batched_colors": linear(rgb_array(colors, len(positions))),
+            },
+            _opacity(opacity),
+        )
+
+
+def _opacity(opacity: float | F32) -> Props:
+    """The opacity of all is the material's own, which costs a browser less than one for each."""
+    if isinstance(opacity, np.ndarray):
+        each = np.ascontiguousarray(opacity, dtype=np.float32)
+        return {"opacity": None, "batched_opacities": each}
+    return {"opacity": None if opacity >= 1 else float(opacity), "batched_opacities": None}

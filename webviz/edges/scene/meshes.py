@@ -1,0 +1,64 @@
+"""Triangle meshes and glTF models."""
+
+from __future__ import annotations
+
+import numpy as np
+from viser import SceneApi, SceneNodeHandle
+
+from webviz.api.nodes import Glb, Mesh
+from webviz.edges.scene.drawn import Props, SingleNode, finite_rows
+from webviz.edges.scene.glb import matte, pack
+
+
+class MeshDrawn(SingleNode[Mesh]):
+    """A mesh of one colour, lit from both sides as RViz lights its triangle lists."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a mesh without faces."""
+        return scene.add_mesh_simple(
+            name,
+            np.zeros((1, 3), np.float32),
+            np.zeros((0, 3), np.uint32),
+            side="double",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def props(self, node: Mesh) -> tuple[Props, ...]:
+        """Triangles, then the look; triangles with a corner that is not finite are left out."""
+        vertices = np.ascontiguousarray(node.vertices, dtype=np.float32)
+        faces = np.ascontiguousarray(node.faces, dtype=np.uint32)
+        rows = finite_rows(vertices)
+        if rows is not None:
+            vertices = np.where(rows[:, None], vertices, np.float32(0))
+            faces = faces[rows[faces].all(axis=1)]
+        return (
+            {"vertices": vertices, "faces": faces},
+            _look(node),
+        )
+
+
+def _look(node: Mesh) -> Props:
+    """Transparent shapes show their front only, as in RViz, not their inside."""
+    if node.opacity >= 1:
+        return {"color": node.color, "opacity": None, "side": "double"}
+    return {"color": node.color, "opacity": float(node.opacity), "side": "front"}
+
+
+class GlbDrawn(SingleNode[Glb]):
+    """A glTF model. Browsers show nothing while they parse a new one."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a model of nothing."""
+        return scene.add_glb(name, _NOTHING, cast_shadow=False, receive_shadow=False)
+
+    def props(self, node: Glb) -> tuple[Props, ...]:
+        """The model.
+
+        Raises:
+            ValueError: `node.data` is no binary glTF 2.0.
+        """
+        return ({"glb_data": matte(node.data)},)
+
+
+_NOTHING = pack({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]})

@@ -1,0 +1,82 @@
+"""Point clouds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from viser import SceneApi, SceneNodeHandle
+
+from webviz.api.nodes import Points
+from webviz.edges.scene.adapter import Adapter
+from webviz.edges.scene.drawn import Props, SingleNode, rgb_array
+
+# Beyond every camera's far plane.
+_OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
+
+
+PART = 1 << 15
+"""Points of one viser node. Half a megabyte with their colours: on a poor network other messages go
+in between."""
+
+
+class PointsDrawn:
+    """Points as viser's point clouds, a large one in parts.
+
+    The first part is the parent of the others. Parts that are no longer needed stay, empty.
+    """
+
+    def __init__(self, link: Adapter, name: str) -> None:
+        self._link = link
+        self._name = name
+        self._parts = [_Part(link, name)]
+
+    def draw(self, node: Points) -> None:
+        """Sends the parts that changed."""
+        while len(self._parts) * PART < len(node.xyz):
+            self._parts.append(_Part(self._link, f"{self._name}/%part {len(self._parts)}"))
+        for index, part in enumerate(self._parts):
+            rows = slice(index * PART, (index + 1) * PART)
+            colors = node.colors if isinstance(node.colors, tuple) else node.colors[rows]
+            part.draw(replace(node, xyz=node.xyz[rows], colors=colors))
+
+    def remove(self) -> None:
+        """Takes the points off the scene."""
+        self._link.count_removals(len(self._parts) - 1)
+        self._parts[0].remove()
+
+
+class _Part(SingleNode[Points]):
+    """Points as viser's point cloud, flat and float32: exact colours, exact to 1e-7."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """Makes a cloud without points."""
+        return _add(scene, name, np.zeros((0, 3), np.float32), np.zeros(3, np.uint8))
+
+    def props(self, node: Points) -> tuple[Props, ...]:
+        """Positions with their colours, then the look."""
+        return (
+            {
+                "points": np.ascontiguousarray(node.xyz, dtype=np.float32),
+                "colors": rgb_array(node.colors, len(node.xyz)),
+            },
+            # viser's size is half an edge: it draws a point twice as wide (measured).
+            {"point_size": node.size / 2.0, "point_shape": node.shape},
+        )
+
+
+def keep_shaders(scene: SceneApi, root: str) -> None:
+    """Adds two clouds that nobody sees, so that the point shaders are never thrown away.
+
+    viser makes a new material for each update that carries colours, and three.js compiles its
+    shader again (0.4 s without a GPU) unless some other node still uses it. There is one shader for
+    a colour per point and one for a colour for all.
+    """
+    _add(scene, f"{root}/%shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
+    _add(scene, f"{root}/%shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))
+
+
+def _add(scene: SceneApi, name: str, points: np.ndarray, colors: np.ndarray) -> SceneNodeHandle:
+    return scene.add_point_cloud(
+        name, points, colors, precision="float32", point_shading="flat", point_size=0.01
+    )

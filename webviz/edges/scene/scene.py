@@ -1,0 +1,232 @@
+"""The scene that every browser shows, kept as rigid groups of nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from webviz.api.bounds import Box, bounds, union
+from webviz.api.nodes import (
+    Arrows,
+    Axes,
+    Glb,
+    Image,
+    Instances,
+    Labels,
+    Lines,
+    Mesh,
+    Node,
+    Points,
+    Pose,
+    Rgb,
+)
+from webviz.edges.scene.adapter import Adapter, Position, Wxyz
+from webviz.edges.scene.axes import AxesDrawn
+from webviz.edges.scene.cameras import Cameras
+from webviz.edges.scene.drawn import Drawn
+from webviz.edges.scene.images import ImageDrawn
+from webviz.edges.scene.instances import InstancesDrawn
+from webviz.edges.scene.label_script import LABEL_SCRIPT
+from webviz.edges.scene.labels import LabelsDrawn
+from webviz.edges.scene.line_script import LINE_SCRIPT
+from webviz.edges.scene.lines import ArrowsDrawn, LinesDrawn
+from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn
+from webviz.edges.scene.names import ROOT, node_path
+from webviz.edges.scene.page import PAGE_SCRIPT
+from webviz.edges.scene.points import PointsDrawn, keep_shaders
+from webviz.edges.scene.server import set_background
+from webviz.edges.scene.shade_script import SHADE_SCRIPT
+
+_DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
+    Points: PointsDrawn,
+    Lines: LinesDrawn,
+    Arrows: ArrowsDrawn,
+    Axes: AxesDrawn,
+    Labels: LabelsDrawn,
+    Mesh: MeshDrawn,
+    Instances: InstancesDrawn,
+    Glb: GlbDrawn,
+    Image: ImageDrawn,
+}
+
+Move = tuple[str, Position | None, Wxyz | None]
+"""Of a node by its name: where it is now, and how it is turned, if that changed."""
+
+_IDENTITY = Pose()
+
+
+class Scene:
+    """Groups of nodes, each group placed by one pose in the fixed frame.
+
+    Methods only note what is wanted; `flush` compares it with what was sent and sends the
+    difference in one piece; what did not change costs nothing. All methods belong to one thread.
+
+    Args:
+        server: as from `open_server`.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.link = Adapter(server)
+        self._groups: dict[str, _Group] = {}
+        self._dirty: dict[str, _Group] = {}
+        self._gone: list[_Group] = []
+        server.scene.add_frame(ROOT, show_axes=False)
+        keep_shaders(server.scene, ROOT)
+        for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT, SHADE_SCRIPT):
+            self.link.run_javascript(script)
+        self.link.keep_in_contact()
+        self.cameras = Cameras(self.link)
+
+    def has_watchers(self) -> bool:
+        """Whether any browser is connected."""
+        return self.link.watchers > 0
+
+    def set_background(self, rgb: Rgb) -> None:
+        """Fills what lies behind everything with one colour."""
+        set_background(self.link.server, rgb)
+
+    def set_pose(self, group: str, pose: Pose) -> None:
+        """Places a group in the fixed frame; a new group stands at the identity.
+
+        Raises:
+            ValueError: the pose is not finite.
+        """
+        known = self._groups.get(group)
+        if known is not None and known.pose == pose:
+            return
+        if not math.isfinite(sum(pose.position) + sum(pose.wxyz)):
+            raise ValueError(f"The pose of {group!r} is not finite.")
+        self._touch(group).pose = pose
+
+    def upsert(self, group: str, key: str, node: Node, pose: Pose = _IDENTITY) -> None:
+        """Draws `node` at `pose` in a group as `key`, instead of what had that key."""
+        wanted = self._touch(group)
+        wanted.nodes[key] = (node, pose)
+        wanted.dirty[key] = None
+
+    def remove(self, group: str, key: str) -> None:
+        """Removes one node; one that is not there is no error."""
+        if group in self._groups and key in self._groups[group].nodes:
+            wanted = self._touch(group)
+            del wanted.nodes[key]
+            wanted.dirty[key] = None
+
+    def remove_group(self, group: str) -> None:
+        """Removes a group with its nodes and its pose; one that is not there is no error."""
+        self._dirty.pop(group, None)
+        if group in self._groups:
+            self._gone.append(self._groups.pop(group))
+
+    def set_visible(self, group: str, visible: bool) -> None:
+        """Hides a group, or shows it again; its nodes may be changed meanwhile."""
+        self._touch(group).visible = visible
+
+    def bounds(self, prefix: str) -> Box | None:
+        """The box, in the fixed frame, around all that is visible of the groups of a prefix."""
+        return union(
+            box.moved(pose).moved(group.pose)
+            for name, group in self._groups.items()
+            if name.startswith(prefix) and group.visible
+            for node, pose in group.nodes.values()
+            if (box := bounds(node)) is not None
+        )
+
+    def clear(self) -> None:
+        """Removes every group."""
+        for group in tuple(self._groups):
+            self.remove_group(group)
+
+    def flush(self) -> None:
+        """Sends everything that changed since the last flush, in one piece.
+
+        Raises:
+            Exception: a node is malformed. It is dropped, a note names it, and what was left goes
+                with the next flush.
+        """
+        if not self._dirty and not self._gone:
+            return
+        moves: list[Move] = []
+        with self.link.atomic():
+            while self._gone:
+                self._gone.pop().remove(self.link)
+            try:
+                for name, group in tuple(self._dirty.items()):
+                    group.send(self.link, moves)
+                    del self._dirty[name]
+            finally:
+                self.link.place(moves)
+        self.link.flush()
+
+    def _touch(self, name: str) -> _Group:
+        group = self._groups.get(name)
+        if group is None:
+            group = self._groups[name] = _Group(name)
+        self._dirty[name] = group
+        return group
+
+
+class _Group:
+    """One rigid body: what is wanted, and what browsers have."""
+
+    def __init__(self, name: str) -> None:
+        self.pose = Pose()
+        self.visible = True
+        self.nodes: dict[str, tuple[Node, Pose]] = {}
+        self.dirty: dict[str, None] = {}
+        self._name = name
+        self._path = node_path(name)
+        self._handle: viser.FrameHandle | None = None
+        self._sent_position: Position | None = None
+        self._sent_wxyz: Wxyz | None = None
+        self._sent_visible = True
+        self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
+
+    def send(self, link: Adapter, moves: list[Move]) -> None:
+        """Send what differs, except for the move of the whole group, which is added to `moves`."""
+        if self._handle is None:
+            self._handle = link.server.scene.add_frame(self._path, show_axes=False)
+        position = self.pose.position
+        is_moved, is_turned = position != self._sent_position, self.pose.wxyz != self._sent_wxyz
+        if is_moved or is_turned:
+            self._sent_position, self._sent_wxyz = position, self.pose.wxyz
+            wxyz = self.pose.wxyz if is_turned else None
+            moves.append((self._path, position if is_moved else None, wxyz))
+        if self.visible != self._sent_visible:
+            self._handle.visible = self._sent_visible = self.visible
+        for key in tuple(self.dirty):
+            del self.dirty[key]
+            try:
+                self._send_node(link, key)
+            except Exception as error:
+                error.add_note(f"while drawing {key!r} of {self._name!r}")
+                raise
+
+    def _send_node(self, link: Adapter, key: str) -> None:
+        wanted, sent = self.nodes.get(key), self._drawn.get(key)
+        if sent is not None and (wanted is None or type(wanted[0]) is not type(sent[0])):
+            sent[2].remove()
+            link.count_removals(1)
+            del self._drawn[key]
+            sent = None
+        if wanted is None:
+            return
+        node, pose = wanted
+        path = node_path(self._name, key)
+        drawn = _DRAWN[type(node)](link, path) if sent is None else sent[2]
+        is_new = sent is None or node != sent[0]
+        if is_new:
+            drawn.draw(node)
+        # Some primitives make their viser node anew when they are drawn, at the identity.
+        if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
+            link.set_position(path, pose.position)
+            link.set_orientation(path, pose.wxyz)
+        self._drawn[key] = (node, pose, drawn)
+
+    def remove(self, link: Adapter) -> None:
+        link.late.drop(self._path)
+        if self._handle is not None:
+            self._handle.remove()
+            link.count_removals(1 + len(self._drawn))

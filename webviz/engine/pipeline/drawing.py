@@ -1,0 +1,189 @@
+"""What one display has in the scene, changed by as little as possible."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from webviz.api.context import Context, Group, Placement
+from webviz.api.frames import Frames, compose
+from webviz.api.nodes import Node, Pose, has_content
+from webviz.engine.pipeline.baking import Position, baked, can_bake, origin_near
+
+_IDENTITY = Pose()
+
+
+class Scene(Protocol):
+    """Draws groups of nodes; see `webviz.edges.scene.Scene`."""
+
+    def set_pose(self, group: str, pose: Pose) -> None:
+        """Place a group in the fixed frame."""
+        ...
+
+    def set_visible(self, group: str, visible: bool) -> None:
+        """Show or hide a group."""
+        ...
+
+    def upsert(self, group: str, key: str, node: Node, pose: Pose) -> None:
+        """Draw a node at a pose in its group, in place of the one with this key."""
+        ...
+
+    def remove(self, group: str, key: str) -> None:
+        """Remove a node."""
+        ...
+
+    def remove_group(self, group: str) -> None:
+        """Remove a group with all its nodes."""
+        ...
+
+
+@dataclass
+class _Drawn:
+    """A group in the scene.
+
+    Args:
+        group: what the display said last.
+        origin: of the coordinates that were sent, if poses were worked into them.
+        pose: of the frame that the group follows, as last seen.
+        moved_ns: when that was.
+        fixed_frame: in which that was.
+        visible: None before anything was sent.
+    """
+
+    group: Group
+    origin: Position = (0.0, 0.0, 0.0)
+    pose: Pose | None = None
+    moved_ns: int = 0
+    fixed_frame: str = ""
+    visible: bool | None = None
+
+
+class Drawing:
+    """The groups that one display draws, by scope: one call of a hook fills one scope.
+
+    Args:
+        scene: where to draw.
+        prefix: of group names, unique to the display.
+    """
+
+    def __init__(self, scene: Scene, prefix: str) -> None:
+        self._scene = scene
+        self._prefix = prefix
+        self._scopes: dict[str, dict[str, _Drawn]] = {}
+
+    def replace(self, scope: str, context: Context) -> None:
+        """Make a scope exactly what a context collected."""
+        before = self._scopes.get(scope, {})
+        after: dict[str, _Drawn] = {}
+        for key, group in context.groups.items():
+            if not group.nodes:
+                continue
+            name, drawn = self._name(scope, key), before.get(key)
+            if drawn is None:
+                drawn = _Drawn(group)
+            else:
+                for old in drawn.group.nodes.keys() - group.nodes.keys():
+                    self._scene.remove(name, old)
+                if drawn.group.placement != group.placement:
+                    drawn.pose = None
+                drawn.group = group
+            self._put(name, drawn, context.frames)
+            after[key] = drawn
+        for key in before.keys() - after.keys():
+            self._scene.remove_group(self._name(scope, key))
+        self._scopes[scope] = after
+
+    def remove(self, scope: str) -> None:
+        """Remove all that a scope drew."""
+        for key in self._scopes.pop(scope, {}):
+            self._scene.remove_group(self._name(scope, key))
+
+    def clear(self) -> None:
+        """Remove everything."""
+        for scope in list(self._scopes):
+            self.remove(scope)
+
+    def followed(self) -> set[str]:
+        """The frames whose poses `move` will ask for."""
+        return {
+            drawn.group.placement.frame
+            for groups in self._scopes.values()
+            for drawn in groups.values()
+            if drawn.group.placement.frame is not None
+        }
+
+    def move(self, frames: Frames) -> None:
+        """Bring all groups that follow a frame to where it is now."""
+        for scope, groups in self._scopes.items():
+            for key, drawn in groups.items():
+                if drawn.group.placement.frame is not None:
+                    self._follow(self._name(scope, key), drawn, frames)
+
+    def is_empty(self) -> bool:
+        """Whether nothing of the display can be seen."""
+        return not any(
+            drawn.visible and any(map(has_content, drawn.group.nodes.values()))
+            for groups in self._scopes.values()
+            for drawn in groups.values()
+        )
+
+    def lost(self, frames: Frames) -> list[str]:
+        """The frames that hidden groups follow in vain."""
+        placements = [
+            drawn.group.placement for groups in self._scopes.values() for drawn in groups.values()
+        ]
+        return sorted(
+            {p.frame for p in placements if p.frame and not p.keep_last and not _pose(p, frames)}
+        )
+
+    def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
+        """Send a group that is new or changed."""
+        group, placement = drawn.group, drawn.group.placement
+        if placement.frame is not None:
+            self._follow(name, drawn, frames)
+        elif all(map(can_bake, group.nodes.values())):
+            drawn.origin = origin_near(placement.offset.position, drawn.origin)
+            self._scene.set_pose(name, Pose(drawn.origin))
+            self._show(name, drawn, True)
+            for key, node in group.nodes.items():
+                pose = compose(placement.offset, group.poses.get(key, Pose()))
+                self._scene.upsert(name, key, baked(node, pose, drawn.origin), Pose())
+            return
+        else:
+            self._scene.set_pose(name, placement.offset)
+            self._show(name, drawn, True)
+        for key, node in group.nodes.items():
+            self._scene.upsert(name, key, node, group.poses.get(key, Pose()))
+
+    def _follow(self, name: str, drawn: _Drawn, frames: Frames) -> None:
+        placement = drawn.group.placement
+        is_placed = drawn.pose is not None and drawn.fixed_frame == frames.fixed_frame
+        rest = drawn.moved_ns + placement.interval_s * 1e9 - frames.now_ns
+        if is_placed and placement.interval_s and rest > 0:
+            return
+        pose = _pose(placement, frames)
+        if pose is None:
+            stays = placement.keep_last and drawn.fixed_frame == frames.fixed_frame
+            self._show(name, drawn, stays)
+            return
+        if pose is not drawn.pose or not is_placed:
+            offset = placement.offset
+            self._scene.set_pose(name, pose if offset == _IDENTITY else compose(pose, offset))
+            drawn.pose, drawn.fixed_frame = pose, frames.fixed_frame
+        drawn.moved_ns = frames.now_ns
+        self._show(name, drawn, True)
+
+    def _show(self, name: str, drawn: _Drawn, visible: bool) -> None:
+        if drawn.visible != visible:
+            drawn.visible = visible
+            self._scene.set_visible(name, visible)
+
+    def _name(self, scope: str, key: str) -> str:
+        return f"{self._prefix}/{scope}/{key}"
+
+
+def _pose(placement: Placement, frames: Frames) -> Pose | None:
+    frame = placement.frame
+    if frame is None:
+        return Pose()
+    return frames.latest(frame) if placement.when == "latest" else frames.now(frame)

@@ -1,0 +1,135 @@
+"""The samples a display holds, and the slot in which each is drawn."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from webviz.api.display import Keep
+from webviz.api.frames import Frames, compose
+from webviz.api.nodes import Pose
+from webviz.api.sample import Sample
+
+MAX_SAMPLES = 10_000
+"""Of one display, whatever its properties say; nothing grows without a bound."""
+MAX_BYTES = 256_000_000
+"""Of the messages of one display, as they came; the newest is held however large it is."""
+
+
+@dataclass
+class Held:
+    """A sample and where it is drawn.
+
+    Args:
+        sample: the newest version of it.
+        size: of its message, in bytes.
+        slot: number of its scope; free slots are used again, so that a stream of messages updates
+            nodes instead of making and removing them.
+        has_pose: whether the sample could be placed in the fixed frame of now.
+    """
+
+    sample: Sample
+    size: int
+    slot: int
+    has_pose: bool = True
+
+
+class History:
+    """Holds samples in order of arrival, as many as a display wants."""
+
+    def __init__(self) -> None:
+        self.held: list[Held] = []
+        self.version = 0
+        """Another one whenever there is something else to draw."""
+        self._free: list[int] = []
+        self._bytes = 0
+        self._missed_ns: int | None = None
+        """When the newest of those came that had to go for their size."""
+        self._samples: list[Sample] | None = []
+        """What `samples` says, if that is known. Never changed in place, for others hold it."""
+
+    def samples(self) -> Sequence[Sample]:
+        """What can be drawn, oldest first."""
+        if self._samples is None:
+            self._samples = [held.sample for held in self.held if held.has_pose]
+        return self._samples
+
+    def add(self, sample: Sample, size: int, keep: Keep) -> None:
+        """Hold a sample whose message has `size` bytes.
+
+        What `keep.count` then excludes goes first, so that its slot is free, and what is too large.
+        """
+        self._let_go(len(self.held) - _most(keep) + 1)
+        rest, too_large = self._bytes + size, 0
+        while rest > MAX_BYTES and too_large < len(self.held):
+            rest -= self.held[too_large].size
+            too_large += 1
+        if too_large:
+            self._missed_ns = self.held[too_large - 1].sample.received_ns
+            self._let_go(too_large)
+        slot = heapq.heappop(self._free) if self._free else len(self.held)
+        self.held.append(Held(sample, size, slot))
+        self._bytes += size
+        self._samples = None if self._samples is None else [*self._samples, sample]
+        self.version += 1
+
+    def shortage(self, keep: Keep, now_ns: int) -> str:
+        """A sentence if samples that `keep` wants had to go for their size, else nothing."""
+        if self._missed_ns is None or not self.held or len(self.held) >= _most(keep):
+            return ""
+        limit = f"limit of {MAX_BYTES // 1_000_000} MB"
+        if not keep.seconds:
+            return f"Keeps {len(self.held)} of {_most(keep)} messages: {limit}."
+        if self._missed_ns < now_ns - keep.seconds * 1e9:
+            return ""
+        span_s = (now_ns - self.held[0].sample.received_ns) / 1e9
+        return f"Keeps {span_s:.1f} of {keep.seconds:g} s: {limit}."
+
+    def trim(self, keep: Keep, now_ns: int) -> None:
+        """Let go of what is too much or too old."""
+        self._let_go(len(self.held) - _most(keep))
+        if keep.seconds:
+            oldest = now_ns - round(keep.seconds * 1e9)
+            is_young = (held.sample.received_ns >= oldest for held in self.held)
+            self._let_go(next((i for i, young in enumerate(is_young) if young), len(self.held)))
+
+    def _let_go(self, count: int) -> None:
+        """Forget the oldest samples; their slots are used again, the lowest first."""
+        if count > 0:
+            is_whole = self._samples is not None and len(self._samples) == len(self.held)
+            self._samples = self._samples[count:] if self._samples and is_whole else None
+            for held in self.held[:count]:
+                heapq.heappush(self._free, held.slot)
+                self._bytes -= held.size
+            del self.held[:count]
+            self.version += 1
+
+    def move(self, frames: Frames, former_fixed_frame: str, timed: bool) -> None:
+        """Place all samples in a new fixed frame.
+
+        Each at its own stamp; one older than the transforms goes along with the former fixed frame.
+
+        Args:
+            frames: know the new fixed frame.
+            former_fixed_frame: frame id.
+            timed: False if the samples' display follows their frame instead.
+        """
+        shift = frames.latest(former_fixed_frame)
+        for held in self.held:
+            sample = held.sample
+            if not timed:
+                pose = frames.now(sample.frame) or Pose()
+            else:
+                pose = frames.at(sample.frame, sample.stamp_ns) if sample.frame else sample.pose
+            if pose is None and shift is not None and held.has_pose:
+                pose = compose(shift, sample.pose)
+            held.has_pose = pose is not None
+            if pose is not None:
+                held.sample = replace(sample, pose=pose)
+        self._samples = None
+        self.version += 1
+
+
+def _most(keep: Keep) -> int:
+    return min(keep.count or MAX_SAMPLES, MAX_SAMPLES)

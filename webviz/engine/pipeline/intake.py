@@ -1,0 +1,281 @@
+"""One input of a display: from raw messages to those whose place in the fixed frame is known."""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from webviz.api.declared import Topic
+from webviz.api.display import Display, Input, inputs
+from webviz.api.frames import Frames
+from webviz.api.status import Level, Status
+from webviz.data.messages import MessageError, peek_header
+from webviz.data.transforms import MessageFilter
+from webviz.engine.sources import Offer, Publisher, Raw, Subscription
+
+PATIENCE_S = 1.0
+"""A message that waits for its transform so long is worth a word; TF is often 30 ms late."""
+LATE_S = 0.3
+"""A message that is drawn so long after it came, for want of its transform, is worth a warning."""
+
+
+_ASKED = itertools.count(1)
+"""Every new listener, and every one that forgot, asks for what is latched."""
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """A message that can be placed: its frame has a pose at its stamp, or it needs none."""
+
+    raw: Raw
+    frame: str
+    stamp_ns: int
+    number: int
+
+
+class Intake:
+    """Counts, filters and explains the messages of one input.
+
+    Args:
+        spec: the input as the display declares it.
+        topic: the topic the user chose.
+        name: the full name of the topic, "" if there is none.
+        problem: why there is none.
+    """
+
+    def __init__(self, spec: Input, topic: Topic, name: str, problem: str = "") -> None:
+        self.spec = spec
+        self.topic = topic
+        self.name = name
+        self._problem = problem
+        self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
+        self._received = 0
+        self._last: Raw | None = None
+        self._times: deque[float] = deque(maxlen=50)
+        self._fault = ""
+        self._durations: deque[int] = deque(maxlen=10)
+        self._placed_at = 0.0
+        self._late_s = 0.0
+        self._waiting_since: float | None = None
+        self._asked = next(_ASKED)
+        self._newest = self._newest_placed = -1
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the newest message waits for its transform."""
+        return len(self._filter) > 0 and self._newest > self._newest_placed
+
+    def subscription(self) -> Subscription:
+        """What to ask the source for."""
+        return Subscription(self.spec.type, self.topic, self.spec.latched, self._asked)
+
+    def take(
+        self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
+    ) -> list[Arrival]:
+        """Let messages in and return those that can be placed now, oldest first.
+
+        Args:
+            raws: what arrived since the last call.
+            frames: the transforms of this tick.
+            offer: what is known of the topic.
+            clock: monotonic time in seconds.
+            waits: whether messages wait for the transform at their stamp.
+        """
+        arrivals: list[Arrival] = []
+        first_new = self._received
+        if offer and offer.type not in ("", self.spec.type):
+            raws = ()  # another display reads the topic as another type
+        is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
+        for raw in raws:
+            if is_latched and self._last is not None and raw.cdr == self._last.cdr:
+                continue  # delivered again, by a second publisher or a new subscription
+            self._last = raw
+            self._received += 1
+            self._times.append(clock)
+            try:
+                header = peek_header(self.spec.type, raw.cdr)
+            except MessageError as error:
+                self.refuse(str(error))
+                continue
+            if header is None:
+                arrivals.append(Arrival(raw, "", 0, self._received - 1))
+                continue
+            frame, stamp_ns = header
+            arrival = Arrival(raw, frame.removeprefix("/"), stamp_ns, self._received - 1)
+            if not waits:
+                arrivals.append(arrival)
+                continue
+            self._newest = arrival.number
+            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns)
+        placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
+        arrivals += placed
+        if placed:
+            self._placed_at, self._waiting_since = clock, None
+            self._newest_placed = placed[-1].number
+            has_waited = placed[-1].number < first_new
+            waited_ns = frames.now_ns - placed[-1].raw.received_ns if has_waited else 0
+            self._late_s = waited_ns / 1e9
+        elif self._waiting_since is None and self._filter.is_stuck:
+            self._waiting_since = clock
+        return arrivals
+
+    @property
+    def duration_ns(self) -> int:
+        """How long messages go on after their stamp: the longest of the last ones."""
+        return max(self._durations, default=0)
+
+    def measure(self, duration_ns: int) -> None:
+        """Note how long a message goes on; lasers alternate by a tenth and more."""
+        self._durations.append(duration_ns)
+
+    def refuse(self, reason: str) -> None:
+        """Note that the newest message cannot be shown, and why."""
+        self._fault = reason
+
+    def accepted(self) -> None:
+        """Note that the newest message can be shown."""
+        self._fault = ""
+
+    def reset(self) -> None:
+        """Forget what waits; after a jump of time its stamps mean nothing."""
+        self._filter.clear()
+        self._times.clear()
+        self._waiting_since = self._last = None
+        self._asked = next(_ASKED)
+
+    def statuses(
+        self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float
+    ) -> dict[str, Status]:
+        """What there is to say about the topic, its messages and their transforms."""
+        result = {}
+        if self._received or not self.spec.optional:
+            result["Topic"] = self._topic_status(offers, frames.now_ns, clock)
+        if self._fault:
+            result["Message"] = Status(Level.ERROR, self._fault)
+        elif dropped:
+            text = f"{dropped} messages came faster than they could be read and were dropped."
+            result["Message"] = Status(Level.WARN, text)
+        if transform := self._transform_status(frames, clock):
+            result["Transform"] = transform
+        return result
+
+    def _transform_status(self, frames: Frames, clock: float) -> Status | None:
+        waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
+        since = self._waiting_since
+        if waiting and since is not None and clock - since > PATIENCE_S:
+            return Status(Level.ERROR, waiting.sentence)
+        if not self._placed_at:
+            return None
+        if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
+            text = f"Drawn {self._late_s:.1f} s late: the transforms come so much after the data."
+            return Status(Level.WARN, f"{text} {waiting.sentence}" if waiting else text)
+        return Status(Level.OK, "Transform OK")
+
+    def _topic_status(self, offers: Mapping[str, Offer], now_ns: int, clock: float) -> Status:
+        if not self.name:
+            return Status(Level.ERROR, self._problem)
+        offer = offers.get(self.name)
+        if offer and offer.problem:
+            return Status(Level.ERROR, f"{self.name}: {offer.problem}")
+        if offer and offer.type not in ("", self.spec.type):
+            return Status(
+                Level.ERROR,
+                f"Another display reads {self.name} as {offer.type}, this one shows "
+                f"{self.spec.type}: a topic is read as one type only, change one of the two.",
+            )
+        everybody = offer.publishers if offer else ()
+        publishers = [p for p in everybody if p.type == self.spec.type]
+        if everybody and not publishers:
+            return Status(
+                Level.ERROR,
+                f"{self.name} carries {everybody[0].type}, this display shows {self.spec.type}: "
+                "choose another topic or another display.",
+            )
+        if not publishers:
+            return Status(Level.WARN, self._nobody(offers, clock))
+        if refusal := self._refusal(offer, publishers):
+            return Status(Level.ERROR, refusal)
+        who = ", ".join(
+            sorted(
+                {
+                    f"{p.node or 'a DDS program'} ({_words(p.reliability, p.durability)})"
+                    for p in publishers
+                }
+            )
+        )
+        if not self._received:
+            return Status(Level.WARN, f"No message yet on {self.name} from {who}.")
+        age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
+        # While simulated time stands still, silence is no fault.
+        silence = min(age, (now_ns - self._last.received_ns) / 1e9) if self._last else 0.0
+        if rate and silence > max(2.0, 5.0 / rate):
+            return Status(
+                Level.WARN,
+                f"No message for {age:.1f} s on {self.name}, before at {rate:.1f} Hz; from {who}.",
+            )
+        pace = f" at {rate:.1f} Hz" if rate else ""
+        count = f"{self._received} message{'s' if self._received != 1 else ''}"
+        return Status(Level.OK, f"{count}{pace}, the newest {age:.1f} s ago, from {who}.")
+
+    def _nobody(self, offers: Mapping[str, Offer], clock: float) -> str:
+        if self._received:
+            age = clock - self._times[-1] if self._times else 0.0
+            return f"Nobody publishes {self.name} any more; the last message came {age:.1f} s ago."
+        others = sorted(
+            topic
+            for topic, offer in offers.items()
+            if any(p.type == self.spec.type for p in offer.publishers)
+        )
+        if others:
+            there = f"{self.spec.type} is published on {', '.join(others[:3])}"
+            return f"Nobody publishes {self.name}; {there}: choose that topic, or remap."
+        return f"Nobody publishes {self.name}: start the node that does, or choose another topic."
+
+    def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
+        """Why DDS does not connect us to anybody, though the type fits."""
+        if offer is None or offer.requested is None:
+            return ""
+        reliability, durability = offer.requested
+        for publisher in publishers:
+            unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
+            forgetful = durability == "transient_local" and publisher.durability == "volatile"
+            if not unreliable and not forgetful:
+                return ""
+        ours = _words(reliability, durability)
+        theirs = _words(publishers[0].reliability, publishers[0].durability)
+        return (
+            f"QoS does not match on {self.name}: this display asks for {ours}, "
+            f"the publisher offers {theirs}. Set reliability and durability to auto."
+        )
+
+    def _rate(self) -> float:
+        """Messages per second over the last ones, 0 if unknown."""
+        span = self._times[-1] - self._times[0] if len(self._times) > 2 else 0.0
+        return (len(self._times) - 1) / span if span > 0 else 0.0
+
+
+def _words(reliability: str, durability: str) -> str:
+    return f"{reliability}, {durability}".replace("_", " ")
+
+
+def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Intake]:
+    """Intakes for all inputs of a display, by property name.
+
+    Args:
+        display: as its properties are now.
+        resolve: the full name of a topic; raises ValueError.
+    """
+    result: dict[str, Intake] = {}
+    for name, spec, topic in inputs(display):
+        full, problem = "", ""
+        first = next(iter(result.values()), None)
+        wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
+        try:
+            full = resolve(wish) if wish else ""
+            problem = "" if full else "No topic is chosen."
+        except ValueError as error:
+            problem = str(error)
+        result[name] = Intake(spec, topic, full, problem)
+    return result

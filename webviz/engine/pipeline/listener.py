@@ -1,0 +1,187 @@
+"""Brings /tf and /tf_static into the transform buffer, and notices what is wrong with them."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable, Mapping
+
+from webviz.api.declared import Topic
+from webviz.api.status import Level, Status
+from webviz.data.messages import MessageError, TFMessage, decode
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.clocks import clock_problem
+from webviz.data.transforms.quarrels import quarrels
+from webviz.engine.pipeline.transform_layout import Layouts
+from webviz.engine.sources import Offer, Raw, Subscription
+
+TOPICS = {"/tf": False, "/tf_static": True}
+TYPE = "tf2_msgs/msg/TFMessage"
+
+BACK_NS = 1_000_000_000
+BACK_S = 2.0
+BACK_MESSAGES = 10
+"""Time starts over when so many messages in so many seconds, and no others, are stamped further
+back than their frame's newest transform: a bag that loops without /clock. One machine whose clock
+lags never looks so, as its stamps follow its own."""
+REVIEW_S = 1.0
+REFUSED_NS = 5_000_000_000
+ASK_S = 2.0
+"""Shortest time between two subscriptions to /tf_static."""
+MAX_PROBLEMS = 3
+
+log = logging.getLogger("webviz")
+
+
+class TransformListener:
+    """Fills a buffer from raw messages.
+
+    Static transforms are told once. When one is replaced, /tf_static is asked again, so that every
+    publisher still there repeats what it said: that tells a restart from a second publisher.
+
+    Args:
+        buffer: to fill.
+        clock: monotonic time in seconds.
+    """
+
+    def __init__(self, buffer: TransformBuffer, clock: Callable[[], float]) -> None:
+        self._buffer = buffer
+        self._clock = clock
+        self._layouts = Layouts()
+        self._faults: dict[str, Status] = {}
+        self._back_since: float | None = None
+        self._back_messages = 0
+        self._static_publishers: tuple[str, ...] = ()
+        self._asked = 0
+        self._asked_at = 0.0
+        self._settled_changes = 0
+        self._reviewed_at: float | None = None
+        self._found: dict[str, Status] = {}
+
+    def subscriptions(self) -> dict[str, Subscription]:
+        """What to hear."""
+        return {
+            topic: Subscription(TYPE, Topic(topic), is_static, self._asked if is_static else 0)
+            for topic, is_static in TOPICS.items()
+        }
+
+    def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:
+        """Insert what arrived; whether the transforms started over in the past."""
+        senders = {topic: _nodes(offers, topic) for topic in TOPICS}
+        self._buffer.nodes = {topic: who[0] for topic, who in senders.items() if len(who) == 1}
+        for topic, is_static in TOPICS.items():
+            for raw in batches.get(topic, ()):
+                self._insert(topic, raw, is_static)
+        self._watch_static(offers)
+        clock = self._clock()
+        return (
+            self._back_since is not None
+            and clock - self._back_since > BACK_S
+            and self._back_messages >= BACK_MESSAGES
+        )
+
+    def reset(self) -> None:
+        """Forget the moving transforms; the static ones stay, and are asked for again."""
+        self._buffer.clear()
+        self._back_since = self._reviewed_at = None
+        self._ask()
+
+    def statuses(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
+        """What is wrong with the transforms, by key."""
+        clock = self._clock()
+        if self._reviewed_at is None or clock - self._reviewed_at > REVIEW_S:
+            self._reviewed_at = clock
+            self._found = self._review(offers, now_ns)
+        return self._faults | self._found
+
+    def _insert(self, topic: str, raw: Raw, is_static: bool) -> None:
+        if not is_static and (batch := self._layouts.read(raw.cdr)) is not None:
+            self._faults.pop(topic, None)
+            self._notice_time(batch.names[0][1], batch.stamps_ns[0])
+            self._buffer.set_moving(
+                batch.names, batch.stamps_ns, batch.poses, topic, raw.received_ns
+            )
+            return
+        try:
+            message: TFMessage = decode(TYPE, raw.cdr)
+        except MessageError as error:
+            self._faults[topic] = Status(Level.ERROR, f"{topic}: {error}")
+            return
+        self._faults.pop(topic, None)
+        if message.transforms and not is_static:
+            self._layouts.learn(raw.cdr, message)
+            self._notice_time(message.transforms[0].child, message.transforms[0].stamp_ns)
+        for t in message.transforms:
+            self._buffer.set_transform(
+                t.parent,
+                t.child,
+                t.stamp_ns,
+                t.translation,
+                t.rotation,
+                is_static,
+                topic,
+                raw.received_ns,
+            )
+
+    def _notice_time(self, child: str, stamp_ns: int) -> None:
+        """Note whether a message, by its first transform, is of the past."""
+        cache = self._buffer.tree.caches.get(child.removeprefix("/"))
+        newest_ns = cache.newest_stamp if cache else 0
+        if stamp_ns >= newest_ns - BACK_NS:
+            self._back_since = None
+        elif self._back_since is None:
+            self._back_since, self._back_messages = self._clock(), 1
+        else:
+            self._back_messages += 1
+
+    def _watch_static(self, offers: Mapping[str, Offer]) -> None:
+        """Ask again when static transforms changed, or those who publish contested ones did."""
+        publishers = _nodes(offers, "/tf_static")
+        if publishers != self._static_publishers:
+            self._static_publishers = publishers
+            if any(p.contest for p in self._buffer.publishers.values()):
+                self._settled_changes = -1
+            self._buffer.forget_publishers()
+            self._reviewed_at = None
+        if self._clock() - self._asked_at > ASK_S:
+            changes = sum(p.changes for p in self._buffer.publishers.values())
+            if changes != self._settled_changes:
+                self._settled_changes = changes
+                self._ask()
+
+    def _ask(self) -> None:
+        self._asked += 1
+        self._asked_at = self._clock()
+
+    def _review(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
+        buffer = self._buffer
+        problems = [sentence for frame in buffer.publishers for sentence in quarrels(buffer, frame)]
+        if problems:
+            who = [f"{topic}: {', '.join(_nodes(offers, topic)) or 'nobody'}" for topic in TOPICS]
+            problems = [*_few(problems), f"Publishers of {'; of '.join(who)}."]
+        refused = [
+            f'{rejection.count} transforms of "{child}" were refused, the last because '
+            f"{rejection.sentence}"
+            + (
+                ": if a bag started again, press Reset."
+                if rejection.reason == "TF_OLD_DATA"
+                else ", which is for its publisher to correct."
+            )
+            for child, rejection in buffer.rejections.items()
+            if now_ns - rejection.received_ns < REFUSED_NS
+        ]
+        found = {
+            "Transforms": " ".join(problems + _few(refused)),
+            "Clocks": clock_problem(buffer, now_ns),
+        }
+        return {key: Status(Level.WARN, text) for key, text in found.items() if text}
+
+
+def _few(sentences: list[str]) -> list[str]:
+    more = len(sentences) - MAX_PROBLEMS
+    return sentences if more <= 0 else [*sentences[:MAX_PROBLEMS], f"And {more} more."]
+
+
+def _nodes(offers: Mapping[str, Offer], topic: str) -> tuple[str, ...]:
+    """The nodes that publish a topic; several of one name count."""
+    publishers = offers[topic].publishers if topic in offers else ()
+    return tuple(publisher.node or "a DDS program" for publisher in publishers)

@@ -1,0 +1,149 @@
+"""Calls the drawing hooks of one display and keeps the scene as they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from webviz.api.context import Context, Placement
+from webviz.api.display import Display, overrides
+from webviz.api.frames import Frames
+from webviz.api.sample import Sample
+from webviz.api.status import Status
+from webviz.engine.pipeline.background import Tasks, Workers
+from webviz.engine.pipeline.drawing import Drawing, Scene
+from webviz.engine.pipeline.guard import CRASHED, Guard
+from webviz.engine.pipeline.history import Held, History
+
+
+class Painter:
+    """What one display draws, what it says while drawing, and the slow work that takes.
+
+    Args:
+        id: unique name in the scene.
+        scene: where to draw.
+        workers: for slow work.
+    """
+
+    def __init__(self, id: str, scene: Scene, workers: Workers) -> None:
+        self.order = 0
+        self.is_stale = True
+        """Whether all is to be drawn anew: a property changed, say."""
+        self._workers = workers
+        self._drawing = Drawing(scene, id)
+        self._tasks = Tasks(workers)
+        self._state: dict[str, Any] = {}
+        self._statuses: dict[str, dict[str, Status]] = {}
+        self._drawn: dict[int, Sample] = {}
+        self._seen: tuple[History, int] | None = None
+        self._depended: object = None
+
+    def draw(self, display: Display, guard: Guard, history: History, frames: Frames) -> None:
+        """Call the hooks that have something new to draw, and move what follows frames."""
+        depends = self._depends_on_news(display, guard, frames)
+        self.is_stale |= depends or self._tasks.has_news()
+        changed = self.is_stale or self._seen != (history, history.version)
+        if changed and overrides(display, "draw"):
+            self._draw_samples(display, guard, history, frames)
+        if changed and overrides(display, "draw_all"):
+            self._call("all", guard, display.draw_all, frames, history.samples())
+        if overrides(display, "tick"):
+            self._call("tick", guard, display.tick, frames)
+        if changed:
+            self._tasks.forget_unasked()
+        self._seen = (history, history.version)
+        self.is_stale = False
+        self._drawing.move(frames)
+
+    def hide(self) -> None:
+        """Remove everything from the scene until the next call of `draw`."""
+        self._drawing.clear()
+        self._drawn.clear()
+        self.is_stale = True
+
+    def forget(self) -> None:
+        """Begin anew, also with what the display remembers between calls."""
+        self.hide()
+        self._state.clear()
+
+    def close(self) -> None:
+        """Remove everything from the scene, and end the slow work."""
+        self.hide()
+        self._tasks.close()
+
+    def replace(self, display: Display) -> None:
+        """Go on with an instance of another class, and with the picture there is."""
+        self._tasks.close()
+        self._tasks = Tasks(self._workers)
+        self._state.clear()
+        self._statuses.clear()
+        samples = [_scope(slot) for slot in self._drawn]
+        for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
+            for scope in () if overrides(display, hook) else scopes:
+                self._drawing.remove(scope)
+        self.is_stale = True
+
+    def is_busy(self) -> bool:
+        """Whether slow work is still to be drawn."""
+        return self._tasks.is_busy()
+
+    def followed(self) -> set[str]:
+        """The frames whose poses `draw` will ask for."""
+        return self._drawing.followed()
+
+    def lost(self, frames: Frames) -> list[str]:
+        """The frames that hidden groups follow in vain."""
+        return self._drawing.lost(frames)
+
+    def is_empty(self) -> bool:
+        """Whether nothing of the display can be seen."""
+        return self._drawing.is_empty()
+
+    def statuses(self) -> dict[str, Status]:
+        """What the hooks said when they were last called."""
+        return {key: status for said in self._statuses.values() for key, status in said.items()}
+
+    def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
+        if not overrides(display, "depends"):
+            return False
+        context = Context(frames, self._tasks, self._state, order=self.order)
+        before, self._depended = self._depended, guard("depends", display.depends, context)
+        return self._depended != before
+
+    def _draw_samples(
+        self, display: Display, guard: Guard, history: History, frames: Frames
+    ) -> None:
+        samples = {held.slot: held for held in history.held if held.has_pose}
+        for slot in self._drawn.keys() - samples.keys():
+            self._drawing.remove(_scope(slot))
+        for slot, held in samples.items():
+            if self.is_stale or self._drawn.get(slot) is not held.sample:
+                self._draw_sample(display, guard, held, frames)
+        if not samples:
+            self._statuses.pop("sample", None)
+        self._drawn = {slot: held.sample for slot, held in samples.items()}
+
+    def _draw_sample(self, display: Display, guard: Guard, held: Held, frames: Frames) -> None:
+        placement = Placement(offset=held.sample.pose)
+        self._call(_scope(held.slot), guard, display.draw, frames, held.sample, placement=placement)
+
+    def _call(
+        self,
+        scope: str,
+        guard: Guard,
+        hook: Callable[..., None],
+        frames: Frames,
+        *args: Any,
+        placement: Placement = Placement(),
+    ) -> None:
+        """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
+        context = Context(frames, self._tasks, self._state, placement, self.order)
+        if guard(scope, hook, *args, context) is CRASHED:
+            return
+        self._drawing.replace(scope, context)
+        # All samples speak with one voice, the newest one's.
+        self._statuses["sample" if scope.startswith("sample") else scope] = context.statuses
+
+
+def _scope(slot: int) -> str:
+    return f"sample{slot}"

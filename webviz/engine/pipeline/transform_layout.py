@@ -1,0 +1,108 @@
+"""Reads /tf messages that have the same frames as one before: only stamps and numbers are read."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.messages import TFMessage
+
+MIN_TRANSFORMS = 16
+"""Of a message, from which this takes less time than to decode it."""
+MAX_SIZES = 64
+SAME_SIZE = 4
+"""Layouts known of one size: robots of a fleet differ by a character. Others are decoded."""
+
+_NATIVE = b"\0\1" if sys.byteorder == "little" else b"\0\0"
+
+
+@dataclass(frozen=True)
+class Batch:
+    """The transforms of a message.
+
+    Args:
+        names: N times a parent and its child.
+        stamps_ns: N stamps.
+        poses: float64 (N, 7): translations in metres and rotations (x, y, z, w), as sent.
+    """
+
+    names: Sequence[tuple[str, str]]
+    stamps_ns: Sequence[int]
+    poses: NDArray[np.float64]
+
+
+class Layout:
+    """Where things are in the bytes of a message with certain frames.
+
+    Args:
+        cdr: a message.
+        message: the same, decoded.
+    """
+
+    def __init__(self, cdr: bytes, message: TFMessage) -> None:
+        self._names = [(t.parent, t.child) for t in message.transforms]
+        stamps, numbers, pos = [], [], 8  # behind the encapsulation and the count
+        for parent, child in self._names:
+            stamps.append(pos)
+            pos = _behind(pos + 8, parent)
+            pos = _behind(pos, child)
+            pos += (4 - pos) & 7
+            numbers.append(pos)
+            pos += 56
+        self._size = pos
+        self._stamps = (np.array(stamps)[:, None] - 4) // 4 + np.arange(2)
+        self._numbers = (np.array(numbers)[:, None] - 4) // 4 + np.arange(14)
+        is_fixed = np.ones(pos // 4 - 1, np.bool_)
+        is_fixed[self._stamps] = is_fixed[self._numbers] = False
+        self._fixed = np.flatnonzero(is_fixed)
+        self._expected = _words(cdr)[self._fixed] if len(cdr) == pos else None
+        self._head = cdr[:4]
+
+    def read(self, cdr: bytes) -> Batch | None:
+        """The transforms of another message, None if it does not have just these frames."""
+        if len(cdr) != self._size or cdr[:4] != self._head or self._expected is None:
+            return None
+        words = _words(cdr)
+        if not np.array_equal(words[self._fixed], self._expected):
+            return None
+        seconds, nanoseconds = words[self._stamps].T
+        stamps = seconds.view(np.int32) * np.int64(1_000_000_000) + nanoseconds
+        poses = words[self._numbers].view(np.float64)
+        return Batch(self._names, stamps.tolist(), poses)
+
+
+class Layouts:
+    """The layouts of the messages that come again and again."""
+
+    def __init__(self) -> None:
+        self._by_size: dict[int, list[Layout]] = {}
+
+    def read(self, cdr: bytes) -> Batch | None:
+        """The transforms of a message, None if its layout is not known."""
+        for layout in self._by_size.get(len(cdr), ()):
+            if (batch := layout.read(cdr)) is not None:
+                return batch
+        return None
+
+    def learn(self, cdr: bytes, message: TFMessage) -> None:
+        """Know a message's layout from now on, if that pays."""
+        if len(message.transforms) < MIN_TRANSFORMS or cdr[:2] != _NATIVE:
+            return
+        if len(self._by_size) >= MAX_SIZES and len(cdr) not in self._by_size:
+            self._by_size.clear()
+        layouts = self._by_size.setdefault(len(cdr), [])
+        if len(layouts) < SAME_SIZE:
+            layouts.append(Layout(cdr, message))
+
+
+def _behind(pos: int, text: str) -> int:
+    """Where the word begins that comes after a string at a position."""
+    return (pos + 4 + len(text.encode()) + 1 + 3) & ~3
+
+
+def _words(cdr: bytes) -> NDArray[np.uint32]:
+    return np.frombuffer(cdr, np.uint32, offset=4)

@@ -1,0 +1,189 @@
+"""What people ask of a viewer: from any thread, in order, each with an answer."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import queue
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future, wait
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from webviz.api.errors import Error
+from webviz.api.status import Level
+from webviz.engine.commands import Command, FileCommand
+from webviz.engine.pipeline.guard import Guard
+from webviz.engine.state import Answer
+from webviz.files.config import ConfigError
+from webviz.files.config.disk import in_thread
+
+MAX_REQUESTS = 1000
+MAX_FILES = 20
+"""Commands that wait for the disk."""
+ENDING_S = 1.0
+"""How long the end waits for a file that is being written."""
+ENDED = "The viewer has ended."
+
+T = TypeVar("T")
+
+
+class Refused(Error):
+    """A command that cannot be done; one sentence says why."""
+
+
+@dataclass(frozen=True)
+class Job(Generic[T]):
+    """The slow part of a command: the disk, or a long text.
+
+    Args:
+        work: runs in a thread of its own, so it must not touch what the frame loop changes.
+        then: called by the frame loop with the result; returns what there is to tell of it.
+    """
+
+    work: Callable[[], T]
+    then: Callable[[T], str]
+
+
+Request = tuple[Command, Future[str]]
+
+
+class Requests:
+    """Commands that wait for the frame loop.
+
+    Those about files are done one after the other, beside the loop; others overtake them.
+
+    Args:
+        guard: notes what commands raise that is not about what was asked for.
+        wake: called from any thread when slow work is done.
+    """
+
+    def __init__(self, guard: Guard, wake: Callable[[], None]) -> None:
+        self._guard = guard
+        self.answer = Answer()
+        """To the last command that has one, for panels."""
+        self._wake = wake
+        self._waiting: queue.Queue[Request] = queue.Queue(MAX_REQUESTS)
+        self._files: deque[Request] = deque()
+        self._running: tuple[Future[Any], Job[Any], Future[str]] | None = None
+        self._has_ended = False
+
+    def put(self, command: Command) -> Future[str]:
+        """Ask for something; see `FrameLoop.enqueue`."""
+        answer: Future[str] = Future()
+        try:
+            self._waiting.put_nowait((command, answer))
+        except queue.Full:
+            answer.set_exception(Refused("Too many requests at once."))
+        if self._has_ended:
+            self._refuse_waiting()
+        return answer
+
+    def obey(self, do: Callable[[Command], str | Job[Any]]) -> list[Callable[[], None]]:
+        """Do what was asked for.
+
+        Args:
+            do: carries out a command and returns what there is to tell of it, "" for nothing, or
+                its slow part.
+
+        Returns:
+            What tells each of those who asked, to be called once all of it can be seen.
+        """
+        answers = self._finish()
+        while (request := self._next()) is not None:
+            command, answer = request
+            answers += self._attempt(answer, functools.partial(do, command))
+        return answers
+
+    def end(self) -> None:
+        """Let a file that is being written be finished, and refuse all that waits or comes later.
+
+        To be called by the frame loop.
+        """
+        self._has_ended = True
+        if self._running is not None:
+            wait([self._running[0]], ENDING_S)
+            for tell in self._finish():
+                tell()
+        if self._running is not None:
+            self._running[2].set_exception(Refused(ENDED))
+            self._running = None
+        while self._files:
+            _refuse(self._files.popleft(), ENDED)
+        self._refuse_waiting()
+
+    def _finish(self) -> list[Callable[[], None]]:
+        """Do what is left of a command whose slow part is done."""
+        if self._running is None or not self._running[0].done():
+            return []
+        done, job, answer = self._running
+        self._running = None
+        return self._attempt(answer, lambda: job.then(done.result()))
+
+    def _attempt(
+        self, answer: Future[str], act: Callable[[], str | Job[Any]]
+    ) -> list[Callable[[], None]]:
+        """Act; returns what tells the one who asked, nothing while a slow part is under way."""
+        try:
+            result = self._in_one_sentence(act)
+            if isinstance(result, Job):
+                self._begin(result, answer)
+                return []
+        except Refused as error:
+            self.answer = Answer(self.answer.number + 1, Level.ERROR, str(error))
+            return [functools.partial(answer.set_exception, error)]
+        if result:
+            self.answer = Answer(self.answer.number + 1, Level.OK, result)
+        return [functools.partial(answer.set_result, result)]
+
+    def _begin(self, job: Job[Any], answer: Future[str]) -> None:
+        try:
+            working = in_thread(job.work)
+        except OSError as error:
+            raise Refused(f"Not done: {error.strerror}.") from error
+        self._running = working, job, answer
+        working.add_done_callback(lambda _: self._wake())
+
+    def _next(self) -> Request | None:
+        """The next request of somebody who still wants it, and whose turn it is."""
+        while True:
+            if self._files and self._running is None:
+                request = self._files.popleft()
+            else:
+                try:
+                    request = self._waiting.get_nowait()
+                except queue.Empty:
+                    return None
+                if self._running is not None and isinstance(request[0], FileCommand):
+                    self._defer(request)
+                    continue
+            if request[1].set_running_or_notify_cancel():
+                return request
+
+    def _in_one_sentence(self, act: Callable[[], str | Job[Any]]) -> str | Job[Any]:
+        try:
+            return act()
+        except ConfigError as error:
+            raise Refused(str(error)) from error
+        except AttributeError as error:
+            raise Refused(f"Not changed: {error}.") from error
+        except (Exception, SystemExit) as error:
+            raise Refused(self._guard.note("Command", error)) from error
+
+    def _defer(self, request: Request) -> None:
+        if len(self._files) < MAX_FILES:
+            self._files.append(request)
+        else:
+            _refuse(request, "Too many files at once.")
+
+    def _refuse_waiting(self) -> None:
+        """Refuse what no loop will do any more; from any thread."""
+        with contextlib.suppress(queue.Empty):
+            while True:
+                _refuse(self._waiting.get_nowait(), ENDED)
+
+
+def _refuse(request: Request, reason: str) -> None:
+    if request[1].set_running_or_notify_cancel():
+        request[1].set_exception(Refused(reason))

@@ -1,0 +1,67 @@
+"""Keeps the scene true to displays, settings and views."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from webviz.api.declared import Color
+from webviz.api.frames import Frames
+from webviz.api.status import Level, Status
+from webviz.engine.pipeline import Runner
+from webviz.engine.pipeline.drawing import Scene as DrawingScene
+from webviz.engine.pipeline.guard import CRASHED, Guard
+from webviz.engine.viewing import ViewedScene, Viewing
+
+
+class Scene(DrawingScene, ViewedScene, Protocol):
+    """What the viewer needs of a scene besides drawing; see `webviz.edges.scene.Scene`."""
+
+    def flush(self) -> None:
+        """Send everything that changed since the last flush."""
+        ...
+
+    def has_watchers(self) -> bool:
+        """Whether any browser is connected."""
+        ...
+
+    def set_background(self, rgb: Color) -> None:
+        """Fill what lies behind everything with one colour."""
+        ...
+
+
+class Showing:
+    """Draws displays and lets views follow.
+
+    Args:
+        scene: where to draw.
+        viewing: the views.
+        guard: for all calls.
+    """
+
+    def __init__(self, scene: Scene, viewing: Viewing, guard: Guard) -> None:
+        self.statuses: dict[str, Status] = {}
+        """What could not be drawn; the scene drops it, so it stays missing."""
+        self._scene = scene
+        self._viewing = viewing
+        self._guard = guard
+        self._background: Color | None = None
+
+    def is_watched(self) -> bool:
+        """Whether any browser is connected."""
+        return self._guard.attempt("Scene", True, self._scene.has_watchers)
+
+    def draw(self, runners: Sequence[Runner], frames: Frames, background: Color) -> None:
+        """Bring the scene up to date and send what changed."""
+        guard = self._guard
+        if background != self._background:
+            crashed = guard("Scene", self._scene.set_background, background) is CRASHED
+            self._background = None if crashed else background
+        followed = (runner.followed() for runner in runners)
+        wanted = guard.attempt("Views", set[str](), self._viewing.followed).union(*followed)
+        guard("Transforms", frames.prepare, wanted)
+        for runner in runners:
+            runner.draw(frames)
+        guard("Views", self._viewing.follow, frames)
+        if guard("Drawing", self._scene.flush) is CRASHED:
+            self.statuses["Scene"] = Status(Level.ERROR, guard.crashes["Drawing"])

@@ -1,0 +1,261 @@
+"""A recorded bag as a source: its messages arrive when its time is moved on."""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from webviz.data.messages import MessageError, register
+from webviz.engine.sources.bag_extras import Extra
+from webviz.engine.sources.bag_file import BagError, BagFile, Channel, Recorded
+from webviz.engine.sources.bag_time import CLOCK, BagTime
+from webviz.engine.sources.inbox import Inbox, Raw
+from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
+
+NODE = "webviz"
+"""Of private topics (~/...); as the ROS node is called."""
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+MOST = 500
+"""Messages that arrive at once, so that no queue of the inbox overflows."""
+MOST_BYTES = 32 << 20
+STEP_NS = 100_000_000
+"""Of the time of recording between two turns of a frame loop that nobody watches."""
+INBOX_LIMIT = 20_000
+"""Of one topic: what is latched arrives at once, however much it is."""
+TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
+
+
+class BagSource:
+    """Messages of an mcap file, a db3 file or a rosbag2 folder, without ROS.
+
+    Time stands still until `play` moves it on. A bag delivers a topic in whatever QoS is asked for.
+
+    Positions in the bag are times of recording. ROS time, as `now_ns` tells it, differs where the
+    robot had a time of its own: then it is that of the recorded /clock or else of the transforms.
+
+    Args:
+        path: of the bag.
+        extras: messages that the bag lacks, latched since its start.
+        remappings: full names of topics by the full names that displays use.
+
+    Raises:
+        BagError: the bag cannot be read; one sentence.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        extras: Sequence[Extra] = (),
+        remappings: Mapping[str, str] | None = None,
+    ) -> None:
+        self.inbox = Inbox()
+        self._file = BagFile(path)
+        self._extras = tuple(extras)
+        self._remappings = dict(remappings or {})
+        self._time = BagTime(self._file)
+        self._position_ns = self._file.start_ns - 1
+        self._wanted: dict[str, Subscription] = {}
+        self._problems: dict[str, str] = {}
+        self._offers = self._all_offers()
+        self._next: Recorded | None = None
+        self._upcoming: Iterator[Recorded] = iter(())
+
+    @property
+    def start_ns(self) -> int:
+        """Stamp of the first message."""
+        return self._file.start_ns
+
+    @property
+    def end_ns(self) -> int:
+        """Stamp of the last message."""
+        return self._file.end_ns
+
+    @property
+    def position_ns(self) -> int:
+        """How far the bag was played: everything recorded up to then has arrived."""
+        return self._position_ns
+
+    @property
+    def remarks(self) -> list[str]:
+        """Sentences on what is peculiar: wanted topics that cannot be read, files, time."""
+        skipped = [
+            f"{topic} is skipped: {why}."
+            for topic, why in self._file.skipped.items()
+            if topic in self._wanted
+        ]
+        return [*skipped, *filter(None, (self._file.remark, self._time.remark))]
+
+    def play(self, until_ns: int) -> None:
+        """Move on to a time of recording, and let arrive what was recorded up to then.
+
+        What the inbox cannot hold at once comes with the next call: `position_ns` tells how far
+        it is.
+
+        Raises:
+            BagError: the bag is damaged behind what arrived.
+        """
+        count = size = 0
+        while self._next is not None and self._next.stamp_ns <= until_ns:
+            # What has one stamp arrives together. A file may hold neighbours in the wrong order.
+            is_later = self._next.stamp_ns > self._position_ns
+            if is_later and (count >= MOST or size >= MOST_BYTES):
+                break
+            self._position_ns = max(self._position_ns, self._next.stamp_ns)
+            self._arrive(self._next)
+            count, size = count + 1, size + len(self._next.cdr)
+            self._next = next(self._upcoming, None)
+        else:
+            self._position_ns = max(self._position_ns, until_ns)
+        self.inbox.arrived.set()
+
+    def play_step(self, until_ns: int) -> None:
+        """Play a short step towards a time, or up to the next message if that is later.
+
+        Raises:
+            BagError: the bag is damaged behind what arrived.
+        """
+        next_ns = until_ns if self._next is None else self._next.stamp_ns
+        self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
+
+    # What every source can do, see webviz.engine.sources.Source
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these; what is latched arrives at once."""
+        before, self._wanted = self._wanted, dict(subscriptions)
+        if before == self._wanted:
+            return
+        for topic in before.keys() - subscriptions.keys():
+            self.inbox.close(topic)
+        fresh = {t: s for t, s in self._wanted.items() if _is_new(s, before.get(t))}
+        for topic in fresh.keys() - before.keys():
+            self.inbox.open(topic, INBOX_LIMIT)
+        self._learn(fresh)
+        for topic, wish in fresh.items():
+            self._repeat(topic, wish)
+        if _types(before) != _types(self._wanted):
+            self._upcoming = self._file.messages(self._heard(), self._position_ns + 1)
+            self._next = next(self._upcoming, None)
+        self._offers = self._all_offers()
+
+    def offers(self) -> Mapping[str, Offer]:
+        """The topics of the bag, as their publishers offered them."""
+        return self._offers
+
+    def now_ns(self) -> int:
+        """ROS time at the position in the bag."""
+        return self._time.at(self._position_ns)
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic, remapped.
+
+        Raises:
+            ValueError: it is no valid topic name.
+        """
+        name = topic if topic.startswith("/") else f"/{topic}"
+        if topic.startswith("~"):
+            name = f"/{NODE}/{topic.removeprefix('~').removeprefix('/')}"
+        if not TOPIC.fullmatch(name):
+            raise ValueError(
+                f"{topic!r} is no topic name: it must be words of letters, digits and "
+                "underscores, which begin with no digit, between slashes"
+            )
+        return self._remappings.get(name, name)
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._file.close()
+
+    # Inside
+
+    def _channels(self) -> list[Channel]:
+        """Those that are wanted and can be read."""
+        return [
+            channel
+            for channel in self._file.channels
+            if (wish := self._wanted.get(channel.topic))
+            and wish.type == channel.type
+            and channel.topic not in self._problems
+        ]
+
+    def _heard(self) -> list[Channel]:
+        """The channels to read: also the clock, whoever wants it."""
+        wanted = self._channels()
+        return wanted + [c for c in self._time.clocks if c not in wanted]
+
+    def _learn(self, wishes: Mapping[str, Subscription]) -> None:
+        """Take the definitions of the bag for its messages."""
+        for channel in self._file.channels:
+            wish = wishes.get(channel.topic)
+            if wish and wish.type == channel.type and channel.definition:
+                try:
+                    register(channel.type, channel.definition)
+                except MessageError as error:
+                    self._problems[channel.topic] = str(error)
+
+    def _repeat(self, topic: str, wish: Subscription) -> None:
+        """Let arrive what publishers repeat for a subscriber that comes late."""
+        for extra in self._extras:
+            if extra.topic == topic:
+                self._put(Recorded(topic, extra.type, extra.cdr, self._file.start_ns))
+        latched = [
+            channel
+            for channel in self._channels()
+            if channel.topic == topic
+            and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
+        ]
+        # Nobody knows who of the publishers of a transform was still there: all of them count.
+        is_tf = wish.type == TF_TYPE
+        depth = None if is_tf else sum(channel.depth for channel in latched)
+        past = self._file.messages(latched, self._file.start_ns, self._position_ns)
+        for recorded in deque(past, depth):
+            self._put(recorded)
+
+    def _arrive(self, recorded: Recorded) -> None:
+        if recorded.topic == "/clock" and recorded.type == CLOCK:
+            self._time.hear(recorded)
+        self._put(recorded)
+
+    def _put(self, recorded: Recorded) -> None:
+        self.inbox.put(recorded.topic, Raw(recorded.cdr, self._time.at(recorded.stamp_ns)))
+
+    def _all_offers(self) -> Mapping[str, Offer]:
+        publishers: dict[str, tuple[Publisher, ...]] = {}
+        for channel in self._file.channels:
+            publishers[channel.topic] = publishers.get(channel.topic, ()) + channel.publishers
+        for extra in self._extras:
+            publishers[extra.topic] = (*publishers.get(extra.topic, ()), extra.publisher)
+        offers = {topic: self._offer(topic, who) for topic, who in publishers.items()}
+        for topic, reason in self._file.skipped.items():
+            offers.setdefault(topic, Offer((), None, reason))
+        return offers
+
+    def _offer(self, topic: str, publishers: tuple[Publisher, ...]) -> Offer:
+        wish, problem = self._wanted.get(topic), self._problems.get(topic, "")
+        matching = [p for p in publishers if wish and p.type == wish.type]
+        if wish is None or not matching:
+            return Offer(publishers, None, problem)
+        return Offer(publishers, _weakest(matching), problem, wish.type)
+
+
+def _is_new(wish: Subscription, before: Subscription | None) -> bool:
+    """Whether a wish asks for what is latched."""
+    return before is None or before.type != wish.type or wish.asked > before.asked
+
+
+def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
+    return {topic: wish.type for topic, wish in wishes.items()}
+
+
+def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
+    """What all of them offer."""
+    reliable = all(p.reliability == "reliable" for p in publishers)
+    latched = all(p.durability == "transient_local" for p in publishers)
+    return (
+        "reliable" if reliable else "best_effort",
+        "transient_local" if latched else "volatile",
+    )
+
+
+__all__ = ["BagError", "BagSource"]

@@ -1,0 +1,76 @@
+"""ROS time of a bag, where it is not the time of recording."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from webviz.data.messages import Clock, MessageError, TFMessage, decode
+from webviz.engine.sources.bag_file import BagFile, Channel, Recorded
+
+CLOCK = "rosgraph_msgs/msg/Clock"
+TF = "tf2_msgs/msg/TFMessage"
+FOREIGN_NS = 3600 * 1_000_000_000
+"""Transforms that are further from the time of recording are in the time of a simulator."""
+MAX_TRIED = 100
+
+
+class BagTime:
+    """Tells ROS time from the time of recording, both in nanoseconds.
+
+    A recorded /clock decides, as with use_sim_time; without one, the stamps of the first
+    transforms do if they are more than an hour off.
+
+    Args:
+        file: to look into.
+    """
+
+    def __init__(self, file: BagFile) -> None:
+        self.remark = ""
+        """A sentence for people, if there is something peculiar."""
+        self.clocks: list[Channel] = [
+            c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
+        ]
+        """What `hear` wants to hear."""
+        self._clock_ns: int | None = None
+        self._offset_ns = 0
+        first = next(file.messages(self.clocks, file.start_ns), None)
+        if first is not None:
+            self.hear(first)
+        else:
+            self._follow_transforms(file)
+
+    def hear(self, recorded: Recorded) -> None:
+        """Take a message of /clock, in the order of the bag."""
+        try:
+            message: Clock = decode(CLOCK, recorded.cdr)
+        except MessageError:
+            return
+        self._clock_ns = message.clock.ns
+
+    def at(self, recorded_ns: int) -> int:
+        """ROS time at a time of recording; with a /clock, what it said last."""
+        return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
+
+    def _follow_transforms(self, file: BagFile) -> None:
+        for recorded in _first(file, "/tf", TF):
+            try:
+                message: TFMessage = decode(TF, recorded.cdr)
+            except MessageError:
+                continue
+            stamps = [t.stamp_ns for t in message.transforms if t.stamp_ns]
+            if not stamps:
+                continue
+            offset_ns = recorded.stamp_ns - stamps[0]
+            if abs(offset_ns) > FOREIGN_NS:
+                self._offset_ns = offset_ns
+                self.remark = (
+                    f"The transforms begin at {stamps[0] / 1e9:.1f} s, which is not the time of "
+                    "recording, and there is no /clock: time follows the transforms."
+                )
+            return
+
+
+def _first(file: BagFile, topic: str, type_name: str) -> Iterator[Recorded]:
+    channels = [c for c in file.channels if (c.topic, c.type) == (topic, type_name)]
+    for recorded, _ in zip(file.messages(channels, file.start_ns), range(MAX_TRIED), strict=False):
+        yield recorded

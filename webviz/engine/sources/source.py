@@ -1,0 +1,93 @@
+"""What the viewer wants from wherever its messages come from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from webviz.api.declared import Topic
+from webviz.engine.sources.inbox import Inbox
+
+Reliability = Literal["reliable", "best_effort"]
+Durability = Literal["volatile", "transient_local"]
+
+
+@dataclass(frozen=True)
+class Subscription:
+    """A wish: this topic, of this type.
+
+    Args:
+        type: the message type, such as "nav_msgs/msg/Path".
+        topic: the name, fully resolved, and the QoS the user chose.
+        latched: transient local, whatever publishers offer.
+        asked: a higher number than before asks the publishers to repeat what they latched.
+    """
+
+    type: str
+    topic: Topic
+    latched: bool = False
+    asked: int = 0
+
+
+@dataclass(frozen=True)
+class Publisher:
+    """Somebody who publishes a topic.
+
+    Args:
+        node: full node name, "" where a publisher is no ROS node.
+        type: what it publishes.
+        reliability, durability: what it offers.
+    """
+
+    node: str
+    type: str
+    reliability: Reliability
+    durability: Durability
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What is known of one topic.
+
+    Args:
+        publishers: everybody who publishes it.
+        requested: reliability and durability of our subscription, None without one.
+        problem: why nothing can arrive, "" if it can.
+        type: of our subscription, "" without one; a topic can be read as one type only.
+    """
+
+    publishers: tuple[Publisher, ...]
+    requested: tuple[Reliability, Durability] | None = None
+    problem: str = ""
+    type: str = ""
+
+
+class Source(Protocol):
+    """A live ROS graph or a bag."""
+
+    inbox: Inbox
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these, by topic name."""
+        ...
+
+    def offers(self) -> Mapping[str, Offer]:
+        """What is known of every topic; changes identity only when it changes."""
+        ...
+
+    def now_ns(self) -> int:
+        """ROS time; 0 while it is not known yet."""
+        ...
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic, remapped and in the namespace of the source.
+
+        Raises:
+            ValueError: it is no valid topic name; one sentence.
+        """
+        ...
+
+    def close(self) -> None:
+        """Stop, leaving no thread behind."""
+        ...

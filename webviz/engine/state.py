@@ -1,0 +1,150 @@
+"""What a panel shows of a viewer: a snapshot made by the frame loop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from webviz.api.display import Display
+from webviz.api.status import Level, Status, worst
+from webviz.api.views import View
+from webviz.engine.sources import Offer
+from webviz.files.config import Settings
+
+
+@dataclass(frozen=True)
+class Row:
+    """One display in the list.
+
+    Args:
+        id: for commands.
+        type: name of the display type.
+        display: its properties, to read; None if the entry of the config cannot be shown.
+        name: as shown.
+        statuses: sentences by key.
+        depth: in how many groups it is.
+        enabled: whether it is switched on, whatever its groups are.
+    """
+
+    id: str
+    type: str
+    display: Display | None
+    name: str
+    statuses: Mapping[str, Status]
+    depth: int = 0
+    enabled: bool = True
+
+    @property
+    def level(self) -> Level:
+        """The worst of its statuses."""
+        return worst(self.statuses.values())
+
+
+@dataclass(frozen=True)
+class File:
+    """Where the config is saved.
+
+    Args:
+        path: of the file, "" if there is none.
+        is_changed: whether the viewer shows something else than the file says.
+        folder: where a name without folder is looked for and saved.
+        others: names of the config files in the folder, sorted.
+    """
+
+    path: str = ""
+    is_changed: bool = False
+    folder: str = ""
+    others: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of the last command that has an answer.
+
+    Args:
+        number: one more for each answer.
+        level, text: how it went, in a sentence.
+    """
+
+    number: int = 0
+    level: Level = Level.OK
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Clock:
+    """RViz's panel "Time".
+
+    Args:
+        ros_ns: ROS time that is shown; stands still while paused; 0 while it is not known.
+        ros_elapsed_ns: since the viewer started or was reset.
+        wall_s: seconds since 1970.
+        wall_elapsed_s: since the viewer started or was reset.
+        is_paused: whether somebody let the time stand still.
+    """
+
+    ros_ns: int = 0
+    ros_elapsed_ns: int = 0
+    wall_s: float = 0.0
+    wall_elapsed_s: float = 0.0
+    is_paused: bool = False
+
+
+@dataclass(frozen=True)
+class Traffic:
+    """What arrives on a topic, over the last seconds."""
+
+    rate_hz: float
+    bytes_per_s: float
+
+
+@dataclass(frozen=True)
+class Inspected:
+    """A topic that somebody looks into.
+
+    Args:
+        topic: its name.
+        text: its last message, or why there is none.
+        age_s: since the last message came, None without one.
+    """
+
+    topic: str
+    text: str
+    age_s: float | None = None
+
+
+@dataclass(frozen=True)
+class State:
+    """A viewer at one moment.
+
+    Args:
+        rows: the displays in order.
+        fixed_frame: frame id that everything is drawn in.
+        frames: every frame id known, sorted.
+        topics: message types by topic name.
+        statuses: what holds for the viewer as a whole, such as "Fixed Frame".
+        settings: all that a config says besides its displays.
+        file: where that is saved.
+        answer: to the last command.
+        clock: the time.
+        offers: publishers and QoS by topic name.
+        traffic: by topic name, of the topics that are subscribed to.
+        inspected: a topic that somebody looks into.
+        transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
+        views: what each browser shows, by its id.
+    """
+
+    rows: tuple[Row, ...]
+    fixed_frame: str
+    frames: tuple[str, ...]
+    topics: Mapping[str, tuple[str, ...]]
+    statuses: Mapping[str, Status]
+    settings: Settings = field(default_factory=Settings)
+    file: File = File()
+    answer: Answer = Answer()
+    clock: Clock = Clock()
+    offers: Mapping[str, Offer] = field(default_factory=dict)
+    traffic: Mapping[str, Traffic] = field(default_factory=dict)
+    inspected: Inspected | None = None
+    transforms: str = ""
+    views: Mapping[int, View] = field(default_factory=dict)

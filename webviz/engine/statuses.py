@@ -1,0 +1,35 @@
+"""Statuses of the viewer as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from webviz.api.status import Level, Status
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.explain import unknown_fixed_frame
+
+
+def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
+    """Whether anything can be drawn in a frame."""
+    known = buffer.frames()
+    if fixed_frame in known:
+        return Status(Level.OK, "OK")
+    if not known:
+        return Status(
+            Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
+        )
+    return Status(Level.ERROR, unknown_fixed_frame(buffer, fixed_frame))
+
+
+def import_status(report: Sequence[str]) -> Status:
+    """What of a .rviz file has no counterpart here, which needs at least one sentence."""
+    text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
+    return Status(Level.WARN, text)
+
+
+def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
+    """Which parts of the viewer failed, by part."""
+    return {
+        part: Status(Level.ERROR, f"{text} The log has the details; please report this.")
+        for part, text in crashes.items()
+    }

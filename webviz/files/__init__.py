@@ -1,0 +1,1 @@
+"""Config files, webviz's own and RViz's."""

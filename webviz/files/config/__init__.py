@@ -1,0 +1,45 @@
+"""The saved state of a viewer as YAML: fixed frame, background, view, and the list of displays."""
+
+from webviz.files.config.atomic import write_text
+from webviz.files.config.errors import ConfigError, nearest
+from webviz.files.config.explain import explain, mistakes, sentences
+from webviz.files.config.files import is_rviz, read_text
+from webviz.files.config.model import (
+    STANDARD,
+    VERSION,
+    Branch,
+    Config,
+    Item,
+    Settings,
+    Unreadable,
+    standard,
+)
+from webviz.files.config.reading import read, read_display
+from webviz.files.config.source import MAX_VALUES, Place, Source
+from webviz.files.config.writing import document, dump
+
+__all__ = [
+    "MAX_VALUES",
+    "STANDARD",
+    "VERSION",
+    "Branch",
+    "Config",
+    "ConfigError",
+    "Item",
+    "Place",
+    "Settings",
+    "Source",
+    "Unreadable",
+    "document",
+    "dump",
+    "explain",
+    "is_rviz",
+    "mistakes",
+    "nearest",
+    "read",
+    "read_display",
+    "read_text",
+    "sentences",
+    "standard",
+    "write_text",
+]

@@ -1,0 +1,27 @@
+"""Sentences about what is wrong with a config."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+from webviz.api.errors import Error
+
+MAX_HINTS = 40
+"""Valid words that an error lists; a tree of transforms may have a thousand frames."""
+
+
+class ConfigError(Error):
+    """A file cannot be used; one sentence that names the file and the place in it."""
+
+
+def nearest(word: str, valid: Iterable[str]) -> str:
+    """A hint at the valid word somebody may have meant, or the list of all."""
+    valid = sorted(valid)
+    if not valid:
+        return "there are none"
+    close = difflib.get_close_matches(word, valid, n=1)
+    if close:
+        return f"did you mean `{close[0]}`?"
+    more = f" and {len(valid) - MAX_HINTS} more" if len(valid) > MAX_HINTS else ""
+    return f"known are: {', '.join(valid[:MAX_HINTS])}{more}"

@@ -1,0 +1,59 @@
+"""Reading config files from the disk."""
+
+from __future__ import annotations
+
+import codecs
+import errno
+import os
+import stat
+from pathlib import Path
+
+from webviz.files.config.disk import within
+from webviz.files.config.errors import ConfigError
+
+MAX_BYTES = 2 << 20
+"""Real files have less than 0.2 MB."""
+PATIENCE_S = 5.0
+SUFFIXES = (".yaml", ".yml", ".rviz")
+"""Of config files, in lower case."""
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+def read_text(path: Path) -> str:
+    """The text of a config file.
+
+    Raises:
+        ConfigError: it is missing, not a regular file, too large or not text, or the disk does not
+            respond within some seconds. The sentence shows nothing of what the file contains.
+    """
+    try:
+        data = within(PATIENCE_S, lambda: _read(path))
+    except OSError as error:
+        raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
+    if len(data) > MAX_BYTES:
+        raise ConfigError(f"{path} is not a config file: it is larger than {MAX_BYTES >> 20} MB.")
+    try:
+        return data.decode("utf-8-sig")  # Windows' editors begin files with a mark
+    except UnicodeDecodeError as error:
+        hint = "it is UTF-16, save it as UTF-8" if data.startswith(_UTF_16) else "no config file"
+        raise ConfigError(f"{path} is not UTF-8 text: {hint}.") from error
+
+
+def _read(path: Path) -> bytes:
+    # To open a FIFO would wait for a writer.
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY)
+    try:
+        mode = os.fstat(descriptor).st_mode
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        if not stat.S_ISREG(mode):
+            raise OSError(0, "it is not a regular file")
+        with open(descriptor, "rb", closefd=False) as file:
+            return file.read(MAX_BYTES + 1)
+    finally:
+        os.close(descriptor)
+
+
+def is_rviz(path: Path) -> bool:
+    """Whether a file is RViz's by its name."""
+    return path.suffix.lower() == ".rviz"

@@ -1,0 +1,157 @@
+"""Configs from YAML text."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import make
+from webviz.api.display import Display
+from webviz.api.group import Group
+from webviz.api.registry import broken_display_types, display_types
+from webviz.api.views import with_type
+from webviz.files.config.errors import ConfigError, nearest
+from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
+from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
+from webviz.files.config.source import Place, Source
+
+NO_TYPE = "a display needs a `type`, such as `type: Grid`."
+NO_LIST = "expected a list, each entry with a `type`."
+MAX_DISPLAYS = 500
+"""In one config, groups counted. Real ones have fewer than 100, and with 1000 the page hangs."""
+_KEYS = (*Settings.__struct_fields__, "displays")
+_TELLING = frozenset(_KEYS) - {"version", "rviz"}
+"""Keys that other kinds of files do not have."""
+
+
+def read(text: str, where: str) -> Config:
+    """A config from YAML text; what it keeps of a .rviz file stays unread.
+
+    Args:
+        text: YAML.
+        where: names the text in errors.
+
+    Raises:
+        ConfigError: the text is no YAML or not a config; the sentence shows nothing of what it
+            contains. A single display that does not fit is no error: it becomes an `Unreadable`.
+    """
+    source = Source(text, where)
+    document, top = source.values(), Place(source=source)
+    if document is None:
+        raise ConfigError(f"{where} is empty: a config has at least `version: {VERSION}`.")
+    if not isinstance(document, Mapping):
+        raise ConfigError(f"{where} holds no settings such as `fixed_frame: map`.")
+    if "Visualization Manager" in document:
+        raise ConfigError(f"{where} is RViz's config: its name must end with .rviz.")
+    _refuse_other_files(document, where, top)
+    version = document.get("version", VERSION)
+    if isinstance(version, int) and version > VERSION:
+        raise ConfigError(
+            f"{where} has version {version}, this webviz reads up to {VERSION}: update webviz."
+        )
+    rest = {str(key): value for key, value in document.items() if key != "displays"}
+    _refuse_unknown(rest, _KEYS, top)
+    rest = _typed(rest)
+    try:
+        settings = msgspec.convert(rest, Settings)
+    except msgspec.ValidationError as error:
+        path, clause = explain(error, Settings, rest)
+        raise ConfigError(top.at(*path).says(clause)) from error
+    entries = document.get("displays") or []
+    if not isinstance(entries, list):
+        raise ConfigError(top.at("displays").says(NO_LIST))
+    refuse_too_many(entries, "displays", where)
+    items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
+    return Config(settings, items)
+
+
+def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
+    """Refuse a list of displays that is too long to be shown.
+
+    Args:
+        entries: as in a file.
+        key: of the list in the entry of a group.
+        where: names the file.
+
+    Raises:
+        ConfigError: it has more than `MAX_DISPLAYS`.
+    """
+    waiting, count = [entries], 0
+    while waiting:
+        for entry in waiting.pop():
+            count += 1
+            inner = entry.get(key) if isinstance(entry, Mapping) else None
+            if isinstance(inner, list):
+                waiting.append(inner)
+    if count > MAX_DISPLAYS:
+        raise ConfigError(
+            f"{where} has {count} displays; the limit is {MAX_DISPLAYS}. Split it into several."
+        )
+
+
+def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Place) -> None:
+    """Refuse what is not a config, with none of its words but one that is almost ours."""
+    keys = [str(key) for key in document]
+    if _TELLING.intersection(keys) or set(keys) <= set(_KEYS):
+        return
+    for key in keys:
+        if key not in _KEYS and difflib.get_close_matches(key, _KEYS, n=1):
+            _refuse_unknown([key], _KEYS, top)
+    raise ConfigError(f"{where} is not a config: expected keys such as `fixed_frame: map`.")
+
+
+def _typed(settings: dict[str, Any]) -> dict[str, Any]:
+    """Settings whose views all say which type they are."""
+    if "view" in settings:
+        settings = settings | {"view": with_type(settings["view"])}
+    if isinstance(views := settings.get("views"), Mapping):
+        settings = settings | {"views": {key: with_type(view) for key, view in views.items()}}
+    return settings
+
+
+def read_display(entry: Any, place: Place) -> Item:
+    """A display or group from an entry of a list in a config file, which is at `place`."""
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
+        return Unreadable(entry, place.says(NO_TYPE))
+    if "rviz" in entry:
+        reason = f"Unsupported display class {entry['type']}."
+        return Unreadable(entry, place.says(reason))
+    types, broken = display_types(), broken_display_types()
+    cls = types.get(entry["type"])
+    if cls is Group:
+        return _read_group(entry, place)
+    if cls is None:
+        reason = f"no display type `{entry['type']}` here, {nearest(entry['type'], types)}"
+        return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
+    return _read(cls, entry, (), place)
+
+
+def _read_group(entry: Mapping[str, Any], place: Place) -> Item:
+    inner = entry.get("displays") or []
+    if not isinstance(inner, list):
+        return Unreadable(entry, place.at("displays").says(NO_LIST))
+    group = _read(Group, entry, ("displays",), place)
+    if not isinstance(group, Group):
+        return group
+    places = (place.at("displays", index) for index in range(len(inner)))
+    return Branch(group, [read_display(e, at) for e, at in zip(inner, places, strict=True)])
+
+
+def _read(
+    cls: type[Display], entry: Mapping[str, Any], others: tuple[str, ...], place: Place
+) -> Display | Unreadable:
+    """A display without what is in it, which has other keys than its properties."""
+    values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
+    try:
+        return make(cls, values)
+    except msgspec.ValidationError as error:
+        return Unreadable(entry, sentences(mistakes(cls, values, error, others), place))
+
+
+def _refuse_unknown(values: Iterable[str], valid: Iterable[str], place: Place) -> None:
+    for key in values:
+        if key not in valid:
+            raise ConfigError(place.at(key).says(unknown_key(key, valid)))

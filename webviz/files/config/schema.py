@@ -1,0 +1,192 @@
+"""The JSON Schema of config files, with which editors complete and check them.
+
+It is of draft 7, which the YAML language servers of editors know best. A display of a type that is
+not installed is no error to it, since plug-ins bring their own; webviz itself says so on opening.
+"""
+
+from __future__ import annotations
+
+import inspect as python
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+from msgspec import inspect
+
+from webviz.api.declared import Topic
+from webviz.api.display import Display
+from webviz.api.group import Group
+from webviz.files.config.model import VERSION, Settings
+
+Schema = dict[str, Any]
+
+DRAFT = "http://json-schema.org/draft-07/schema#"
+DEFINITION = "#/definitions/"
+DISPLAY = "display"
+_BOUNDS = {
+    "ge": "minimum",
+    "gt": "exclusiveMinimum",
+    "le": "maximum",
+    "lt": "exclusiveMaximum",
+    "min_length": "minLength",
+    "max_length": "maxLength",
+}
+
+
+def schema(types: Mapping[str, type[Display]]) -> Schema:
+    """The JSON Schema of a config file.
+
+    Args:
+        types: display classes by the name each has in config files.
+    """
+    made = _Schemas()
+    top = made.properties(Settings)
+    top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
+    top["displays"] = _displays("What is shown, in the order of the list.")
+    for name, cls in types.items():
+        made.definitions[name] = made.display(name, cls)
+    made.definitions[DISPLAY] = _any_display(types)
+    return {
+        "$schema": DRAFT,
+        "title": "webviz",
+        "description": _words(Settings),
+        "type": "object",
+        "additionalProperties": False,
+        "properties": top,
+        "definitions": dict(sorted(made.definitions.items())),
+    }
+
+
+def _displays(description: str) -> Schema:
+    items = {"$ref": DEFINITION + DISPLAY}
+    return {"description": description, "type": ["array", "null"], "items": items}
+
+
+def _any_display(types: Mapping[str, type[Display]]) -> Schema:
+    """An entry of a list; only what its type says is checked, so that errors are about that."""
+    known = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
+    return {
+        "type": "object",
+        "required": ["type"],
+        "properties": {
+            "type": {
+                "description": "What kind of display this is.",
+                "anyOf": [*known, {"type": "string"}],
+            },
+            "name": {"type": "string", "description": "Shown in the list of displays."},
+        },
+        "allOf": [
+            {
+                # What is kept of RViz has the name of RViz's class as its type.
+                "if": {
+                    "required": ["type"],
+                    "properties": {"type": {"const": name}},
+                    "not": {"required": ["rviz"]},
+                },
+                "then": {"$ref": DEFINITION + name},
+            }
+            for name in types
+        ],
+    }
+
+
+class _Schemas:
+    """Schemas of types; those of structs stand in the definitions, each once."""
+
+    def __init__(self) -> None:
+        self.definitions: dict[str, Schema] = {}
+
+    def display(self, name: str, cls: type[Display]) -> Schema:
+        properties = {"type": {"const": name}, **self.properties(cls)}
+        if cls is Group:
+            properties["displays"] = _displays("What is in the group, in the order of the list.")
+        return _object(properties, _words(cls))
+
+    def properties(self, cls: type[msgspec.Struct]) -> dict[str, Schema]:
+        info = inspect.type_info(cls)
+        assert isinstance(info, inspect.StructType)
+        return {field.encode_name: self._field(field) for field in info.fields}
+
+    def _field(self, field: inspect.Field) -> Schema:
+        made = self._type(field.type)
+        default = field.default
+        if field.default_factory is not msgspec.NODEFAULT:
+            default = field.default_factory()
+        if default is not msgspec.NODEFAULT and default not in ("", {}, []):
+            is_name = isinstance(default, Topic) and default == Topic(default.name)
+            plain = default.name if is_name else msgspec.to_builtins(default)
+            made = {**made, "default": plain}
+        return made
+
+    def _type(self, type_: inspect.Type) -> Schema:
+        match type_:
+            case inspect.Metadata(type=inner):
+                return self._described(self._type(inner), type_)
+            case inspect.LiteralType(values=choices):
+                return {"enum": list(choices)}
+            case inspect.StructType(cls=cls):
+                return {"allOf": [self._reference(type_)], "description": _words(cls)}
+            case inspect.UnionType(types=types):
+                return {"anyOf": [self._type(each) for each in types]}
+            case inspect.TupleType(item_types=items):
+                size = {"minItems": len(items), "maxItems": len(items)}
+                return {"type": "array", "items": self._type(items[0]), **size}
+            case inspect.ListType(item_type=item) | inspect.VarTupleType(item_type=item):
+                return {"type": "array", "items": self._type(item)}
+            case inspect.DictType(value_type=value):
+                return {"type": "object", "additionalProperties": self._type(value)}
+            case inspect.AnyType():
+                return {}
+        return {"type": _JSON_TYPES[type(type_)], **_bounds(type_)}
+
+    def _reference(self, type_: inspect.StructType) -> Schema:
+        name = f"{type_.cls.__module__}.{type_.cls.__qualname__}"
+        if name not in self.definitions:
+            self.definitions[name] = {}  # a struct may hold its own kind
+            properties = self.properties(type_.cls)
+            if type_.tag_field:
+                properties = {type_.tag_field: {"const": type_.tag}, **properties}
+            made = _object(properties, _words(type_.cls))
+            if type_.cls is Topic:  # the bare name is enough
+                made = {"anyOf": [{"type": "string"}, made]}
+            self.definitions[name] = made
+        return {"$ref": DEFINITION + name}
+
+    def _described(self, made: Schema, meta: inspect.Metadata) -> Schema:
+        known = {**(meta.extra_json_schema or {}), **(meta.extra or {})}
+        words = [known["description"]] if "description" in known else []
+        if unit := known.get("unit"):
+            words.append(f"In {unit}.")
+        if when := known.get("when"):
+            values = when[1] if isinstance(when[1], tuple) else (when[1],)
+            told = [msgspec.json.encode(value).decode() for value in values]
+            words.append(f"Where {when[0]} is {' or '.join(told)}.")
+        return {**made, "description": " ".join(words)} if words else made
+
+
+_JSON_TYPES: dict[type, str] = {
+    inspect.BoolType: "boolean",
+    inspect.IntType: "integer",
+    inspect.FloatType: "number",
+    inspect.StrType: "string",
+    inspect.NoneType: "null",
+}
+
+
+def _bounds(type_: Any) -> Schema:
+    limits = {word: getattr(type_, name, None) for name, word in _BOUNDS.items()}
+    return {word: limit for word, limit in limits.items() if limit is not None}
+
+
+def _object(properties: dict[str, Schema], description: str) -> Schema:
+    return {
+        "type": "object",
+        "description": description,
+        "additionalProperties": False,
+        "properties": properties,
+    }
+
+
+def _words(cls: type) -> str:
+    """The first paragraph of a docstring."""
+    return " ".join((python.getdoc(cls) or "").partition("\n\n")[0].split())

@@ -1,0 +1,174 @@
+"""YAML text as values, which know their line in it.
+
+ruamel.yaml's pure reader does it: a file of 250 displays takes 0.15 s, and its releases no longer
+bring the reader in C. It reads YAML 1.2, so that `on` is text, 1e3 and 0x10 are numbers and 12:30
+is text.
+"""
+
+from __future__ import annotations
+
+import functools
+import io
+import json
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from ruamel.yaml import YAML
+from ruamel.yaml.composer import Composer
+from ruamel.yaml.error import YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from webviz.files.config.errors import ConfigError
+
+MAX_VALUES = 50_000
+"""In one file; YAML's aliases can make a few lines endless."""
+MAX_CHARACTERS = 4 << 20
+"""Of all values together, aliases counted."""
+MAX_DEPTH = 64
+"""Levels; real files have fewer than 20."""
+_SAFE = re.compile(r"""(?:[^"']|(["'])(?:<[a-z ]+>|.)\1)*""")
+"""Up to the first quotation that is neither one character nor the name of a kind of token."""
+
+Path = tuple[str | int, ...]
+"""Keys and indices from the top of a file."""
+
+
+class Source:
+    """A YAML document.
+
+    Args:
+        text: one document.
+        where: names it in errors.
+
+    Raises:
+        ConfigError: it is not YAML, or too large or too deep to be a config. The sentence shows
+            nothing of the text: the file may be anything.
+    """
+
+    def __init__(self, text: str, where: str) -> None:
+        self.where = where
+        self._yaml = YAML(typ="safe", pure=True)
+        self._yaml.Composer = functools.partial(_Composer, where)
+        try:
+            self.node: Node | None = self._yaml.compose(io.StringIO(text))
+        except (YAMLError, ValueError) as error:
+            raise self._refused(error) from error
+        self._refuse_endless()
+
+    def values(self) -> Any:
+        """The document as mappings, lists and plain values.
+
+        Raises:
+            ConfigError: a value is none, such as a date in a month that does not exist.
+        """
+        if self.node is None:
+            return None
+        try:
+            return self._yaml.constructor.construct_document(self.node)
+        except (YAMLError, ValueError, TypeError, OverflowError) as error:
+            raise self._refused(error) from error
+
+    def line(self, path: Path) -> int:
+        """The line of a value, from 1; of what is not there, the line of what it would be in."""
+        node, line = self.node, 1
+        for step in path:
+            if isinstance(node, MappingNode):
+                found = [pair for pair in node.value if pair[0].value == step]
+                mark, node = found[-1] if found else (None, None)
+            elif isinstance(node, SequenceNode) and isinstance(step, int):
+                mark = node = node.value[step] if step < len(node.value) else None
+            else:
+                mark = node = None
+            if mark is None:
+                break
+            line = mark.start_mark.line + 1
+        return line
+
+    def _refuse_endless(self) -> None:
+        """Refuse what aliases make too large or too deep, such as one for what it stands in."""
+        waiting, count, characters = [(self.node, 1)], 0, 0
+        while waiting:
+            node, depth = waiting.pop()
+            count += 1
+            if isinstance(node, ScalarNode):
+                characters += len(node.value)
+            _refuse_too_large(self.where, count, depth, characters)
+            if isinstance(node, MappingNode):
+                waiting += [(part, depth + 1) for pair in node.value for part in pair]
+            elif isinstance(node, SequenceNode):
+                waiting += [(part, depth + 1) for part in node.value]
+
+    def _refused(self, error: Exception) -> ConfigError:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{self.where}:{mark.line + 1}" if mark else self.where
+        problem = getattr(error, "problem", None) or (str(error).splitlines() or ["unreadable"])[0]
+        if "'\\t'" in problem:
+            problem = "a tab where YAML wants spaces"
+        safe = _SAFE.match(problem)
+        problem = safe[0].rstrip(" :(") if safe else "unreadable"
+        return ConfigError(f"{place} is not valid YAML: {problem}.")
+
+
+class _Composer(Composer):
+    """Stops at once where a document is too large, instead of reading all of it first."""
+
+    def __init__(self, where: str, loader: Any = None) -> None:
+        super().__init__(loader)
+        self.warn_double_anchors = False  # which YAML allows
+        self._where = where
+        self._count = 0
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        self._count += 1
+        _refuse_too_large(self._where, self._count, self.depth)
+        return super().compose_node(parent, index)
+
+
+def _refuse_too_large(where: str, values: int, depth: int, characters: int = 0) -> None:
+    if values > MAX_VALUES:
+        raise ConfigError(f"{where} contains more than {MAX_VALUES} values, including aliases.")
+    if characters > MAX_CHARACTERS:
+        raise ConfigError(f"{where} is larger than {MAX_CHARACTERS >> 20} MB, including aliases.")
+    if depth > MAX_DEPTH:
+        raise ConfigError(f"{where} is nested deeper than {MAX_DEPTH} levels.")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a value stands, for sentences: `lab.yaml:12: displays[2].size`.
+
+    Args:
+        path: of the value, from the top of the source.
+        source: the file; without one the path is all that is told.
+    """
+
+    path: Path = ()
+    source: Source | None = None
+
+    def at(self, *path: str | int) -> Place:
+        """A place within this one."""
+        return Place((*self.path, *path), self.source)
+
+    @property
+    def line(self) -> int:
+        """The line in the file; 0 without a file."""
+        return self.source.line(self.path) if self.source else 0
+
+    def words(self) -> str:
+        """The path: `displays[2].size`."""
+        words = ""
+        for step in self.path:
+            if isinstance(step, str) and step.replace("_", "a").isalnum():
+                words += f".{step}" if words else step
+            else:
+                words += f"[{json.dumps(step, ensure_ascii=False)}]"
+        return words
+
+    def says(self, clause: str) -> str:
+        """A sentence on the value, with its place first."""
+        words = self.words()
+        parts = [words, clause] if words else [clause]
+        if self.source:
+            parts.insert(0, f"{self.source.where}:{self.line}")
+        return ": ".join(parts) + ("" if clause.endswith(("?", ".", ":")) else ".")

@@ -1,0 +1,73 @@
+"""Configs as YAML text."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+from ruamel.yaml import YAML
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
+
+from webviz.api.declared import to_values
+from webviz.api.registry import type_name
+from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
+from webviz.files.config.representer import Representer
+
+LINE = 88
+"""Characters of mappings and lists that are written on one line."""
+
+
+def document(config: Config) -> dict[str, Any]:
+    """A config as the values of its file; defaults are left out."""
+    settings = msgspec.to_builtins(config.settings)
+    basis = msgspec.to_builtins(Settings())
+    values: dict[str, Any] = {"version": VERSION}
+    values |= {key: value for key, value in settings.items() if value != basis[key]}
+    kept = values.pop("rviz", None)
+    values["displays"] = [_entry(display) for display in config.displays]
+    if kept:
+        values["rviz"] = kept  # last, as nobody wants to read it
+    return values
+
+
+def dump(config: Config) -> str:
+    """A config as YAML text; see `document`."""
+    yaml = YAML(typ="safe", pure=True)
+    yaml.Representer = _Representer
+    yaml.default_flow_style = None  # short lists such as colours stay on one line
+    yaml.width = 1 << 20  # a key of two words that is broken cannot be read again
+    yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
+    stream = io.StringIO()
+    yaml.dump(document(config), stream)
+    return stream.getvalue()
+
+
+class _Representer(Representer):
+    """Gives each value a line of its own where they are too many for one."""
+
+    def represent_mapping(self, tag: Any, mapping: Any, flow_style: Any = None) -> MappingNode:
+        node = super().represent_mapping(tag, mapping, flow_style)
+        node.flow_style &= _fits([part for pair in node.value for part in pair])
+        return node
+
+    def represent_sequence(self, tag: Any, sequence: Any, flow_style: Any = None) -> SequenceNode:
+        node = super().represent_sequence(tag, sequence, flow_style)
+        node.flow_style &= _fits(node.value)
+        return node
+
+
+def _fits(nodes: Sequence[Node]) -> bool:
+    # ruamel does not quote what is plain in lines and a mark within braces: {:0: ?1}.
+    is_short = sum(len(node.value) + len(", ") for node in nodes) <= LINE
+    return is_short and not any(mark in node.value for node in nodes for mark in ":?")
+
+
+def _entry(display: Item) -> Any:
+    if isinstance(display, Unreadable):
+        return display.values
+    if isinstance(display, Branch):
+        inner = [_entry(each) for each in display.displays]
+        return _entry(display.group) | ({"displays": inner} if inner else {})
+    return {"type": type_name(type(display)), **to_values(display)}

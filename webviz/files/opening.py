@@ -1,0 +1,86 @@
+"""Config files of both kinds: webviz's YAML and RViz's."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from pathlib import Path
+
+from webviz.files import rviz
+from webviz.files.config import (
+    Branch,
+    Config,
+    ConfigError,
+    Item,
+    Unreadable,
+    dump,
+    is_rviz,
+    read,
+    read_text,
+    write_text,
+)
+
+
+def load(path: Path) -> Config:
+    """Read a config file: YAML, or RViz's if its name ends with .rviz.
+
+    Raises:
+        ConfigError: the file is missing, no YAML, or not a config; then the sentence shows nothing
+            of what it contains. A single display that does not fit is no error: it becomes an
+            `Unreadable`.
+    """
+    return parse(read_text(path), str(path))
+
+
+def parse(text: str, where: str) -> Config:
+    """A config from its text.
+
+    Args:
+        text: RViz's if `where` ends with .rviz, else YAML.
+        where: names the text in errors.
+
+    Raises:
+        ConfigError: as `load`.
+    """
+    if is_rviz(Path(where)):
+        return rviz.read(text, where)[0]
+    config = read(text, where)
+    if not any(map(_is_kept, config.displays)):
+        return config
+    items, settings, report = rviz.revive(config.displays, config.settings)
+    return Config(settings, items, report.sentences())
+
+
+def text_of(config: Config, name: str) -> str:
+    """The text of a config file; RViz's if `name` ends with .rviz, else YAML."""
+    return rviz.write(config)[0] if is_rviz(Path(name)) else dump(config)
+
+
+def save(config: Config, path: Path) -> None:
+    """Write a config file; a name that ends with .rviz makes it RViz's.
+
+    The version before is kept, see `write_text`. Comments at the beginning of the file stay, such
+    as a licence or what tells an editor of the schema; other comments go, since the displays they
+    stood at may have moved or gone.
+
+    Raises:
+        ConfigError: it cannot be written.
+    """
+    comments = "" if is_rviz(path) else _comments(path)
+    write_text(comments + text_of(config, path.name), path)
+
+
+def _is_kept(item: Item) -> bool:
+    """Whether a display is kept of a .rviz file, or one in a group."""
+    if isinstance(item, Branch):
+        return any(map(_is_kept, item.displays))
+    return isinstance(item, Unreadable) and item.is_from_rviz
+
+
+def _comments(path: Path) -> str:
+    """The comments at the beginning of a file, with the lines between them."""
+    with contextlib.suppress(ConfigError, OSError):
+        if path.is_file():
+            lines = read_text(path).splitlines(keepends=True)
+            return "".join(itertools.takewhile(lambda line: line.startswith(("#", "\n")), lines))
+    return ""

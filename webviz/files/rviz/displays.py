@@ -1,0 +1,174 @@
+"""Displays and groups of .rviz files, and what is kept of each for writing it again."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import make, to_values
+from webviz.api.display import Display
+from webviz.api.group import Group
+from webviz.api.registry import display_types, type_name
+from webviz.files.config import Branch, Item, Place, Unreadable, read_display
+from webviz.files.rviz import values
+from webviz.files.rviz.quiet import is_without_effect
+from webviz.files.rviz.report import Report
+from webviz.files.rviz.rest import KEPT, SELECTS
+from webviz.files.rviz.structs import Reading, struct_tree
+from webviz.files.rviz.tree import Path, Tree, difference, leaves, restored
+from webviz.files.rviz.values import Unfit
+
+NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
+NO_DISPLAY = f"unsupported display class; {KEPT}"
+NO_PROPERTY = f"unsupported; {KEPT}"
+NOT_USED = {"Selectable": SELECTS}
+"""Why properties of all displays are not used, by key."""
+
+
+@dataclass
+class Kept:
+    """What is kept of the displays of a file besides what they are here.
+
+    Args:
+        entries: class, name and the keys that writing the display does not give back, in order.
+    """
+
+    entries: list[Tree] = field(default_factory=list)
+
+    def take(self, cls: str, name: str) -> Tree:
+        """The first entry of a class and name that was not taken yet, an empty one if none is."""
+        for index, entry in enumerate(self.entries):
+            if (entry.get("Class"), entry.get("Name")) == (cls, name):
+                del self.entries[index]
+                return {key: v for key, v in entry.items() if key not in ("Class", "Name")}
+        return {}
+
+
+def read_items(entries: list[Any], report: Report, kept: Kept, place: Place) -> list[Item]:
+    """Displays of a list in a .rviz file, which is at `place`."""
+    return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
+
+
+def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
+    tree = dict(entry) if isinstance(entry, Mapping) else {}
+    name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
+    found = display_class(cls)
+    report.count("displays", found is not None, 1)
+    if found is None:
+        report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
+        report.count("properties", 0, len(_effective(tree)))
+        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Place())
+    display = _read(found, tree, name, report, place)
+    if found.rviz != cls:
+        report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
+    inner = tree.pop("Displays", []) if isinstance(display, Group) else []
+    rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, bare(display))
+    kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
+    if not isinstance(display, Group):
+        return display
+    entries = inner if isinstance(inner, list) else []
+    return Branch(display, read_items(entries, report, kept, place.at("Displays")))
+
+
+def display_class(cls: str) -> type[Display] | None:
+    """The display type for RViz's class, also by its name in ROS 1."""
+    return _classes(tuple(display_types().values())).get(cls)
+
+
+@functools.lru_cache(maxsize=4)
+def _classes(types: tuple[type[Display], ...]) -> dict[str, type[Display]]:
+    found = {cls.rviz: cls for cls in types if cls.rviz}
+    return {f"rviz/{name.partition('/')[2]}": cls for name, cls in found.items()} | found
+
+
+def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Place) -> Display:
+    reading = Reading()
+    display = display_from(cls, tree, reading)
+    for path, reason in reading.faults:
+        report.note(_at_line(display.name, place.at(*path)), "/".join(path), reason)
+    told = [path for path, _ in reading.faults]
+    for path in _effective(tree):
+        report.count("properties", path in reading.used, 1)
+        if path not in reading.used and not any(path[: len(each)] == each for each in told):
+            report.note(display.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
+    return display
+
+
+def _at_line(name: str, place: Place) -> str:
+    """A display's name with the line where there is something to put right."""
+    return f"{name} (line {place.line})" if place.line else name
+
+
+def _effective(tree: Tree) -> list[Path]:
+    """Paths of the values of a display that have an effect on what RViz shows."""
+    properties = {key: value for key, value in tree.items() if key not in NO_PROPERTIES}
+    return [path for path in leaves(properties) if not is_without_effect(path, tree)]
+
+
+def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
+    """A display from RViz's tree of its properties, as RViz would show it."""
+    plain = reading.struct(cls, tree)
+    if tree.get("Class") != cls.rviz:  # of ROS 1, which has other names for some topics
+        plain = {key: value for key, value in plain.items() if value != {"name": ""}}
+    plain |= {"name": values.text(tree.get("Name", "")), "enabled": _is_enabled(tree, reading)}
+    try:
+        return make(cls, plain)
+    except msgspec.ValidationError as error:  # a rule that a plug-in has besides its bounds
+        reading.faults.append(((), f"{error}; the defaults are used"))
+        return make(cls, {"name": plain["name"], "enabled": plain["enabled"]})
+
+
+def _is_enabled(tree: Tree, reading: Reading) -> bool:
+    """RViz reads Enabled after Value; with neither a display is off."""
+    for key in ("Enabled", "Value"):
+        if key in tree:
+            try:
+                return values.read(tree[key], bool)
+            except Unfit as error:
+                reading.faults.append(((key,), f"{error}; it is taken as off"))
+                return False
+    return False
+
+
+def bare(display: Display) -> Tree:
+    """RViz's tree of a display, without what was kept of a file."""
+    switch = {"Enabled": display.enabled, "Value": display.enabled}
+    if isinstance(display, Group):
+        del switch["Value"]
+    return {"Class": type(display).rviz, "Name": display.name, **switch, **struct_tree(display)}
+
+
+def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
+    """Displays as RViz's list of them, which is nothing if it is empty."""
+    written = []
+    for item in items:
+        if isinstance(item, Unreadable):
+            if isinstance(item.values, Mapping) and "rviz" in item.values:
+                written.append(item.values["rviz"])
+            else:
+                report.note(
+                    item.name, "this entry", f"it is left out: {item.reason.removesuffix('.')}"
+                )
+        elif isinstance(item, Branch):
+            tree = _write(item.group, kept)
+            written.append(tree | {"Displays": write_items(item.displays, report, kept)})
+        elif type(item).rviz:
+            written.append(_write(item, kept))
+        else:
+            name = type_name(type(item))
+            report.note(item.name, name, "it is left out, as RViz has no such display")
+    return written or None
+
+
+def _write(display: Display, kept: Kept) -> Tree:
+    cls = type(display)
+
+    def meaning(tree: Tree) -> dict[str, Any]:
+        return to_values(display_from(cls, tree, Reading()))
+
+    kept_tree = kept.take(cls.rviz, display.name)
+    return restored(bare(display), kept_tree, to_values(display), meaning)

@@ -1,0 +1,163 @@
+"""Whole .rviz files."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import Color
+from webviz.files.config import Config, ConfigError, Place, Settings, Source
+from webviz.files.config.reading import refuse_too_many
+from webviz.files.rviz import values, views
+from webviz.files.rviz.displays import Kept, read_items, write_items
+from webviz.files.rviz.report import Report
+from webviz.files.rviz.rest import note_rest
+from webviz.files.rviz.tree import Tree, child, difference, parse, restored
+from webviz.files.rviz.tree import write as write_tree
+from webviz.files.rviz.values import Unfit
+
+MANAGER = "Visualization Manager"
+BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
+"""RViz's defaults where a file says nothing."""
+
+NEW_FILE: Tree = {
+    "Panels": [
+        {"Class": f"rviz_common/{name}", "Name": name}
+        for name in ("Displays", "Selection", "Tool Properties", "Views", "Time")
+    ],
+    MANAGER: {
+        "Tools": [
+            {"Class": f"rviz_default_plugins/{name}"}
+            for name in (
+                "Interact",
+                "MoveCamera",
+                "Select",
+                "FocusCamera",
+                "Measure",
+                "SetInitialPose",
+                "SetGoal",
+                "PublishPoint",
+            )
+        ],
+        "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
+    },
+}
+"""What RViz needs besides displays, in a file that was never RViz's: without it there is no panel
+and no tool."""
+
+
+def read(text: str, where: str) -> tuple[Config, Report]:
+    """A config from the text of a .rviz file, as RViz would open it.
+
+    What has no counterpart is kept in the settings and told in the report.
+
+    Args:
+        text: of the file.
+        where: names it in errors.
+
+    Raises:
+        ConfigError: it is not a .rviz file, or has too many displays.
+    """
+    source = Source(text, where)
+    document = parse(source)
+    if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
+        raise ConfigError(f"{where} is no RViz config: it has no `{MANAGER}`.")
+    report, kept = Report(), Kept()
+    for kind in ("displays", "properties", "views", "tools", "panels"):
+        report.count(kind, 0, 0)
+    manager = dict(document[MANAGER])
+    settings = _settings(manager, report)
+    settings.views = views.read_saved(child(manager, "Views").get("Saved"), report)
+    entries = manager.pop("Displays", None) or []
+    if not isinstance(entries, list):
+        report.note(MANAGER, "Displays", "it is no list, so there are no displays")
+        entries = []
+    refuse_too_many(entries, "Displays", where)
+    items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
+    note_rest(document, report)
+    basis = _bare(settings)
+    if views.kind_of(child(manager, "Views", "Current")) is None:
+        del basis[MANAGER]["Views"]["Current"]  # it is kept whole
+    else:
+        del basis[MANAGER]["Views"]["Current"]["Class"]  # the rest is kept for this class
+    rest = difference({**document, MANAGER: manager}, basis)
+    if displays := _worth_keeping(kept.entries):
+        rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
+    settings.rviz = rest
+    return Config(settings, items, report.sentences()), report
+
+
+def write(config: Config) -> tuple[str, Report]:
+    """The text of a .rviz file, and what RViz has no counterpart for."""
+    report = Report()
+    rest = config.settings.rviz
+    manager = child(rest, MANAGER)
+    entries = manager.pop("Displays", None)
+    entries = entries if isinstance(entries, list) else []
+    kept = Kept([dict(entry) for entry in entries if isinstance(entry, Mapping)])
+    kept_views = child(manager, "Views")
+    current, view = child(kept_views, "Current"), config.settings.view
+    tree = _bare(config.settings)
+    if current and views.kind_of(current) is not type(view):
+        del kept_views["Current"]
+        if views.kind_of(current) is None and views.read_current(current, Report()) == view:
+            tree[MANAGER]["Views"]["Current"] = current
+    saved = views.write_saved(config.settings.views, kept_views.pop("Saved", None))
+    tree[MANAGER]["Views"]["Saved"] = saved
+    if saved or isinstance(manager.get("Views"), Mapping):
+        manager["Views"] = kept_views
+    rest = {**rest, MANAGER: manager} if rest else NEW_FILE
+    own = msgspec.structs.replace(config.settings, rviz={}, views={})
+    tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
+    tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
+    return write_tree(tree), report
+
+
+def _settings(manager: Mapping[str, Any], report: Report) -> Settings:
+    options = child(manager, "Global Options")
+    default = Settings()
+    frame = _option(options, "Fixed Frame", str, BASE_LINK, report)
+    rate = _option(options, "Frame Rate", float, float(RVIZ_FRAME_RATE), report)
+    return Settings(
+        fixed_frame=frame.removeprefix("/"),
+        background=_option(options, "Background Color", Color, default.background, report),
+        frame_rate=min(max(rate, 1.0), 240.0),
+        view=views.read_current(child(manager, "Views").get("Current"), report),
+    )
+
+
+def _option(options: Tree, key: str, kind: Any, default: Any, report: Report) -> Any:
+    if key not in options:
+        return default
+    try:
+        return values.read(options[key], kind)
+    except Unfit as error:
+        report.note("Global Options", key, f"{error}; {default} is used")
+        return default
+
+
+def _bare(settings: Settings) -> Tree:
+    """The tree of a file with these settings, without displays and what was kept."""
+    return {
+        MANAGER: {
+            "Class": "",
+            "Name": "root",
+            "Enabled": True,
+            "Value": True,
+            "Global Options": {
+                "Fixed Frame": settings.fixed_frame,
+                "Background Color": values.write(settings.background, Color),
+                "Frame Rate": values.write(settings.frame_rate, float),
+            },
+            "Views": {"Current": views.write(settings.view)},
+        }
+    }
+
+
+def _worth_keeping(entries: list[Tree]) -> list[Tree]:
+    """Entries that hold something, and those needed to tell displays of one name apart."""
+    alike = Counter((entry["Class"], entry["Name"]) for entry in entries)
+    return [e for e in entries if len(e) > 2 or alike[e["Class"], e["Name"]] > 1]

@@ -1,0 +1,35 @@
+"""Values in .rviz files of which nothing is lost, though they have no counterpart here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from webviz.files.rviz.tree import Path, Tree
+
+ALWAYS = {
+    "Tree": "TF's tree of frames, which RViz makes anew from the transforms",
+    "Expand Tree": "how RViz's panel looks",
+    "Expand Link Details": "how RViz's panel looks",
+    "Expand Joint Details": "how RViz's panel looks",
+    "Link Tree Style": "how RViz's panel looks",
+}
+"""By key, wherever it is in the path, with the reason."""
+
+AT_DEFAULT: dict[str, tuple[Any, ...]] = {
+    "Selectable": (True,),
+    "Position Transformer": ("XYZ", ""),
+    "Near Clip Distance": (0.01, 0.009999999776482582),
+    "Invert Z Axis": (False,),
+    "Target Frame": ("<Fixed Frame>",),
+}
+"""By key: RViz's default values, at which it is as if the property did not exist."""
+
+
+def is_without_effect(path: Path, tree: Tree) -> bool:
+    """Whether the value at a path of a display has no effect on what RViz shows."""
+    if any(key in ALWAYS for key in path):
+        return True
+    value: Any = tree
+    for key in path:
+        value = value.get(key) if isinstance(value, dict) else None
+    return value == {} or any(value == each for each in AT_DEFAULT.get(path[-1], ()))

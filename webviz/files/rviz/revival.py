@@ -1,0 +1,52 @@
+"""Displays that were kept of a .rviz file for want of a counterpart, once there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import msgspec
+
+from webviz.files.config import Branch, Item, Place, Settings, Unreadable
+from webviz.files.rviz import values
+from webviz.files.rviz.displays import Kept, display_class, read_items
+from webviz.files.rviz.report import Report
+from webviz.files.rviz.tree import Tree, child
+
+MANAGER = "Visualization Manager"
+
+
+def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Settings, Report]:
+    """Displays that are kept of a .rviz file, as what they are now.
+
+    Args:
+        items: of a config; those that are not kept, or still have no counterpart, stay as they are.
+        settings: of the config.
+
+    Returns:
+        The displays, the settings with what is kept of them for export, and what was left out.
+    """
+    report, kept = Report(), Kept()
+    revived = [_revived(item, report, kept) for item in items]
+    if kept.entries:
+        manager = child(settings.rviz, MANAGER)
+        before = manager.get("Displays")
+        manager["Displays"] = [*(before if isinstance(before, list) else []), *kept.entries]
+        settings = msgspec.structs.replace(settings, rviz={**settings.rviz, MANAGER: manager})
+    return revived, settings, report
+
+
+def _revived(item: Item, report: Report, kept: Kept) -> Item:
+    if isinstance(item, Branch):
+        return Branch(item.group, [_revived(each, report, kept) for each in item.displays])
+    if not isinstance(item, Unreadable) or not item.is_from_rviz:
+        return item
+    entry = item.values["rviz"]
+    if not isinstance(entry, Mapping) or not display_class(values.text(entry.get("Class", ""))):
+        return item
+    (made,) = read_items([_plain(entry)], report, kept, Place())
+    return made
+
+
+def _plain(entry: Mapping) -> Tree:
+    """As it was read from the .rviz file, whose keys are all text."""
+    return {str(key): _plain(v) if isinstance(v, Mapping) else v for key, v in entry.items()}

@@ -1,0 +1,146 @@
+"""The properties of displays and nested settings, from RViz's tree and back into one."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import msgspec
+
+from webviz.api.declared import Topic
+from webviz.files.rviz import topics, values
+from webviz.files.rviz.properties import Property, properties
+from webviz.files.rviz.tree import Path, Tree, leaves, put
+from webviz.files.rviz.values import Unfit
+
+WITH_CHILDREN = ("Frames",)
+"""Mappings whose switches RViz writes as {Value: true}, as they have children in its panel."""
+
+
+@dataclass
+class Reading:
+    """What was read of a tree.
+
+    Args:
+        used: paths of all values that have a property here.
+        faults: paths of values that cannot be used as they are, with the reason.
+    """
+
+    used: set[Path] = field(default_factory=set)
+    faults: list[tuple[Path, str]] = field(default_factory=list)
+
+    def struct(self, cls: type[msgspec.Struct], tree: Tree, above: Path = ()) -> dict[str, Any]:
+        """Plain values for `cls` from a tree; `above` is where that is in the display's."""
+        result = {}
+        found = properties(cls)
+        own = [place for place in found if place.input]
+        for place in own:
+            result[place.name], used = topics.read(tree, place, self.faults)
+            self.used |= {(*above, *path) for path in used}
+        topics.complete(result, own)
+        for place in found:
+            if not place.input and (raw := _at(tree, place.path)) is not None:
+                path = (*above, *place.path)
+                try:
+                    result[place.name] = self._value(place, raw, path, found)
+                except Unfit as error:
+                    self.faults.append((path, f"{error}; the default is used"))
+        return result
+
+    def _value(self, place: Property, raw: Any, path: Path, all: tuple[Property, ...]) -> Any:
+        origin = typing.get_origin(place.kind)
+        if isinstance(place.kind, type) and issubclass(place.kind, msgspec.Struct):
+            if not isinstance(raw, Mapping):  # of an old file
+                self.used.add(path)
+            return self.struct(place.kind, _opened(raw), path)
+        if origin is dict:
+            others = {p.path[1] for p in all if p.path[0] == place.path[0] and len(p.path) > 1}
+            return self._entries(typing.get_args(place.kind)[1], raw, path, others)
+        if origin is list:
+            self.used.add(path)
+            return _converted(raw, place.kind)
+        if origin is Literal and values.own_value(raw) == "":
+            self.used |= {path, (*path, "Value")}
+            return values.AUTO if values.AUTO in typing.get_args(place.kind) else place.default
+        value = values.read(raw, place.kind)
+        is_leaf = not isinstance(raw, Mapping) or origin is tuple
+        self.used |= set(leaves(raw, path)) if is_leaf else {(*path, "Value")}
+        return self._bounded(value, place, path)
+
+    def _entries(self, kind: Any, raw: Any, path: Path, others: set[str]) -> dict[str, Any]:
+        """Settings by name, such as of the links of a robot; `others` are no such names."""
+        if not isinstance(raw, Mapping):
+            raise Unfit("it has no entries")
+        result = {}
+        is_struct = isinstance(kind, type) and issubclass(kind, msgspec.Struct)
+        for name, entry in raw.items():
+            must_be_open = is_struct or path[-1] in WITH_CHILDREN
+            if name in others or (must_be_open and not isinstance(entry, Mapping)):
+                continue
+            place = Property(name, (name,), kind, None)
+            try:
+                result[name] = self._value(place, entry, (*path, name), ())
+            except Unfit as error:
+                self.faults.append(((*path, name), f"{error}; the default is used"))
+        return result
+
+    def _bounded(self, value: Any, place: Property, path: Path) -> Any:
+        if place.kind not in (int, float):
+            return value
+        bounded = value
+        if place.low is not None and value < place.low:
+            bounded = place.low
+        if place.high is not None and value > place.high:
+            bounded = place.high
+        if bounded != value:
+            self.faults.append((path, f"{value:g} is out of range here, {bounded:g} is used"))
+        return place.kind(bounded)
+
+
+def struct_tree(value: msgspec.Struct) -> Tree:
+    """The properties of a display or nested setting as RViz's tree."""
+    tree: Tree = {}
+    places = properties(type(value))
+    first = next((getattr(value, p.name) for p in places if p.input), Topic())
+    for place in places:
+        put(tree, place.path, _written(getattr(value, place.name), place, first))
+    return tree
+
+
+def _written(value: Any, place: Property, first: Topic) -> Any:
+    if place.input:
+        return topics.write(value, place.input, first)
+    if isinstance(value, msgspec.Struct):
+        return struct_tree(value)
+    if isinstance(value, dict):
+        kind = typing.get_args(place.kind)[1]
+        inner = Property(place.name, place.path, kind, None)
+        open = place.path[-1] in WITH_CHILDREN
+        return {
+            name: {"Value": entry} if open else _written(entry, inner, first)
+            for name, entry in value.items()
+        }
+    if isinstance(value, list):
+        return msgspec.to_builtins(value)
+    return values.write(value, place.kind)
+
+
+def _at(tree: Any, path: Path) -> Any:
+    """What is at a path; of a property that has no children only its own value."""
+    for key in path:
+        tree = _opened(tree).get(key)
+    return tree
+
+
+def _opened(raw: Any) -> Tree:
+    """A property with its children; in old files there is its own value alone."""
+    return dict(raw) if isinstance(raw, Mapping) else {"Value": raw}
+
+
+def _converted(raw: Any, kind: Any) -> Any:
+    try:
+        return msgspec.to_builtins(msgspec.convert(raw, kind))
+    except msgspec.ValidationError as error:
+        raise Unfit(str(error)) from None

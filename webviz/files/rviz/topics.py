@@ -1,0 +1,130 @@
+"""Topics and their QoS.
+
+RViz writes Reliable, Volatile and a depth of 5 into every file, whether somebody chose them or not.
+Taken at their word they would lose the laser scans that a best-effort publisher sends. So what is
+RViz's default is `auto` here, and everything else is an explicit choice. A robot's description is
+always asked for as transient local, as RViz does whatever the file says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from webviz.api.declared import Topic
+from webviz.api.display import Input
+from webviz.files.rviz import values
+from webviz.files.rviz.properties import Property
+from webviz.files.rviz.tree import Path, Tree
+from webviz.files.rviz.values import Unfit
+
+DEPTH = 5
+ROS_1_QUEUE_SIZE = 10
+RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
+DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
+POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
+OLD_KEYS = ("Image Topic", "Marker Topic")
+"""Where ROS 1's RViz has topics."""
+
+
+def read(tree: Tree, place: Property, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
+    """A topic of a display as plain values, and the paths they come from.
+
+    Args:
+        tree: of the display.
+        place: the property.
+        faults: gets what cannot be used, with the reason.
+    """
+    assert place.input is not None
+    key = next((k for k in (place.path[0], *OLD_KEYS) if k in tree), place.path[0])
+    raw = tree.get(key)
+    result: dict[str, Any] = {"name": ""}
+    used: set[Path] = set()
+    name = values.own_value(raw)
+    if not isinstance(name, Mapping | list) and name is not None:
+        result["name"] = values.text(name)
+        used.add((key, "Value") if isinstance(raw, Mapping) else (key,))
+    for field, path, value in _policies(tree, key, raw):
+        used.add(path)
+        try:
+            result |= _policy(field, value, place.input)
+        except Unfit as error:
+            faults.append((path, str(error)))
+    return result, used
+
+
+def complete(display: dict[str, Any], topics: list[Property]) -> None:
+    """Leave out names that follow from the name of a display's first topic, in place."""
+    first = display.get(topics[0].name, {}).get("name") if topics else ""
+    for each in topics:
+        topic = display.get(each.name, {})
+        if each.input and each.input.suffix and topic.get("name") == f"{first}{each.input.suffix}":
+            topic["name"] = ""
+
+
+def write(topic: Topic, input: Input, first: Topic) -> Tree:
+    """A topic as RViz has it; `first` is the first topic of the display."""
+    # Where RViz's defaults would not hear the usual publishers, `auto` becomes what does.
+    reliability = "Best Effort" if input.type.startswith("sensor_msgs/") else "Reliable"
+    is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
+    durability = "Transient Local" if is_latched else "Volatile"
+    if topic.reliability != "auto":
+        reliability = RELIABILITY[topic.reliability]
+    if topic.durability != "auto" and not input.latched:
+        durability = DURABILITY[topic.durability]
+    name = topic.name
+    if not name and input.suffix and first.name:
+        name = first.name + input.suffix
+    tree = {
+        "Value": name,
+        "Depth": topic.depth or DEPTH,
+        "History Policy": "Keep Last",
+        "Reliability Policy": reliability,
+        "Durability Policy": durability,
+    }
+    if not input.latched and not input.suffix:
+        tree["Filter size"] = topic.filter_size
+    return tree
+
+
+def _policies(tree: Tree, key: str, raw: Any) -> Iterator[tuple[str, Path, Any]]:
+    """What a file says of the QoS: of now under the topic, of ROS 1 next to it."""
+    inner = raw if isinstance(raw, Mapping) else {}
+    for word in POLICIES:
+        if word in inner:
+            yield word, (key, word), inner[word]
+    if "Queue Size" in tree and "Depth" not in inner:
+        yield "Queue Size", ("Queue Size",), tree["Queue Size"]
+    if "Unreliable" in tree and "Reliability Policy" not in inner:
+        yield "Unreliable", ("Unreliable",), tree["Unreliable"]
+
+
+def _policy(word: str, raw: Any, input: Input) -> dict[str, Any]:
+    match word:
+        case "Depth":
+            depth = max(values.read(raw, int), 1)
+            return {"depth": 0 if depth == DEPTH else depth}
+        case "Queue Size":  # which rviz1_to_rviz2.py makes the depth
+            size = max(values.read(raw, int), 1)
+            return {"depth": 0 if size == ROS_1_QUEUE_SIZE else size}
+        case "Filter size":
+            return {"filter_size": max(values.read(raw, int), 1)}
+        case "Unreliable":
+            return {"reliability": "best_effort"} if values.read(raw, bool) else {}
+        case "Reliability Policy":
+            label = _label(raw, ("Reliable", "Best Effort", "System Default"))
+            return {"reliability": "best_effort"} if label == "Best Effort" else {}
+        case "Durability Policy":
+            label = _label(raw, ("Volatile", "Transient Local", "System Default"))
+            is_chosen = label == "Transient Local" and not input.latched
+            return {"durability": "transient_local"} if is_chosen else {}
+        case _:
+            _label(raw, ("Keep Last", "System Default"))
+            return {}
+
+
+def _label(raw: Any, known: tuple[str, ...]) -> str:
+    label = values.text(values.own_value(raw))
+    if label not in known:
+        raise Unfit(f"`{label[:80]}` is none of {', '.join(known)}")
+    return label

@@ -1,0 +1,205 @@
+"""RViz's YAML as trees of mappings, lists and plain values, and how trees differ.
+
+RViz reads every scalar as text. Here text that has exactly one spelling as a bool, an int or a
+float becomes one; all else stays text, so that writing gives back what was read: the state of a
+window such as 00001e20 is no number.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from ruamel.yaml import YAML
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from webviz.files.config import ConfigError, Source
+from webviz.files.config.representer import Representer
+
+Tree = dict[str, Any]
+Path = tuple[str, ...]
+"""Keys from the top of a tree."""
+
+_NULL = "tag:yaml.org,2002:null"
+_FLOAT_MAX = float(np.finfo(np.float32).max)
+_MOST_DIGITS = 18
+"""Longer integers stay text: not every reader has integers that large."""
+
+
+def parse(source: Source) -> Any:
+    """A tree from YAML; of a key that is there twice the last one counts.
+
+    Raises:
+        ConfigError: a key is no plain word.
+    """
+    return _built(source.node, source.where)
+
+
+def _built(node: Node | None, where: str) -> Any:
+    if isinstance(node, MappingNode):
+        if not all(isinstance(key, ScalarNode) for key, _ in node.value):
+            raise ConfigError(f"{where}: a key is not a plain word.")
+        return {key.value: _built(value, where) for key, value in node.value}
+    if isinstance(node, SequenceNode):
+        return [_built(value, where) for value in node.value]
+    if node is None or node.tag == _NULL or str(node.ctag) == _NULL:
+        return None
+    return scalar(node.value)
+
+
+def scalar(text: str) -> bool | int | float | str:
+    """The value with exactly this spelling, or the text."""
+    if text in ("true", "false"):
+        return text == "true"
+    for kind in (int, float):
+        try:
+            value = kind(text) if len(text) <= _MOST_DIGITS + 8 else None
+        except ValueError:
+            continue
+        if value is None or not math.isfinite(value) or repr(value) != text:
+            continue
+        if kind is float or len(text) <= _MOST_DIGITS:
+            return value
+    return text
+
+
+class _Representer(Representer):
+    """Writes what is empty as RViz does."""
+
+
+_Representer.add_representer(
+    type(None), lambda representer, _: representer.represent_scalar(_NULL, "~")
+)
+
+
+def write(tree: Tree) -> str:
+    """A tree as YAML text, keys sorted, as RViz writes it."""
+    yaml = YAML(typ="safe", pure=True)
+    yaml.Representer = _Representer
+    yaml.default_flow_style = False
+    yaml.indent(mapping=2, sequence=4, offset=2)
+    yaml.width = 1 << 20  # RViz breaks no lines
+    stream = io.StringIO()
+    yaml.dump(_tidied(tree), stream)
+    return stream.getvalue()
+
+
+def _tidied(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _tidied(value[key]) for key in sorted(value, key=str)}
+    if isinstance(value, list | tuple):
+        return [_tidied(each) for each in value]
+    return value
+
+
+def child(tree: Any, *path: str) -> Tree:
+    """The mapping at a path, an empty one if there is none."""
+    for key in path:
+        tree = tree.get(key) if isinstance(tree, Mapping) else None
+    return dict(tree) if isinstance(tree, Mapping) else {}
+
+
+def leaves(tree: Any, path: Path = ()) -> Iterator[Path]:
+    """Paths of all values that are no mappings, and of empty mappings."""
+    if isinstance(tree, Mapping) and tree:
+        for key, value in tree.items():
+            yield from leaves(value, (*path, str(key)))
+    elif path:
+        yield path
+
+
+def put(tree: Tree, path: Path, value: Any) -> None:
+    """Set a value in place; a property that gets children keeps its own value as "Value"."""
+    for key in path[:-1]:
+        inner = tree.setdefault(key, {})
+        if not isinstance(inner, dict):
+            inner = tree[key] = {"Value": inner}
+        tree = inner
+    there = tree.get(path[-1])
+    if isinstance(there, dict):
+        there.update(value if isinstance(value, dict) else {"Value": value})
+    else:
+        tree[path[-1]] = value
+
+
+def is_same(a: Any, b: Any) -> bool:
+    """Whether two values are the same to RViz, which keeps numbers in single precision."""
+    if isinstance(a, bool) or isinstance(b, bool):
+        return a is b
+    if isinstance(a, int | float) and isinstance(b, int | float):
+        if a == b:
+            return True
+        in_range = abs(a) <= _FLOAT_MAX and abs(b) <= _FLOAT_MAX
+        return in_range and bool(np.float32(a) == np.float32(b))
+    if isinstance(a, list) and isinstance(b, list):
+        return len(a) == len(b) and all(is_same(x, y) for x, y in zip(a, b, strict=True))
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(is_same(a[key], b[key]) for key in a)
+    return type(a) is type(b) and a == b
+
+
+def difference(tree: Tree, basis: Tree) -> Tree:
+    """What of a tree is not in `basis`, or there with another value."""
+    result: Tree = {}
+    for key, value in tree.items():
+        if key not in basis:
+            result[key] = value
+        elif isinstance(value, Mapping) and isinstance(basis[key], Mapping):
+            if inner := difference(dict(value), basis[key]):
+                result[key] = inner
+        elif not is_same(value, basis[key]):
+            result[key] = value
+    return result
+
+
+def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], object]) -> Tree:
+    """A tree with what was kept of the file it comes from.
+
+    A kept value that differs from one of the tree is another spelling of it, unless somebody
+    changed it since: it takes its place if the tree then means what is meant, or what it meant.
+
+    Args:
+        tree: as it would be written without that file.
+        kept: the `difference` of the file from it.
+        meant: what is to be written.
+        meaning: what a tree says when it is read.
+    """
+    tree = _copied(tree)
+    others: list[tuple[Path, Any]] = []
+    _add_missing(tree, kept, (), others)
+    # Together they often mean what none does alone, such as the parts of a faulty vector.
+    for group in [others, *([each] for each in others)] if others else []:
+        candidate = _copied(tree)
+        for path, value in group:
+            _replace(candidate, path, value)
+        if meaning(candidate) in (meant, meaning(tree)):
+            tree = candidate
+        if group is others and tree is candidate:
+            break
+    return tree
+
+
+def _add_missing(tree: Tree, kept: Any, path: Path, others: list[tuple[Path, Any]]) -> None:
+    for key, value in kept.items() if isinstance(kept, Mapping) else ():
+        key = str(key)
+        if key not in tree:
+            tree[key] = _copied(value)
+        elif isinstance(tree[key], dict) and isinstance(value, Mapping):
+            _add_missing(tree[key], value, (*path, key), others)
+        else:
+            others.append(((*path, key), value))
+
+
+def _replace(tree: Tree, path: Path, value: Any) -> None:
+    for key in path[:-1]:
+        tree = tree[key]
+    tree[path[-1]] = value
+
+
+def _copied(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _copied(each) for key, each in value.items()}
+    return [_copied(each) for each in value] if isinstance(value, list) else value

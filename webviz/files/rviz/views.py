@@ -1,0 +1,178 @@
+"""The views of a .rviz file: the current one and the saved ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.api.views import FIXED_FRAME, VIEW_TYPES, Orbit, View, type_of
+from webviz.files.rviz import values
+from webviz.files.rviz.report import Report
+from webviz.files.rviz.tree import Tree
+from webviz.files.rviz.values import Unfit
+
+PREFIX = "rviz_default_plugins/"
+NEAR_CLIP_DISTANCE = 0.01
+"""RViz's default; here the nearest thing that is drawn follows from the distance."""
+
+KEYS = {
+    "distance": "Distance",
+    "yaw": "Yaw",
+    "pitch": "Pitch",
+    "focal_point": "Focal Point",
+    "position": "Position",
+    "scale": "Scale",
+    "angle": "Angle",
+    "x": "X",
+    "y": "Y",
+    "target_frame": "Target Frame",
+}
+"""RViz's keys of the fields of views."""
+BOUNDS = {
+    "distance": (0.01, 1e6),
+    "pitch": (-1.5698, 1.5698),
+    "yaw": (-1e6, 1e6),
+    "angle": (-1e6, 1e6),
+    "scale": (1e-5, 1e6),
+}
+FARTHEST = 1e9
+
+
+def kind_of(tree: Mapping[str, Any]) -> type[View] | None:
+    """The type of a view of RViz, None if there is none here."""
+    return VIEW_TYPES.get(values.text(tree.get("Class", PREFIX + "Orbit")).rpartition("/")[2])
+
+
+def read(tree: Any, report: Report, place: str = "current view") -> View | None:
+    """A view of RViz, None if there is no such type here.
+
+    Args:
+        tree: of the view.
+        report: hears of what is not carried over.
+        place: names the view in the report.
+    """
+    tree = dict(tree) if isinstance(tree, Mapping) else {}
+    cls = kind_of(tree)
+    report.count("views", cls is not None, 1)
+    if cls is None:
+        reason = "unsupported view type, the default is used; kept for export"
+        report.note(place, values.text(tree["Class"]), reason)
+        return None
+    if _switched_on(tree.get("Invert Z Axis")):
+        report.note(place, "Invert Z Axis", "the camera is always upright; kept for export")
+    given = {
+        field.name: _read_field(field, tree[KEYS[field.name]], report, place)
+        for field in msgspec.structs.fields(cls)
+        if KEYS[field.name] in tree
+    }
+    return cls(**given)
+
+
+def read_saved(trees: Any, report: Report) -> dict[str, View]:
+    """The saved views by name; of several with one name, each gets a number but the first."""
+    found: dict[str, View] = {}
+    for tree in trees if isinstance(trees, list) else []:
+        if not isinstance(tree, Mapping):
+            continue
+        view = read(tree, report, f"saved view {_name(tree)}")
+        if view is not None:
+            found[free_name(_name(tree), found)] = view
+    return found
+
+
+def free_name(name: str, taken: Mapping[str, Any]) -> str:
+    """A name that is not taken: with a number if it has to be."""
+    number, free = 1, name
+    while free in taken:
+        number += 1
+        free = f"{name} {number}"
+    return free
+
+
+def write(view: View, name: str = "Current View") -> Tree:
+    """A view as RViz writes it."""
+    tree: Tree = {
+        "Class": PREFIX + type_of(view),
+        "Name": name,
+        "Value": f"{type_of(view)} (rviz_default_plugins)",
+        "Near Clip Distance": NEAR_CLIP_DISTANCE,
+    }
+    for field in msgspec.structs.fields(type(view)):
+        tree[KEYS[field.name]] = values.write(getattr(view, field.name), _kind(field))
+    return tree
+
+
+def read_current(tree: Any, report: Report) -> View:
+    """The view that a file begins with."""
+    return read(tree, report) or Orbit()
+
+
+def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
+    """The list of saved views as RViz writes it.
+
+    Args:
+        saved: by name.
+        kept: the list of the file they come from; what has not been changed stays as it was there,
+            and so does what has no counterpart here.
+
+    Returns:
+        None for an empty list, as RViz has it.
+    """
+    trees: list[Any] = []
+    names: dict[str, None] = {}
+    for tree in kept if isinstance(kept, list) else []:
+        view = read(tree, Report()) if isinstance(tree, Mapping) else None
+        if view is None:
+            trees.append(tree)
+            continue
+        name = free_name(_name(tree), names)
+        names[name] = None
+        if name in saved and saved[name] == view:
+            trees.append(tree)
+        elif name in saved:
+            trees.append({**write(saved[name], name), **_others(tree, saved[name])})
+    trees += [write(view, name) for name, view in saved.items() if name not in names]
+    return trees or None
+
+
+def _name(tree: Mapping[str, Any]) -> str:
+    return values.text(tree.get("Name") or "View")
+
+
+def _others(tree: Mapping[str, Any], view: View) -> Tree:
+    """What a tree says besides the fields of a view, if it is of its type."""
+    if kind_of(tree) is not type(view):
+        return {}
+    return {key: value for key, value in tree.items() if key not in KEYS.values()}
+
+
+def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, place: str) -> Any:
+    """The value of a field as RViz has it, within what is possible here."""
+    key = KEYS[field.name]
+    try:
+        value = values.read(given, _kind(field))
+    except Unfit as error:
+        report.note(place, key, f"{error}; the default is used")
+        return field.default
+    if field.name == "scale":
+        value = abs(value)  # RViz turns the picture over
+    if isinstance(value, str):
+        return value or FIXED_FRAME
+    if isinstance(value, tuple):
+        return tuple(min(max(part, -FARTHEST), FARTHEST) for part in value)
+    low, high = BOUNDS.get(field.name, (-FARTHEST, FARTHEST))
+    return min(max(value, low), high)
+
+
+def _kind(field: msgspec.structs.FieldInfo) -> Any:
+    is_point = isinstance(field.default, tuple)
+    return tuple[float, float, float] if is_point else type(field.default)
+
+
+def _switched_on(raw: Any) -> bool:
+    try:
+        return values.read(raw, bool)
+    except Unfit:
+        return False

@@ -1,1 +1,0 @@
-"""The one thread that changes displays, transforms, scene and panel, and what it keeps."""

@@ -1,0 +1,255 @@
+"""A viewer put together and at work, in threads of its own."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import itertools
+import logging
+import os
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import PIL.Image
+
+from webviz.api.errors import Error
+from webviz.api.views import View, with_type
+from webviz.engine import plugins as plugin_files
+from webviz.engine.commands import Command, Refresh, StartWithView
+from webviz.engine.state import State
+from webviz.files import config as config_file
+from webviz.files import opening
+from webviz.files.config import Config
+from webviz.shell.pictures import files as picture_files
+from webviz.shell.ros_source import ros_source
+
+if TYPE_CHECKING:
+    from webviz.engine.sources import Source
+    from webviz.shell.pictures.browser import Pixels
+
+log = logging.getLogger("webviz")
+
+PATIENCE_S = 30.0
+"""For the frame loop to do one thing; a config of hundreds of displays takes seconds."""
+CLOSING_S = 1.5
+"""For one part to end."""
+
+
+def read_config(path: Path | None) -> Config:
+    """The config of a file; without one, the usual displays.
+
+    Raises:
+        ConfigError: it cannot be read; one sentence.
+    """
+    return config_file.standard() if path is None else opening.load(path)
+
+
+class Running:
+    """Source, frame loop, server and panel of one viewer; see `webviz.Viewer`."""
+
+    def __init__(
+        self,
+        config: str | os.PathLike[str] | None = None,
+        *,
+        port: int = 8080,
+        host: str = "127.0.0.1",
+        allow_hosts: Sequence[str] = (),
+        fixed_frame: str = "",
+        source: Source | None = None,
+        ros_args: Sequence[str] = (),
+        plugins: Sequence[str | os.PathLike[str]] = (),
+        autosave: Path | None = None,
+        config_folders: Sequence[str | os.PathLike[str]] = (),
+        read: Callable[[Path | None], Config] = read_config,
+    ) -> None:
+        with contextlib.ExitStack() as stack:
+            if source is not None:
+                stack.callback(_end, "The source of messages", source.close)
+            files = [Path(file) for file in plugins]
+            watcher = plugin_files.Watcher(files)
+            for file in files:
+                plugin_files.load(file)
+            path = Path(config) if config is not None else None
+            # viser takes a while to import; mistakes in files are told before.
+            shown = read(path) if path is not None else None
+            from webviz.edges.gui import Panel, take_typed
+            from webviz.edges.scene import CannotListen, Scene, on_typed, open_server
+            from webviz.engine.loop import FrameLoop
+            from webviz.shell.pictures.snapshots import Snapshots
+
+            try:
+                server = open_server(host, port, allow_hosts)
+            except CannotListen as error:
+                raise Error(str(error)) from error
+            stack.callback(_end, "The server of the page", server.stop)
+            control = None
+            if source is None:
+                source = ros_source(ros_args)
+                stack.callback(_end, "The ROS node", source.close)
+                control = source.control
+                if path is None and control.asked["config_file"]:
+                    path = Path(control.asked["config_file"])
+                fixed_frame = fixed_frame or control.asked["fixed_frame"]
+            shown = shown or read(path)
+            if fixed_frame:
+                shown.set_fixed_frame(fixed_frame)
+            scene = Scene(server)
+            self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
+            self._panel = Panel(server, self._enqueue)
+            on_typed(scene.link, take_typed)
+            self._host, self.port = host, server.get_port()
+            self._ended: Future[None] = Future()
+            thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
+            thread.start()
+            stack.callback(_end, "The frame loop", thread.join)
+            stack.callback(self._loop.stop)
+            self._snapshots = Snapshots(scene, self._drawn)
+            stack.callback(_end, "The browser of pictures", self._snapshots.close)
+            watcher.start(self._loop.enqueue)
+            stack.callback(_end, "The plug-in watcher", watcher.stop)
+            self.do(Refresh())  # so that there is a state
+            if control is not None and (name := control.asked["view"]):
+                self.do(StartWithView(view=name))
+            if control is not None:
+                control.open(self, [Path(folder) for folder in config_folders])
+            self._stack = stack.pop_all()
+        atexit.register(self.close)
+
+    def close(self) -> None:
+        """End the viewer and its page, leaving no thread but those that hang."""
+        atexit.unregister(self.close)
+        self._stack.close()
+
+    def stop(self) -> None:
+        """Let `wait` return, from any thread or a signal handler; `close` ends the rest."""
+        self._loop.stop()
+
+    def wait(self) -> None:
+        """Wait until Ctrl-C or `stop`."""
+        with contextlib.suppress(KeyboardInterrupt):
+            self._ended.result()
+
+    @property
+    def url(self) -> str:
+        """Where the page is, for a browser on this machine."""
+        host = "127.0.0.1" if self._host in ("0.0.0.0", "::") else self._host
+        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
+
+    @property
+    def state(self) -> State:
+        """All that the panel shows, as it was less than half a second ago: a snapshot to read."""
+        return self._state
+
+    def do(self, command: Command) -> str:
+        """Do anything that a panel can ask for; see `webviz.engine.commands`.
+
+        Returns:
+            What there is to tell of it, a sentence or "".
+
+        Raises:
+            Error: it cannot be done, one sentence says why; or the viewer has ended.
+        """
+        if not self._ended.done():
+            answer = self._loop.enqueue(command)
+            either: list[Future[Any]] = [answer, self._ended]
+            wait(either, PATIENCE_S, FIRST_COMPLETED)
+            if answer.done():
+                return answer.result()
+        if self._ended.done():
+            raise Error("The viewer has ended: make a new one.") from self._ended.exception()
+        raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
+
+    def screenshot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        view: View | str | Mapping[str, Any] | None = None,
+    ) -> Pixels:
+        """Make a picture of the scene, as a browser that joins now shows it.
+
+        That takes seconds, and needs a browser on this machine and playwright.
+
+        Args:
+            path: where to write it, by its ending as PNG, JPEG or WebP; None is nowhere.
+            size: width and height in pixels.
+            view: instead of the one that browsers begin with; or the name of a saved one.
+
+        Returns:
+            uint8 (height, width, 3).
+
+        Raises:
+            Error: there is no browser, or the file cannot be written; one sentence.
+        """
+        if path is not None:
+            picture_files.check(Path(path), is_animation=False, transparent=False)
+        if isinstance(view, str):
+            if view not in (saved := self.state.settings.views):
+                hint = config_file.nearest(view, saved)
+                raise Error(f"There is no saved view `{view}`: {hint}")
+            view = saved[view]
+        looked = None if view is None else checked_view(view)
+        pixels = self._snapshots.take(self.url, size, looked)
+        if path is not None:
+            picture_files.save(PIL.Image.fromarray(pixels), Path(path))
+        return pixels
+
+    def save_screenshot(self) -> Path:
+        """Make a picture of the scene in a new file beside the config, named by the time."""
+        stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
+        folder = Path(self.state.file.folder)
+        path = folder / f"{stem}.png"
+        for number in itertools.count(2):
+            if not path.exists():
+                break
+            path = folder / f"{stem}_{number}.png"
+        self.screenshot(path)
+        return path
+
+    def _drawn(self) -> State:
+        self.do(Refresh())
+        return self.state
+
+    def _enqueue(self, command: Command) -> None:
+        self._loop.enqueue(command)  # what comes of it stands in the state
+
+    def _run(self) -> None:
+        try:
+            self._loop.run()
+        except BaseException as error:
+            log.exception("The viewer stopped")
+            self._ended.set_exception(error)
+        else:
+            self._ended.set_result(None)
+
+    def _show(self, state: State) -> None:
+        self._state = state
+        self._panel.update(state)
+
+
+def _end(what: str, close: Callable[[], object]) -> None:
+    """Close a part of a viewer. One that hangs is reported, and does not keep the others."""
+    thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
+    thread.start()
+    thread.join(CLOSING_S)
+    if thread.is_alive():
+        log.warning("%s did not end within %g s.", what, CLOSING_S)
+
+
+def checked_view(view: View | Mapping[str, Any]) -> View:
+    """A view whose values fit.
+
+    Raises:
+        Error: one does not; a sentence.
+    """
+    values = with_type(msgspec.to_builtins(view))
+    try:
+        return msgspec.convert(values, View)
+    except msgspec.ValidationError as error:
+        found = config_file.explain(error, View, values)
+        raise Error(f"Not a valid view: {config_file.sentences([found])}") from error

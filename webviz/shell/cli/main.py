@@ -1,0 +1,118 @@
+"""The command line: finds the command, and turns errors into a sentence and an exit status."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import logging
+import sys
+from collections.abc import Sequence
+
+from cyclopts import (
+    App,
+    Argument,
+    CoercionError,
+    CycloptsError,
+    Group,
+    MissingArgumentError,
+    Parameter,
+    Token,
+    UnusedCliTokensError,
+    ValidationError,
+)
+
+from webviz.api.errors import Error
+from webviz.shell.cli import viewing
+from webviz.shell.cli.options import ROS_ARGS_HELP
+
+FAILED, WRONG_USAGE = 1, 2
+KINDS = {int: "a whole number", float: "a number"}
+
+app = App(
+    "webviz",
+    help="RViz2 in a browser tab: shows a ROS 2 robot on a web page.",
+    help_format="plaintext",
+    help_epilogue=viewing.EXAMPLES + ROS_ARGS_HELP,
+    version=importlib.metadata.version("webviz"),
+    group_parameters=Group("Options", sort_key=1),
+    default_parameter=Parameter(negative=(), allow_repeating=True),
+)
+app.default(viewing.view)
+app.command(viewing.demo, help_epilogue=ROS_ARGS_HELP)
+for name, summary in {
+    "screenshot": "Make pictures of what a config shows, without a screen.",
+    "convert": "Convert a config between RViz's format (*.rviz) and webviz's (any other name).",
+    "schema": "Write the JSON Schema with which editors complete and check configs.",
+}.items():
+    # Not imported before it is called: --help takes a third less.
+    app.command(f"webviz.shell.cli.{name}:app", name=name, help=summary)
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Returns:
+        The exit status: 0 also after Ctrl-C, 1 after an error and 2 after wrong arguments, each of
+        which is printed as one sentence; `webviz screenshot` has more.
+    """
+    own, ros = split_ros_arguments(sys.argv[1:] if arguments is None else arguments)
+    logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
+    try:
+        command, given, unparsed = app.parse_args(
+            own, exit_on_error=False, print_error=False, verbose=False
+        )
+        if "ros" in unparsed:
+            given.arguments["ros"] = ros
+        return command(*given.args, **given.kwargs) or 0
+    except CycloptsError as error:
+        print(f"webviz: {_mistake(error)}", file=sys.stderr)
+        return WRONG_USAGE
+    except Error as error:
+        print(f"webviz: {error}", file=sys.stderr)
+        return FAILED
+
+
+def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Our own arguments, and those between each `--ros-args` and the next `--` or the end."""
+    own: list[str] = []
+    ros: list[str] = []
+    target = own
+    for argument in arguments:
+        if argument == "--ros-args":
+            target = ros
+        target.append(argument)
+        if argument == "--" and target is ros:
+            target = own
+    return own, ros
+
+
+def _mistake(error: CycloptsError) -> str:
+    """What is wrong with the arguments, in a sentence."""
+    match error:
+        case UnusedCliTokensError() if error.unused_tokens:
+            return _unused(error.unused_tokens[0], error.command_chain)
+        case ValidationError(argument=None):
+            return error.exception_message
+        case MissingArgumentError(argument=Argument() as argument):
+            metavar = argument.parameter.metavar or "a value"
+            if error.keyword or argument.tokens:
+                return f"{error.keyword or argument.name} needs {metavar}."
+            name = f"{argument.name} {metavar}" if argument.name.startswith("-") else argument.name
+            return f"`{' '.join(('webviz', *(error.command_chain or ())))}` needs {name}."
+        case CoercionError(token=Token() as token, msg=None) if error.target_type in KINDS:
+            kind = KINDS[error.target_type]
+            return f"Invalid value for {token.keyword}: `{token.value}` is not {kind}."
+    return str(error)
+
+
+def _unused(word: str, command_chain: Sequence[str] | None) -> str:
+    """What is wrong with a word that no option and no command takes."""
+    from webviz.files.config import nearest
+
+    if command_chain:
+        return f"`webviz {command_chain[0]}` takes no argument `{word}`."
+    commands = [name for name in app if not name.startswith("-")]
+    if word in commands:
+        return f"Give the command first: `webviz {word} ...`."
+    if "." in word:
+        return f"To show the config {word}, run `webviz -d {word}`."
+    return f"There is no command `{word}`: {nearest(word, commands)}"

@@ -1,0 +1,221 @@
+"""`webviz screenshot`: pictures of a config by one command, without a screen."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import PIL.Image
+from cyclopts import App
+
+from webviz.api.status import Level, Status
+from webviz.engine import plugins
+from webviz.files import config as config_file
+from webviz.files import opening
+from webviz.files.config.overrides import override
+from webviz.shell.cli.convert import tell
+from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say
+from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
+from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
+from webviz.shell.pictures import files as picture_files
+from webviz.shell.pictures.files import OutputError
+from webviz.shell.pictures.times import At, every
+
+if TYPE_CHECKING:
+    from webviz.engine.sources.bag import BagSource
+    from webviz.shell.pictures.capture import Order, Picture
+
+MOST_TOPICS = 40
+"""Of a bag that are listed."""
+SHEET_SIZE = (480, 270)
+"""Of the pictures of a contact sheet, if nothing else is said."""
+NOT_OK = 3
+
+
+app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+
+
+@app.default(validator=check)
+def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
+    """Make pictures and write them.
+
+    Returns:
+        The exit status, as --help tells.
+
+    Raises:
+        Error: there is no picture; one sentence.
+    """
+    # viser takes a while to import; --help comes before.
+    from webviz.shell.pictures.capture import one_sentence
+
+    on_signal(_interrupt)
+    try:
+        with one_sentence():
+            return _make(options, ros)
+    except KeyboardInterrupt:
+        say("webviz: interrupted.")
+        return INTERRUPTED
+
+
+def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
+    from webviz.engine.sources.bag import BagSource
+    from webviz.engine.sources.bag_extras import map_of_file, static_transform
+    from webviz.shell.pictures.capture import SIZE, Order, opened
+
+    output: Path = options.output
+    is_animation = options.is_animation
+    picture_files.check(output, is_animation=is_animation, transparent=options.transparent)
+    options.allow_meshes()
+    for path in options.plugin:
+        plugins.load(path)
+    path = options.display_config
+    config = config_file.standard() if path is None else opening.load(path)
+    if path is not None:
+        tell(path, config.report)
+    config = override(config, options.set)
+    if options.fixed_frame:
+        config.set_fixed_frame(options.fixed_frame)
+    extras = [map_of_file(each) for each in options.map]
+    extras += [static_transform(*each) for each in options.transform]
+    with opened(options.bag, extras, ros) as source:
+        at: Sequence[At] = ("end",)
+        if isinstance(source, BagSource):
+            at = _times(options, source)
+        order = Order(
+            config,
+            source,
+            str(options.bag),
+            at,
+            size=options.size or (SHEET_SIZE if options.contact_sheet else SIZE),
+            views=options.view,
+            focus=options.focus,
+            transparent=options.transparent,
+            wait_for=options.wait_for or None,
+            timeout=options.timeout,
+        )
+        status = _write(options, order)
+        if isinstance(source, BagSource):
+            for remark in [*source.remarks, *([_topics(source)] if status else [])]:
+                print(f"webviz: {options.bag}: {remark}", file=sys.stderr)
+        return status
+
+
+def _times(options: ScreenshotOptions, source: BagSource) -> Sequence[At]:
+    if options.every is None:
+        return options.at or ("end",)
+    times = every(
+        options.first or "start", options.last or "end", options.every, source, str(options.bag)
+    )
+    return [*times, *options.at]
+
+
+def _write(options: ScreenshotOptions, order: Order) -> int:
+    """Make the pictures of an order; the exit status."""
+    from webviz.shell.pictures.capture import pictures
+
+    path: Path = options.output
+    times, views = len(order.positions()), len(order.looks())
+    report = _Report()
+    if options.is_animation and views > 1:
+        raise OutputError(
+            "An animation shows a single view. Give one --view, or another file extension."
+        )
+    columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
+    if options.contact_sheet:
+        picture_files.sheet_size(order.size, times * views, columns)
+    with contextlib.closing(pictures(order)) as made:
+        told = report.follow(made)
+        if options.contact_sheet:
+            captioned = [(_caption(picture), _image(picture)) for picture in told]
+            picture_files.save(picture_files.contact_sheet(captioned, columns), path)
+            written = [path]
+        elif options.is_animation:
+            images = (_image(picture) for picture in told)
+            picture_files.save_animation(images, path, options.fps or FPS)
+            written = [path]
+        else:
+            written = []
+            for number, picture in enumerate(told):
+                index = number // views if times > 1 else None
+                name = picture_files.numbered(path, picture.view, index, times)
+                picture_files.save(_image(picture), name)
+                written.append(name)
+    width, height = order.size
+    names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
+    pictures_of = "a picture" if report.count == 1 else f"{report.count} pictures"
+    print(f"webviz: wrote {names}, {pictures_of} of {width} x {height} pixels.")
+    return report.tell(options.timeout)
+
+
+class _Report:
+    """What was not OK in which pictures."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._bad = 0
+        self._first: Picture | None = None
+
+    def follow(self, pictures: Iterator[Picture]) -> Iterator[Picture]:
+        """The pictures, of which the bad ones are noted."""
+        for picture in pictures:
+            self.count += 1
+            if not picture.shown.is_ok:
+                self._bad += 1
+                self._first = self._first or picture
+            yield picture
+
+    def tell(self, timeout: float) -> int:
+        """Print the statuses of the first bad picture; the exit status."""
+        first = self._first
+        if first is None:
+            return 0
+        when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
+        more = f", nor in {self._bad - 1} more pictures" if self._bad > 1 else ""
+        print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
+        # What was not imported was told when the config was read.
+        general = {
+            key: status
+            for key, status in first.shown.general.items()
+            if status.level is not Level.OK and key != "Import"
+        }
+        for line in _table(first.statuses | general):
+            print(f"  {line}", file=sys.stderr)
+        return NOT_OK
+
+
+def _table(statuses: dict[str, Status]) -> Iterator[str]:
+    width = max(map(len, statuses))
+    for name, status in statuses.items():
+        first, *more = [""] if status.level is Level.OK else status.text.split("\n")
+        yield f"{status.level.name:5}  {name:{width}}  {first}".rstrip()
+        for text in more:
+            yield f"{'':5}  {'':{width}}  {text}"
+
+
+def _topics(bag: BagSource) -> str:
+    """A sentence on what displays can show of a bag."""
+    topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
+    more = f" and {len(topics) - MOST_TOPICS} more" if len(topics) > MOST_TOPICS else ""
+    return f"The topics are {', '.join(topics[:MOST_TOPICS])}{more}."
+
+
+def _caption(picture: Picture) -> str:
+    time = "" if picture.at_s is None else f"{picture.at_s:.2f} s"
+    return "   ".join(filter(None, (picture.view, time)))
+
+
+def _image(picture: Picture) -> PIL.Image.Image:
+    return PIL.Image.fromarray(picture.pixels)
+
+
+def _interrupt() -> None:
+    end_in_time()
+    # asyncio would report that playwright's driver, its child, was ended by others.
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
+    end_children()  # a browser that hangs could not be closed
+    raise KeyboardInterrupt

@@ -1,0 +1,42 @@
+"""`webviz` and `webviz demo`, as far as the command line knows them: imports wait for a call."""
+
+from webviz.shell.cli.ending import Stop, until_signal
+from webviz.shell.cli.options import RosArgs
+from webviz.shell.cli.viewing_options import ViewingOptions
+
+EXAMPLES = """\
+Examples:
+  webviz                          show the usual topics of the robots around
+  webviz -d lab.yaml -f odom      open a saved config, in another fixed frame
+  webviz -d nav2.rviz             open a config of RViz
+  webviz --plugin my_display.py   with a display of your own, see the README
+  webviz demo                     a simulated robot, nothing else needed
+  webviz screenshot -d lab.yaml --bag run.mcap -o lab.png
+  webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
+
+`webviz COMMAND --help` lists the options of a command.
+"""
+
+
+def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
+    """Show the page until Ctrl-C or SIGTERM."""
+
+    def work(stop: Stop) -> int:
+        from webviz.shell.cli.serving import serve
+
+        return serve(options, ros, stop)
+
+    return until_signal(work)
+
+
+def demo(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
+    """Show the page, and start a simulated robot as well."""
+
+    def work(stop: Stop) -> int:
+        from webviz.shell.cli.serving import DEMO, serve
+        from webviz.shell.cli.simulator import simulator
+
+        with simulator(ros, stop):
+            return serve(options, ros, stop, DEMO)
+
+    return until_signal(work)

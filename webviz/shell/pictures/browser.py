@@ -1,0 +1,250 @@
+"""A headless browser and its tabs. It needs playwright, which nothing else of webviz does."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import io
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+import PIL.Image
+from numpy.typing import NDArray
+
+from webviz.shell.pictures.browser_scripts import COUNT_UNPACKING, HOLD, OPAQUE, SETTLE, TRANSPARENT
+
+if TYPE_CHECKING:
+    import playwright.sync_api as playwright
+
+VARIABLE = "WEBVIZ_BROWSER"
+"""Environment variable with the path of the browser to use."""
+NAMES = (
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+)
+FLAGS = (
+    # WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+HOW_TO_GET_ONE = (
+    "install Chromium or Google Chrome (`apt install chromium`), run `playwright install chromium`,"
+    f" or set {VARIABLE} to the path of one"
+)
+
+Pixels = NDArray[np.uint8]
+T = TypeVar("T")
+
+
+class NoBrowser(Exception):
+    """There is none that works; one sentence that says how to get one."""
+
+
+class BrowserDied(Exception):
+    """The browser or its tab ended while it was needed; one sentence."""
+
+
+@contextmanager
+def launched() -> Iterator[playwright.Browser]:
+    """A headless Chromium or Chrome that ends with the block.
+
+    It belongs to the thread that launches it, in which no asyncio loop may run.
+
+    Raises:
+        NoBrowser: playwright or a browser is missing, or the browser does not start.
+    """
+    try:
+        import playwright.sync_api as playwright
+    except ImportError:
+        raise NoBrowser("Pictures need playwright: run `pip install 'webviz[pictures]'`.") from None
+    with playwright.sync_playwright() as driver:
+        executable = _executable(driver)
+        try:
+            browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
+        except playwright.Error as error:
+            reason = str(error).strip().splitlines()[0]
+            raise NoBrowser(
+                f"The browser {executable} does not start ({reason}): {HOW_TO_GET_ONE}."
+            ) from None
+        try:
+            yield browser
+        finally:
+            with contextlib.suppress(playwright.Error):  # it may be dead
+                browser.close()
+
+
+def _executable(driver: playwright.Playwright) -> str:
+    """The browser of this machine, or else playwright's own."""
+    chosen = os.environ.get(VARIABLE)
+    if chosen:
+        found = shutil.which(chosen)
+        if found is None:
+            raise NoBrowser(f"{VARIABLE} is {chosen!r}, where no program is: correct or unset it.")
+        return found
+    own = driver.chromium.executable_path
+    for name in (*NAMES, own):
+        if found := shutil.which(name):
+            return found
+    raise NoBrowser(f"There is no browser for pictures: {HOW_TO_GET_ONE}.")
+
+
+class Page:
+    """One tab with a viewer in it, one pixel of the picture to one of the page.
+
+    Args:
+        browser: where to open it.
+        url: of the viewer.
+        width, height: of the whole page in pixels.
+    """
+
+    def __init__(self, browser: playwright.Browser, url: str, width: int, height: int) -> None:
+        self.errors: list[str] = []
+        """What scripts of the page raised."""
+        self._crashed = False
+        self._context = self._alive(
+            lambda: browser.new_context(viewport=_size(width, height), device_scale_factor=1)
+        )
+        self.tab: playwright.Page = self._alive(self._context.new_page)
+        self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.tab.on("crash", lambda _: setattr(self, "_crashed", True))
+        self._alive(lambda: self.tab.add_init_script(COUNT_UNPACKING))
+        self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
+        self._alive(
+            lambda: self.tab.wait_for_function(
+                "window.__viserMutable?.scene?.webviz && window.webvizView?.type()", timeout=60_000
+            )
+        )
+
+    def close(self) -> None:
+        """Close the tab; one that is dead is no error."""
+        import playwright.sync_api as playwright
+
+        with contextlib.suppress(playwright.Error):
+            self._context.close()
+
+    def resize(self, width: int, height: int) -> None:
+        """Give the page another size in pixels."""
+        self._alive(lambda: self.tab.set_viewport_size(_size(width, height)))
+
+    def evaluate(self, source: str, argument: Any = None) -> Any:
+        """Call a JavaScript function in the page."""
+        return self._alive(lambda: self.tab.evaluate(source, argument))
+
+    def wait_for(self, condition: Callable[[], T], what: str = "it", seconds: float = 30.0) -> T:
+        """Wait until a condition holds while the page runs, and return it.
+
+        Raises:
+            TimeoutError: it does not hold within `seconds`.
+        """
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            if result := condition():
+                return result
+            self._alive(lambda: self.tab.wait_for_timeout(50))
+        raise TimeoutError(f"not within {seconds:g} s: {what}")
+
+    def draw(self, count: int = 3) -> None:
+        """Let the page draw some frames."""
+        self.evaluate(
+            """async (count) => {
+              for (let i = 0; i < count; i++) {
+                window.__viserMutable.requestRender();
+                await new Promise(requestAnimationFrame);
+              }
+            }""",
+            count,
+        )
+
+    def hold(self) -> None:
+        """Draw nothing any more but in `pixels`.
+
+        A renderer in software takes most of the time of a picture, and viser's page would draw for
+        a quarter of a second after each change.
+        """
+        self.evaluate(HOLD)
+
+    def settle(self, seconds: float = 60.0) -> None:
+        """Let the page work until all that it was sent is unpacked, and no frame requests another.
+
+        Raises:
+            TimeoutError: the page still changes after `seconds`.
+        """
+        if not self.evaluate(SETTLE, 1000.0 * seconds):
+            raise TimeoutError(f"The browser did not finish drawing within {seconds:g} s.")
+
+    def pixels(self, transparent: bool = False) -> Pixels:
+        """The scene as drawn last, or after `hold` as it is now.
+
+        Args:
+            transparent: leave the background out.
+
+        Returns:
+            uint8 (height, width, 3), or (height, width, 4) with alpha that is not multiplied into
+            the colours.
+        """
+        url = self.evaluate(TRANSPARENT if transparent else OPAQUE)
+        png = base64.b64decode(url.split(",")[1])
+        return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGBA" if transparent else "RGB"))
+
+    def pixel_of(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
+        """Column and row at which a point of the fixed frame is drawn."""
+        return tuple(
+            self.evaluate(
+                """(point) => {
+                  const {camera, canvas, nodeRefFromName} = window.__viserMutable;
+                  const root = nodeRefFromName["/webviz"];
+                  root.updateWorldMatrix(true, false);
+                  camera.updateMatrixWorld();
+                  const p = root.position.clone().set(...point).applyMatrix4(root.matrixWorld);
+                  p.project(camera);
+                  return [(p.x + 1) / 2 * canvas.width, (1 - p.y) / 2 * canvas.height];
+                }""",
+                [x, y, z],
+            )
+        )
+
+    def text(self) -> str:
+        """All text of the page that can be seen."""
+        return self._alive(lambda: self.tab.inner_text("body"))
+
+    def _alive(self, call: Callable[[], T]) -> T:
+        """Do something with the tab, and tell apart what it says from its death."""
+        import playwright.sync_api as playwright
+
+        try:
+            return call()
+        except playwright.Error as error:
+            # A tab that is closed and one that ran out of memory raise errors of the same class as
+            # a script that throws; only the texts differ.
+            if self._crashed or "closed" in error.message or "crashed" in error.message:
+                raise BrowserDied(
+                    "The browser ended while it drew: it may have run out of memory, so try again "
+                    "or make a smaller picture."
+                ) from None
+            raise
+
+
+def _size(width: int, height: int) -> playwright.ViewportSize:
+    return {"width": width, "height": height}
+
+
+if __name__ == "__main__":  # the last step of `make install`
+    try:
+        with launched():
+            pass
+    except NoBrowser as error:
+        print(f"webviz is ready, but makes no pictures yet. {error}")

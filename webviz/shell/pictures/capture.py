@@ -1,0 +1,291 @@
+"""Pictures of what a config shows, by a headless browser: `webviz.capture`."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import time
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from webviz.api.errors import Error
+from webviz.api.status import Status
+from webviz.api.views import View
+from webviz.edges.scene import CannotListen
+from webviz.engine import plugins
+from webviz.engine.sources import Source
+from webviz.engine.sources.bag import BagSource
+from webviz.engine.sources.bag_extras import Extra
+from webviz.files.config import Config, nearest
+from webviz.files.opening import load, parse
+from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.shell.pictures.sizes import check_size
+from webviz.shell.pictures.stage import Shown, Stage
+from webviz.shell.pictures.studio import Studio
+from webviz.shell.pictures.times import At, position_ns, seconds_from_start
+from webviz.shell.ros_source import ros_source
+
+SIZE = (1280, 720)
+TIMEOUT_S = 20.0
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What one view shows at one moment.
+
+    Args:
+        pixels: uint8 (height, width, 3), or (height, width, 4) if the background is transparent,
+            with alpha that is not multiplied into the colours.
+        view: name of the view, "" for the config's own.
+        at_s: seconds from the start of the bag, None for a picture of the ROS graph.
+        shown: how well the displays are shown.
+    """
+
+    pixels: Pixels
+    view: str
+    at_s: float | None
+    shown: Shown
+
+    @property
+    def statuses(self) -> dict[str, Status]:
+        """The worst status of each enabled display, by its name."""
+        return dict(self.shown.statuses)
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """The pictures of one run: of every time each view, in order."""
+
+    pictures: tuple[Picture, ...]
+
+    @property
+    def pixels(self) -> Pixels:
+        """Of the last picture."""
+        return self.pictures[-1].pixels
+
+    @property
+    def statuses(self) -> dict[str, Status]:
+        """The worst status of each enabled display at the end, by its name."""
+        return self.pictures[-1].statuses
+
+    @property
+    def is_ok(self) -> bool:
+        """Whether all displays that were waited for are OK in every picture."""
+        return all(picture.shown.is_ok for picture in self.pictures)
+
+
+@dataclass(frozen=True)
+class Order:
+    """What pictures to make; see `capture`."""
+
+    config: Config
+    source: Source
+    name: str = ""
+    at: Sequence[At] = ("end",)
+    size: tuple[int, int] = SIZE
+    views: Sequence[str | View] = ()
+    focus: str = ""
+    transparent: bool = False
+    wait_for: Sequence[str] | None = None
+    timeout: float = TIMEOUT_S
+
+    def positions(self) -> Sequence[int | None]:
+        """When: times of recording, in order; None is now.
+
+        Raises:
+            Error: a time is outside of the bag.
+        """
+        if not isinstance(self.source, BagSource):
+            return [None]
+        return sorted({position_ns(at, self.source, self.name) for at in self.at})
+
+    def looks(self) -> list[tuple[str, View]]:
+        """From where: views with their names.
+
+        Raises:
+            Error: the config has no view of a name.
+        """
+        return _looks(self.config, self.views)
+
+
+def capture(
+    config: Config | str | Path,
+    *,
+    bag: str | Path | None = None,
+    at: At | Sequence[At] = "end",
+    size: tuple[int, int] = SIZE,
+    views: Sequence[str | View] = (),
+    transparent: bool = False,
+    wait_for: Sequence[str] | None = None,
+    timeout: float = TIMEOUT_S,
+    focus: str = "",
+    fixed_frame: str | None = None,
+    plugin: Sequence[str | Path] = (),
+    extras: Sequence[Extra] = (),
+    ros_args: Sequence[str] = (),
+    studio: Studio | None = None,
+) -> Capture:
+    """Make pictures of what a config shows, of a bag or of the ROS graph.
+
+    A display that is not OK is no error: look at `is_ok` and `statuses`.
+
+    Args:
+        config: a file (YAML, or RViz's if its name ends with .rviz), the text of one in YAML if
+            there is a line break in it, or a config.
+        bag: an mcap file, a db3 file or a rosbag2 folder; None for the live ROS graph.
+        at: times of the bag, each a picture of every view: seconds from its start (above 1e9:
+            since 1970), "start" or "end".
+        size: width and height of the pictures in pixels.
+        views: names of the config's views, or views; none for its current one.
+        transparent: leave the background out.
+        wait_for: names of displays that have to be OK; None for all that are enabled.
+        timeout: seconds for each time, to play the bag there and to wait for the displays.
+        focus: frame to look at, instead of the focal points of the views.
+        fixed_frame: instead of the config's.
+        plugin: Python files with displays.
+        extras: messages that the bag lacks, see `webviz.engine.sources.bag_extras`.
+        ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
+        studio: of a browser that runs already, for many pictures; else one is launched.
+
+    Raises:
+        Error: there is no picture; one sentence.
+    """
+
+    def run() -> Capture:
+        with one_sentence():
+            for path in plugin:
+                plugins.load(Path(path))
+            shown = _read(config)
+            if fixed_frame:
+                shown.set_fixed_frame(fixed_frame)
+            times = at if isinstance(at, Sequence) and not isinstance(at, str) else (at,)
+            with opened(bag, extras, ros_args) as source:
+                order = Order(
+                    shown,
+                    source,
+                    str(bag),
+                    times,
+                    size=size,
+                    views=views,
+                    focus=focus,
+                    transparent=transparent,
+                    wait_for=wait_for,
+                    timeout=timeout,
+                )
+                return Capture(tuple(pictures(order, studio)))
+
+    if studio is None and _is_in_event_loop():
+        # A notebook, say: playwright needs a thread without a loop.
+        with ThreadPoolExecutor(1) as thread:
+            return thread.submit(run).result()
+    return run()
+
+
+def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
+    """The pictures of an order one by one; time goes on from each to the next.
+
+    Args:
+        order: what to make.
+        studio: of a browser that runs already; else one is launched and ends with the iterator.
+    """
+    check_size(order.size)
+    positions, looks = order.positions(), order.looks()
+    with contextlib.ExitStack() as stack:
+        if studio is None:
+            browser = stack.enter_context(launched())
+            studio = Studio(browser, *order.size)
+            stack.callback(studio.close)
+        else:
+            studio.resize(*order.size)
+        stage = Stage(order.config, order.source, studio)
+        stack.callback(stage.close)
+        awaited = stage.names() if order.wait_for is None else order.wait_for
+        if not stage.names():
+            raise Error("The config shows nothing. Add a display to it, or enable one.")
+        for position in positions:
+            deadline = time.monotonic() + order.timeout
+            at_s = None
+            if isinstance(order.source, BagSource) and position is not None:
+                stage.play(order.source, position, deadline)
+                at_s = seconds_from_start(position, order.source)
+            shown = stage.wait(awaited, deadline)
+            for name, view in looks:
+                studio.look(stage.focused(view, order.focus) if order.focus else view)
+                yield Picture(studio.capture(order.transparent), name, at_s, shown)
+
+
+@contextlib.contextmanager
+def opened(
+    bag: str | Path | None, extras: Sequence[Extra] = (), ros_args: Sequence[str] = ()
+) -> Iterator[Source]:
+    """A bag, or the ROS graph.
+
+    Raises:
+        Error: the bag cannot be read, or there is no ROS.
+    """
+    if bag is not None:
+        source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
+    elif extras:
+        raise Error("Maps and transforms can be added to a bag only. Give a bag.")
+    else:
+        source = ros_source(ros_args)
+    with contextlib.closing(source):
+        yield source
+
+
+@contextlib.contextmanager
+def one_sentence() -> Iterator[None]:
+    """Make the kind of error that people can put right of what browsers raise."""
+    try:
+        yield
+    except (BrowserDied, CannotListen, NoBrowser, TimeoutError) as error:
+        raise Error(str(error)) from error
+
+
+def _read(config: Config | str | Path) -> Config:
+    if isinstance(config, Config):
+        return config
+    if isinstance(config, str) and "\n" in config:
+        return parse(config, "the config")
+    return load(Path(config))
+
+
+def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]]:
+    if not views:
+        return [("", config.settings.view)]
+    named = config.settings.views
+    looks = []
+    for number, view in enumerate(views):
+        if isinstance(view, str):
+            if view not in named:
+                hint = nearest(view, named) if named else "it has no saved views."
+                raise Error(f"The config has no view {view!r}: {hint}")
+            looks.append((view, named[view]))
+        else:
+            looks.append((str(number), view))
+    return looks
+
+
+def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
+    """Topics by the names that displays use; the only ROS arguments a bag has a use for."""
+    result = {}
+    rest = [a for a in ros_args if a not in ("--ros-args", "--", "-r", "--remap")]
+    for argument in rest:
+        theirs, mark, ours = argument.partition(":=")
+        if not mark or not theirs.startswith("/"):
+            raise Error(
+                f"{argument!r} is not supported with a bag. The only ROS argument is "
+                "`-r /topic:=/other`."
+            )
+        result[theirs] = ours
+    return result
+
+
+def _is_in_event_loop() -> bool:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True

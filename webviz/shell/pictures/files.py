@@ -1,0 +1,157 @@
+"""Pictures as files: one, a contact sheet of many, or an animation; never half of one."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import IO
+
+import PIL.Image
+import PIL.ImageDraw
+import PIL.ImageFont
+
+from webviz.api.errors import Error
+
+STILLS = (".png", ".webp", ".jpg", ".jpeg", ".gif")
+ANIMATIONS = (".gif", ".webp")
+WITH_ALPHA = (".png", ".webp")
+CAPTION = 22
+"""Height of the line below each picture of a contact sheet, in pixels."""
+GAP = 4
+MAX_EDGE = 16_000
+"""Of a contact sheet in pixels; WebP ends there, and so do most programs."""
+PAPER, INK = (24, 24, 24), (210, 210, 210)
+
+
+class OutputError(Error):
+    """A picture cannot be written; one sentence."""
+
+
+def check(path: Path, *, is_animation: bool, transparent: bool) -> None:
+    """Refuse a name that no picture can be written to, before any work is done.
+
+    Raises:
+        OutputError: one sentence.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in STILLS:
+        raise OutputError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
+    if is_animation and suffix not in ANIMATIONS:
+        raise OutputError(f"An animation ends with {' or '.join(ANIMATIONS)}, not {suffix}.")
+    if transparent and suffix not in WITH_ALPHA:
+        raise OutputError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
+    if not path.exists():
+        with writing(path):
+            pass
+        path.unlink()
+
+
+def save(image: PIL.Image.Image, path: Path) -> None:
+    """Write one picture.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    with writing(path) as file:
+        image.save(file, _format(path))
+
+
+def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) -> None:
+    """Write an animation that repeats; pictures are taken one by one.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    pictures = iter(images)
+    first = next(pictures)
+    with writing(path) as file:
+        first.save(
+            file,
+            _format(path),
+            save_all=True,
+            append_images=pictures,
+            duration=round(1000 / fps),
+            loop=0,
+        )
+
+
+def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int) -> PIL.Image.Image:
+    """All pictures in rows, each above its caption.
+
+    Args:
+        pictures: captions and pictures of one size.
+        columns: pictures in a row.
+
+    Raises:
+        OutputError: it would be too large.
+    """
+    width, height = pictures[0][1].size
+    total = sheet_size((width, height), len(pictures), columns)
+    mode = pictures[0][1].mode
+    sheet = PIL.Image.new(mode, total, PAPER)
+    draw = PIL.ImageDraw.Draw(sheet)
+    font = PIL.ImageFont.load_default(13)
+    for index, (caption, picture) in enumerate(pictures):
+        row, column = divmod(index, columns)
+        x, y = GAP + column * (width + GAP), GAP + row * (height + CAPTION)
+        sheet.paste(picture, (x, y))
+        draw.text((x + 2, y + height + 2), caption, INK, font)
+    return sheet
+
+
+def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, int]:
+    """Width and height of a contact sheet of some pictures of a size.
+
+    Raises:
+        OutputError: it would be too large.
+    """
+    rows = math.ceil(count / columns)
+    total = (columns * (size[0] + GAP) + GAP, rows * (size[1] + CAPTION) + GAP)
+    if max(total) > MAX_EDGE:
+        raise OutputError(
+            f"The contact sheet would have {total[0]} x {total[1]} pixels; the limit is {MAX_EDGE} "
+            "per side. Make fewer or smaller pictures."
+        )
+    return total
+
+
+def numbered(path: Path, view: str, index: int | None, count: int) -> Path:
+    """The name of one of several pictures: out-Front-03.png."""
+    parts = [path.stem, re.sub(r"[^\w.-]+", "_", view)]
+    if index is not None:
+        parts.append(str(index).zfill(len(str(count - 1))))
+    return path.with_name("-".join(filter(None, parts)) + path.suffix)
+
+
+@contextlib.contextmanager
+def writing(path: Path) -> Iterator[IO[bytes]]:
+    """A file that gets its name only once it is whole; after a failure the old one is there.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    # What is no file, such as /dev/stdout, has to stay what it is.
+    is_device = path.exists() and not path.is_file()
+    part = path if is_device else path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with part.open("wb") as file:
+            yield file
+            file.flush()
+            if not is_device:
+                os.fsync(file.fileno())
+        if not is_device:
+            part.replace(path)
+    except OSError as error:
+        raise OutputError(f"Cannot write {path}: {error.strerror or error}.") from error
+    finally:
+        if not is_device:
+            with contextlib.suppress(OSError):
+                part.unlink(missing_ok=True)
+
+
+def _format(path: Path) -> str:
+    return {".jpg": "JPEG"}.get(path.suffix.lower(), path.suffix[1:].upper())

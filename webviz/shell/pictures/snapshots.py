@@ -1,0 +1,109 @@
+"""Pictures of a viewer at work, by a headless browser that joins its page for a moment."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from webviz.api.errors import Error
+from webviz.api.views import View
+from webviz.edges.scene import Scene
+from webviz.engine.state import State
+from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Page, Pixels, launched
+from webviz.shell.pictures.sizes import check_size
+from webviz.shell.pictures.stage import LOADING
+
+SUBJECT = "webviz snapshot"
+PATIENCE_S = 60.0
+"""A browser without a GPU needs seconds for the meshes of some robots."""
+
+
+class Snapshots:
+    """Takes pictures one at a time, each by a browser of its own.
+
+    Args:
+        scene: of the viewer.
+        draw: brings the scene up to date, once the browser looks, and tells of it; from any thread.
+    """
+
+    def __init__(self, scene: Scene, draw: Callable[[], State]) -> None:
+        self._scene = scene
+        self._draw = draw
+        self._joined: dict[str, Future[int]] = {}
+        self._numbers = itertools.count(1)
+        # playwright needs a thread without an event loop, which a notebook has in its own.
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
+        scene.link.on_told(SUBJECT, self._hear)
+
+    def take(self, url: str, size: tuple[int, int], view: View | None = None) -> Pixels:
+        """What a browser that joins now shows.
+
+        Args:
+            url: of the page.
+            size: width and height in pixels.
+            view: instead of the one that browsers begin with.
+
+        Returns:
+            uint8 (height, width, 3).
+
+        Raises:
+            Error: there is no browser, or it does not come to an end; one sentence.
+        """
+        return self._pool.submit(self._take, url, size, view).result()
+
+    def close(self) -> None:
+        """End what is under way."""
+        self._pool.shutdown(cancel_futures=True)
+
+    def _take(self, url: str, size: tuple[int, int], view: View | None) -> Pixels:
+        check_size(size)
+        try:
+            with launched() as browser, contextlib.closing(Page(browser, url, *size)) as page:
+                self._fit(page, size)
+                page.pixels()  # the first picture of a tab has another smoothing
+                client = self._id_of(page)
+                if view is not None:
+                    self._scene.cameras.show(view, client)
+                page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
+                self._scene.link.acknowledge(PATIENCE_S, client)
+                page.settle(PATIENCE_S)
+                return page.pixels()
+        except (NoBrowser, BrowserDied, TimeoutError) as error:
+            raise Error(str(error)) from error
+
+    def _is_loaded(self) -> bool:
+        """Whether all is drawn; the meshes of a robot are read when somebody looks."""
+        return not any(LOADING in row.statuses for row in self._draw().rows)
+
+    def _fit(self, page: Page, size: tuple[int, int]) -> None:
+        """Make the page so large that the picture beside the panel has the size."""
+        canvas = page.evaluate(_CANVAS)
+        outer = [2 * wanted - now for wanted, now in zip(size, canvas, strict=True)]
+        page.resize(*outer)
+        page.wait_for(lambda: page.evaluate(_CANVAS) == list(size), f"a picture of {size} pixels")
+
+    def _id_of(self, page: Page) -> int:
+        """By which id the scene knows the browser."""
+        token = str(next(self._numbers))
+        self._joined[token] = Future()
+        try:
+            page.evaluate(_TELL, [SUBJECT, token])
+            return self._joined[token].result(PATIENCE_S)
+        finally:
+            del self._joined[token]
+
+    def _hear(self, client: int, token: str) -> None:
+        if (joined := self._joined.get(token)) and not joined.done():
+            joined.set_result(client)
+
+
+_CANVAS = """() => {
+  const {canvas} = window.__viserMutable;
+  return [canvas.width, canvas.height];
+}"""
+
+_TELL = """([subject, token]) => window.__viserMutable.sendMessage({
+  type: "LocalStorageGetItemResponseMessage", request_uuid: subject, value: token, error: null,
+})"""

@@ -1,0 +1,161 @@
+"""Fixtures for visual tests of any package; see "Visual tests for your package" in the README.
+
+pytest imports this in every run where webviz is installed, so that everything else is imported by
+the fixtures that need it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from webviz.api.display import Display
+    from webviz.api.views import View
+    from webviz.files.config import Config
+    from webviz.shell.testing.darkroom import Darkroom, Size
+    from webviz.shell.testing.live import LiveViewer
+    from webviz.shell.testing.pictures import Photographer
+    from webviz.shell.testing.recording import RecordingScene
+    from webviz.shell.testing.stage import Stage
+
+SIZE = (400, 300)
+"""Width and height of pictures in pixels."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Tell pytest of the options."""
+    parser.getgroup("webviz", "visual tests of robots").addoption(
+        "--update-pictures",
+        action="store_true",
+        help="make the reference pictures that are missing or no longer right; "
+        "look at each before committing",
+    )
+    parser.addini(
+        "webviz_pictures",
+        "folder of reference pictures below the root; default: `pictures` beside each test file",
+    )
+    parser.addini(
+        "webviz_output",
+        "folder below the root for pictures that differ; default: picture_output",
+        default="picture_output",
+    )
+    parser.addini(
+        "webviz_each_display",
+        "whether each picture must tell if any one of its displays were left out",
+        type="bool",
+        default=False,
+    )
+
+
+@pytest.fixture(scope="session")
+def webviz_darkroom() -> Iterator[Darkroom]:
+    """The browser that makes all pictures; launched for the first one."""
+    from webviz.shell.testing.darkroom import Darkroom
+
+    darkroom = Darkroom()
+    yield darkroom
+    darkroom.close()
+
+
+@pytest.fixture(scope="session")
+def webviz_domain() -> Iterator[int]:
+    """A ROS domain that nobody else on this machine uses, also for processes of the tests."""
+    from webviz.shell.testing.domain import isolated_domain
+
+    with isolated_domain() as domain:
+        yield domain
+
+
+@pytest.fixture
+def webviz_stage(
+    webviz_darkroom: Darkroom, request: pytest.FixtureRequest
+) -> Iterator[Callable[..., Stage]]:
+    """Makes viewers without ROS: `webviz_stage("my.yaml")` or `webviz_stage(Grid(), Map())`.
+
+    Arguments by name: `view`, `fixed_frame`, `size` of pictures.
+    """
+    with contextlib.ExitStack() as stack:
+
+        def make(*what: str | Path | Display, **options: Any) -> Stage:
+            from webviz.shell.testing.stage import Stage
+
+            config, scene, photographer = _set_up(webviz_darkroom, request, what, **options)
+            stage = Stage(config, scene, photographer)
+            stack.callback(webviz_darkroom.forget, scene)
+            stack.callback(stage.close)
+            return stage
+
+        yield make
+
+
+@pytest.fixture
+def webviz_viewer(
+    webviz_darkroom: Darkroom, webviz_domain: int, request: pytest.FixtureRequest
+) -> Iterator[Callable[..., LiveViewer]]:
+    """Makes viewers on a ROS domain of their own: `webviz_viewer("my.yaml", simulator=True)`.
+
+    Arguments by name: `view`, `fixed_frame`, `size` of pictures, `simulator`: whether a simulated
+    robot drives around, or its parameters.
+    """
+    with contextlib.ExitStack() as stack:
+
+        def make(
+            *what: str | Path | Display,
+            simulator: bool | Mapping[str, Any] = False,
+            **options: Any,
+        ) -> LiveViewer:
+            from webviz.shell.testing.live import LiveViewer
+
+            config, scene, photographer = _set_up(webviz_darkroom, request, what, **options)
+            parameters = None if simulator is False else {} if simulator is True else simulator
+            viewer = LiveViewer(config, scene, photographer, webviz_domain, parameters)
+            stack.callback(webviz_darkroom.forget, scene)
+            stack.callback(viewer.close)
+            return viewer
+
+        yield make
+
+
+def _set_up(
+    darkroom: Darkroom,
+    request: pytest.FixtureRequest,
+    what: tuple[str | Path | Display, ...],
+    view: View | None = None,
+    fixed_frame: str | None = None,
+    size: Size = SIZE,
+) -> tuple[Config, RecordingScene, Photographer]:
+    """What every viewer under test stands on."""
+    from webviz.shell.testing.pictures import Album, Photographer
+    from webviz.shell.testing.recording import RecordingScene
+
+    config = _config(what, request.path.parent)
+    if fixed_frame is not None:
+        config.settings.fixed_frame = fixed_frame
+    options, root = request.config, request.config.rootpath
+    pictures = str(options.getini("webviz_pictures"))
+    album = Album(
+        root / pictures if pictures else request.path.parent / "pictures",
+        root / str(options.getini("webviz_output")),
+        root,
+        bool(options.getoption("--update-pictures")),
+        bool(options.getini("webviz_each_display")),
+        size,
+    )
+    scene = RecordingScene()
+    return config, scene, Photographer(scene, darkroom, album, view or config.settings.view)
+
+
+def _config(what: tuple[str | Path | Display, ...], folder: Path) -> Config:
+    """A config from a file, which may be named relative to the tests, or from displays."""
+    from webviz.files import config, opening
+
+    if not what:
+        return config.standard()
+    if isinstance(what[0], str | Path):
+        return opening.load(folder / what[0])
+    return config.Config(displays=list(what))  # pyright: ignore[reportArgumentType]

@@ -1,0 +1,34 @@
+"""The ROS graph as a source, if this Python has ROS."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from webviz.api.errors import Error
+
+if TYPE_CHECKING:
+    from webviz.edges.ros.node import RosSource
+
+NO_ROS = (
+    "webviz needs rclpy of ROS 2 Jazzy, which this Python ({version}) does not have: run "
+    "`source /opt/ros/jazzy/setup.bash` if ROS is installed, or `pip install 'webviz[ros]'`."
+)
+
+
+def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
+    """The ROS graph, as the arguments for ROS say.
+
+    Raises:
+        Error: there is no ROS, or it does not start; one sentence.
+    """
+    try:
+        from webviz.edges.ros.node import RosSource
+    except ImportError as error:
+        raise Error(NO_ROS.format(version=sys.version.split()[0])) from error
+    try:
+        return RosSource(ros_args)
+    except Exception as error:  # rclpy has no common base: bad arguments, no RMW, no network
+        reason = " ".join(str(error).split()).partition(", at /")[0].rstrip(".")
+        raise Error(f"ROS did not start: {reason}.") from error

@@ -1,0 +1,147 @@
+"""One browser for the pictures of all tests, in a thread of its own."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+from webviz.api.views import View
+from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.shell.pictures.studio import Studio
+from webviz.shell.testing.recording import RecordingScene
+
+__tracebackhide__ = True  # failures are shown where the test calls
+
+Size = tuple[int, int]
+T = TypeVar("T")
+
+
+class Darkroom:
+    """Makes pictures of scenes; the browser is launched for the first one.
+
+    Playwright wants every call from one thread, in which no asyncio loop runs, and other plug-ins
+    of pytest run theirs in the thread of the tests.
+    """
+
+    def __init__(self) -> None:
+        self._thread: ThreadPoolExecutor | None = None
+        self._open = contextlib.ExitStack()
+        self._studio: Studio | None = None
+        self._shown: RecordingScene | None = None
+        self._look: tuple[View, Size] | None = None
+
+    def close(self) -> None:
+        """End the browser; the next picture would launch another."""
+        if self._thread is not None:
+            self._call(self._forget)
+            self._thread.shutdown()
+            self._thread = None
+
+    def capture(
+        self, scene: RecordingScene, view: View, size: Size, transparent: bool = False
+    ) -> Pixels:
+        """What a browser shows of a scene once it has everything.
+
+        Args:
+            scene: what to draw; others are no longer shown.
+            view: where the camera is.
+            size: width and height in pixels.
+            transparent: leave the background out.
+
+        Returns:
+            uint8 (height, width, 3), or (height, width, 4) if transparent.
+
+        Raises:
+            NoBrowser: there is none; it says how to get one.
+            BrowserDied: it ended; the next picture launches another.
+        """
+
+        def capture() -> Pixels:
+            studio = self._show(scene, view, size)
+            pixels = studio.capture(transparent)
+            if errors := studio.page.errors:
+                text = " ".join(errors)
+                errors.clear()
+                raise AssertionError(f"Scripts of the page failed: {text}")
+            return pixels
+
+        return self._call(capture)
+
+    def capture_without(self, scene: RecordingScene, view: View, size: Size, prefix: str) -> Pixels:
+        """What a browser would show if some groups of the scene were not there.
+
+        Args:
+            scene, view, size: as for `capture`.
+            prefix: of the names of the groups.
+        """
+
+        def capture() -> Pixels:
+            studio = self._show(scene, view, size)
+            with self._hidden(studio, scene, prefix):
+                return studio.capture()
+
+        return self._call(capture)
+
+    def forget(self, scene: RecordingScene) -> None:
+        """Show a scene no longer."""
+        if self._shown is scene:
+            self._call(self._leave)
+
+    # In the thread
+
+    def _call(self, work: Callable[[], T]) -> T:
+        def guarded() -> T:
+            try:
+                return work()
+            except BrowserDied:
+                self._forget()
+                raise
+
+        if self._thread is None:
+            self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-pictures")
+        try:
+            return self._thread.submit(guarded).result()
+        except (NoBrowser, BrowserDied) as error:
+            raise type(error)(str(error)) from None
+
+    def _show(self, scene: RecordingScene, view: View, size: Size) -> Studio:
+        if self._studio is None:
+            browser = self._open.enter_context(launched())
+            self._studio = Studio(browser, *size)
+            self._open.callback(self._studio.close)
+        if self._shown is not scene:
+            self._leave()
+            self._shown = scene
+            scene.attach(self._studio.scene)
+        if self._look is None or self._look[1] != size:
+            self._studio.resize(*size)
+        if self._look is None or self._look[0] != view:
+            self._studio.look(view)
+        self._look = view, size
+        return self._studio
+
+    @contextlib.contextmanager
+    def _hidden(self, studio: Studio, scene: RecordingScene, prefix: str) -> Iterator[None]:
+        with scene.lock:  # what moves stands still meanwhile
+            groups = [g for g in scene.groups if g.startswith(prefix) and g not in scene.hidden]
+            try:
+                for group in groups:
+                    studio.scene.set_visible(group, False)
+                studio.scene.flush()
+                yield
+            finally:
+                for group in groups:
+                    studio.scene.set_visible(group, True)
+                studio.scene.flush()
+
+    def _leave(self) -> None:
+        if self._shown is not None:
+            self._shown.detach()
+        self._shown = None
+
+    def _forget(self) -> None:
+        self._leave()
+        self._studio = self._look = None
+        self._open.close()

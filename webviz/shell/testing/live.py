@@ -1,0 +1,246 @@
+"""A viewer on a ROS domain of its own, as `webviz` runs it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from webviz.engine.sources import Inbox, Raw, Subscription
+from webviz.files.config import Config
+from webviz.shell.testing.pictures import Photographer
+from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.shown import Shown
+from webviz.shell.testing.watched import WatchedViewer
+
+__tracebackhide__ = True  # failures are shown where the test calls
+
+if TYPE_CHECKING:
+    from webviz.edges.ros.node import RosSource
+
+T = TypeVar("T")
+
+PATIENCE_S = 10.0
+"""For what takes DDS and the frame loop well below a second on an idle machine."""
+LOADING_S = 60.0
+"""A robot's meshes may be large."""
+
+
+class _WatchedInbox(Inbox):
+    """An inbox that knows whether a message has come."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._expected: dict[str, list[bytes]] = {}
+
+    def expect(self, topic: str, cdr: bytes) -> None:
+        self._expected.setdefault(topic, []).append(cdr)
+
+    def put(self, topic: str, raw: Raw) -> None:
+        super().put(topic, raw)
+        expected = self._expected.get(topic, [])
+        if raw.cdr in expected:
+            expected.remove(raw.cdr)
+
+    def missing(self) -> list[str]:
+        """The topics on which not all that was expected has come."""
+        return [topic for topic, expected in self._expected.items() if expected]
+
+
+class LiveViewer(Shown):
+    """A viewer whose frame loop runs in a thread, on real ROS.
+
+    Args:
+        config: what to show.
+        photographer: of its scene.
+        domain: ROS domain.
+        simulator: parameters of a simulated robot, None for none.
+    """
+
+    def __init__(
+        self,
+        config: Config,
+        scene: RecordingScene,
+        photographer: Photographer,
+        domain: int,
+        simulator: Mapping[str, Any] | None = None,
+    ) -> None:
+        from webviz.edges.ros.node import RosSource
+        from webviz.edges.ros.talker import Talker
+
+        self._inbox = _WatchedInbox()
+        self._crash: BaseException | None = None
+        with contextlib.ExitStack() as stack:
+            if simulator is not None:
+                stack.enter_context(_simulator(simulator, domain))
+            self._talker = Talker("webviz_test", domain)
+            stack.callback(self._talker.close)
+            self.source: RosSource = RosSource(domain_id=domain)
+            stack.callback(self.source.close)
+            self.source.inbox = self._inbox
+            super().__init__(WatchedViewer(config, self.source, scene), scene, photographer)
+            self._thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
+            stack.callback(self._thread.join)
+            stack.callback(self.viewer.stop)
+            self._thread.start()
+            self._catch_up()
+            self._close = stack.pop_all().close
+
+    def close(self) -> None:
+        """End everything, without a thread or a process left."""
+        self._close()
+
+    def publish_bytes(
+        self, topic: str, type_name: str, cdr: bytes, *, latched: bool | None = None
+    ) -> None:
+        """Publish a message as it is in a bag.
+
+        If a display wants the topic, it is waited until the viewer hears this node, for what is
+        said before nobody hears.
+
+        Args:
+            topic: full name.
+            type_name: such as "sensor_msgs/msg/LaserScan".
+            cdr: serialised message with its encapsulation header.
+            latched: transient local, also for nodes that come later; None: as /tf_static is.
+        """
+        is_latched = topic == "/tf_static" if latched is None else latched
+        publisher = self._talker.open(topic, type_name, is_latched)
+        if self._is_wanted(topic, type_name):
+            self.wait_for(
+                lambda: self._is_heard(topic, type_name) and publisher.get_subscription_count(),
+                lambda: f"The viewer does not hear {topic}: {self._offer_text(topic)}",
+            )
+            self._inbox.expect(topic, cdr)
+        publisher.publish(cdr)
+
+    def now_ns(self) -> int:
+        """ROS time."""
+        return self.source.now_ns()
+
+    def wait_for(
+        self,
+        condition: Callable[[], T],
+        what: str | Callable[[], str] = "it",
+        seconds: float = PATIENCE_S,
+    ) -> T:
+        """Wait until a condition holds after a turn of the frame loop, and return it.
+
+        Args:
+            condition: looked at after each turn.
+            what: said if it does not hold in time.
+            seconds: to wait.
+
+        Raises:
+            AssertionError: it did not hold in time.
+        """
+        deadline = time.monotonic() + seconds
+        while not (result := condition()):
+            if time.monotonic() > deadline:
+                text = what if isinstance(what, str) else what()
+                raise AssertionError(f"Waited {seconds:g} s in vain. {text}")
+            self._turn()
+        return result
+
+    def wait_until_drawn(self, display: str, seconds: float = PATIENCE_S) -> None:
+        """Wait until all that was published has come, and a display has drawn the newest of it.
+
+        Raises:
+            AssertionError: it did not come about in time; the statuses of the display say why.
+        """
+        row = self._row(display)
+
+        def is_drawn() -> bool:
+            if self._inbox.missing():
+                return False
+            self._catch_up()  # what has come may not have been looked at
+            return (
+                not self.viewer.is_waiting(row.id)
+                and not self.viewer.is_busy()
+                and self.is_drawn(display)
+            )
+
+        def why_not() -> str:
+            if missing := self._inbox.missing():
+                return f"What was published on {', '.join(missing)} has not come."
+            return f"{display} has not drawn it. {self.status(display).text}"
+
+        self.wait_for(is_drawn, why_not, seconds)
+
+    def settle(self) -> None:
+        """Let all that was published be drawn, and slow work of displays finish."""
+        self.wait_for(
+            lambda: not self._inbox.missing(),
+            lambda: f"What was published on {', '.join(self._inbox.missing())} has not come.",
+        )
+        self._catch_up()
+        self.wait_for(lambda: not self.viewer.is_busy(), "A display still loads.", LOADING_S)
+
+    def _catch_up(self) -> None:
+        """Wait for a turn that begins after now; the one that runs may have missed what came."""
+        for _ in range(2):
+            self._turn()
+
+    def _turn(self) -> None:
+        """Wait until a turn ends."""
+        with self.viewer.turned:
+            turns = self.viewer.turns
+            self._inbox.arrived.set()
+            self.viewer.turned.wait_for(
+                lambda: self.viewer.turns > turns or self._crash is not None, PATIENCE_S
+            )
+        if self._crash is not None:
+            raise AssertionError(f"The viewer stopped: {self._crash}") from self._crash
+
+    def _run(self) -> None:
+        try:
+            self.viewer.run()
+        except BaseException as crash:
+            with self.viewer.turned:
+                self._crash = crash
+                self.viewer.turned.notify_all()
+
+    def _is_wanted(self, topic: str, type_name: str) -> bool:
+        wish = self._wish(topic)
+        return wish is not None and wish.type == type_name
+
+    def _wish(self, topic: str) -> Subscription | None:
+        return self.viewer.wanted().get(topic)
+
+    def _is_heard(self, topic: str, type_name: str) -> bool:
+        """Whether the subscription is made for the publishers there are, and we are one."""
+        from webviz.edges.ros.qos import adapt
+
+        wish, offer = self._wish(topic), self.source.offers().get(topic)
+        if wish is None or offer is None:
+            return False
+        names = [publisher.node for publisher in offer.publishers if publisher.type == type_name]
+        return self._talker.name in names and offer.requested == adapt(wish, offer.publishers)
+
+    def _offer_text(self, topic: str) -> str:
+        offer = self.source.offers().get(topic)
+        return offer.problem or f"it knows {offer}." if offer else "it does not know the topic."
+
+
+@contextlib.contextmanager
+def _simulator(parameters: Mapping[str, Any], domain: int) -> Iterator[None]:
+    """A simulated robot in a process of its own."""
+    command = [sys.executable, "-m", "webviz_sim", "--ros-args"]
+    for name, value in parameters.items():
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        command += ["-p", f"{name}:={text}"]
+    process = subprocess.Popen(command, env={**os.environ, "ROS_DOMAIN_ID": str(domain)})
+    try:
+        yield
+    finally:
+        process.terminate()
+        try:
+            process.wait(timeout=10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()

@@ -1,0 +1,55 @@
+"""A source without ROS, whose messages, publishers and time a test sets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
+
+SECOND = 1_000_000_000
+LIMIT = 1000
+"""Messages of a topic between two turns."""
+
+
+@dataclass
+class HandFedSource:
+    """What a viewer hears, as a test says."""
+
+    inbox: Inbox = field(default_factory=Inbox)
+    wanted: Mapping[str, Subscription] = field(default_factory=dict)
+    known: dict[str, Offer] = field(default_factory=dict)
+    now: int = 100 * SECOND
+    """ROS time in ns."""
+
+    def put(self, topic: str, type_name: str, cdr: bytes) -> None:
+        """Let a message arrive now, from a reliable publisher."""
+        if topic not in self.known:
+            publisher = Publisher("/test", type_name, "reliable", "volatile")
+            self.known[topic] = Offer((publisher,), ("reliable", "volatile"))
+        self.inbox.put(topic, Raw(cdr, self.now))
+
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
+        """Make the subscriptions exactly these."""
+        for topic in self.wanted.keys() - subscriptions.keys():
+            self.inbox.close(topic)
+        for topic in subscriptions.keys() - self.wanted.keys():
+            self.inbox.open(topic, LIMIT)
+        self.wanted = dict(subscriptions)
+
+    def offers(self) -> Mapping[str, Offer]:
+        """What is known of every topic."""
+        return self.known
+
+    def now_ns(self) -> int:
+        """ROS time, which is `now`."""
+        return self.now
+
+    def resolve(self, topic: str) -> str:
+        """The full name of a topic."""
+        if " " in topic:
+            raise ValueError(f"{topic!r} is no topic name: it has a space")
+        return f"/{topic.removeprefix('/')}"
+
+    def close(self) -> None:
+        """Nothing to stop."""

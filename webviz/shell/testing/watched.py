@@ -1,0 +1,60 @@
+"""A viewer that a test looks into between turns of its frame loop."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+
+from webviz.engine.loop import FrameLoop
+from webviz.engine.sources import Source, Subscription
+from webviz.engine.state import State
+from webviz.files.config import Config
+from webviz.shell.testing.recording import RecordingScene
+
+
+class WatchedViewer(FrameLoop):
+    """A viewer whose displays raise what is wrong with them.
+
+    Args:
+        config: what to show.
+        source: where messages come from.
+        scene: where to draw; its lock is held during each turn.
+        options: for `FrameLoop`.
+    """
+
+    def __init__(
+        self, config: Config, source: Source, scene: RecordingScene, **options: object
+    ) -> None:
+        super().__init__(config, source, scene, strict=True, **options)  # pyright: ignore[reportArgumentType]
+        self.turned = threading.Condition()
+        """Notified after every turn."""
+        self.turns = 0
+        self._lock = scene.lock
+
+    def turn(self) -> None:
+        """One turn of the frame loop."""
+        with self._lock:
+            super().turn()
+        with self.turned:
+            self.turns += 1
+            self.turned.notify_all()
+
+    def snapshot(self) -> State:
+        """The state after the last turn."""
+        with self._lock:
+            return self.state(self._frames)
+
+    def wanted(self) -> Mapping[str, Subscription]:
+        """All that is subscribed to, by topic."""
+        with self._lock:
+            return self._wanted()
+
+    def is_waiting(self, id: str) -> bool:
+        """Whether the newest message of a display waits for its transform."""
+        with self._lock:
+            return any(runner.is_waiting() for runner in self._list.active() if runner.id == id)
+
+    def is_busy(self) -> bool:
+        """Whether slow work of any display is still to be drawn."""
+        with self._lock:
+            return any(runner.is_busy() for runner in self._list.active())

@@ -1,0 +1,4 @@
+"""tf2's buffer and message filter in Python, which need neither ROS nor the rest of webviz."""
+
+from webviz.data.transforms import *  # noqa: F403
+from webviz.data.transforms import __all__ as __all__
