@@ -61,6 +61,8 @@ def Prop(
 class Declared(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False, weakref=True):
     """Base of all that has properties."""
 
+    kind: ClassVar[str] = ""
+    """The kind of plug-in: "display", "tool" or "panel"; packages name theirs by it."""
     rviz: ClassVar[str] = ""
     """The class of the counterpart in a .rviz file."""
 
@@ -72,7 +74,7 @@ P = TypeVar("P", bound=Declared)
 
 def default_name(cls: type[Declared]) -> str:
     """The name it has when nobody gave it one."""
-    return cls.__name__
+    return cls().name or cls.__name__
 
 
 def make(cls: type[P], values: dict[str, Any]) -> P:

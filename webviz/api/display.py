@@ -65,6 +65,8 @@ class Keep:
 class Display(Declared, kw_only=True):
     """Base of all displays. A subclass declares properties and overrides the hooks it needs."""
 
+    kind = "display"
+
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
 

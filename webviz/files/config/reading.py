@@ -11,7 +11,7 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.group import Group
-from webviz.api.registry import broken_display_types, display_types
+from webviz.api.registry import broken_types, display_types
 from webviz.api.views import with_type
 from webviz.files.config.errors import ConfigError, nearest
 from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
@@ -119,7 +119,7 @@ def read_display(entry: Any, place: Place) -> Item:
     if "rviz" in entry:
         reason = f"Unsupported display class {entry['type']}."
         return Unreadable(entry, place.says(reason))
-    types, broken = display_types(), broken_display_types()
+    types, broken = display_types(), broken_types(Display)
     cls = types.get(entry["type"])
     if cls is Group:
         return _read_group(entry, place)
