@@ -367,7 +367,7 @@ def test_more_solids_than_a_browser_can_light_are_drawn_flat_and_it_is_said(
 def test_dots_are_so_many_pixels_wide_and_limited(
     lab: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(points_display, "DOTS_LIMIT", 2)
+    monkeypatch.setattr("webviz_displays.point_cloud2.display.DOTS_LIMIT", 2)
     bench = lab(xyz_cloud(THREE), style="Points", size_pixels=4.0)
     node = bench.nodes()["points"]
     assert isinstance(node, Lines)
