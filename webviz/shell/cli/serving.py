@@ -38,8 +38,10 @@ def serve(
         Error: it cannot be shown; one sentence.
     """
     read = functools.cache(functools.partial(_config, options, standard))
-    if options.display_config is not None:
-        read(options.display_config)  # mistakes are reported before imports that take seconds
+    if options.display_config is not None and not options.plugin:
+        # Mistakes are reported before imports that take seconds. With plug-ins the viewer reads it,
+        # after it has loaded the displays that the file may name.
+        read(options.display_config)
     options.allow_meshes()
     _import_slow_parts()
     is_shown = False
