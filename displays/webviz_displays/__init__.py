@@ -1,1 +1,1 @@
-"""The displays that come with webviz, one file each."""
+"""The displays that come with webviz, one module or folder each."""

@@ -14,9 +14,9 @@ class Axes(Display):
 
     rviz = "rviz_default_plugins/Axes"
 
-    reference_frame: Annotated[
-        str, Prop(widget="frame", help="The frame whose axes are drawn.")
-    ] = FIXED_FRAME
+    reference_frame: Annotated[str, Prop(widget="frame", help="Frame whose axes are drawn.")] = (
+        FIXED_FRAME
+    )
     length: Annotated[float, Prop(gt=0, unit="m", help="Length of each axis.")] = 1.0
     radius: Annotated[float, Prop(gt=0, unit="m", help="Radius of each axis.")] = 0.1
 

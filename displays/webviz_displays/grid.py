@@ -16,25 +16,25 @@ from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 
 MOST_LINES = 200_000
-"""More would only stop the browser."""
+"""More lines would make the browser unresponsive."""
 
 # Which axes of the frame are the two of the plane and its normal.
 _PLANES = {"XY": (0, 1, 2), "XZ": (0, 2, 1), "YZ": (1, 2, 0)}
 
 
 class Grid(Display):
-    """A grid of lines, to judge distances by."""
+    """A grid of lines for judging distances."""
 
     rviz = "rviz_default_plugins/Grid"
 
-    reference_frame: Annotated[
-        str, Prop(widget="frame", help="The frame in which the grid lies.")
-    ] = FIXED_FRAME
+    reference_frame: Annotated[str, Prop(widget="frame", help="Frame in which the grid lies.")] = (
+        FIXED_FRAME
+    )
     plane_cell_count: Annotated[int, Prop(ge=1, help="Cells along each side of the plane.")] = 10
     normal_cell_count: Annotated[
-        int, Prop(ge=0, help="Cells along the normal of the plane; 0 is a flat grid.")
+        int, Prop(ge=0, help="Cells along the plane's normal; 0 makes a flat grid.")
     ] = 0
-    cell_size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each cell.")] = 1.0
+    cell_size: Annotated[float, Prop(gt=0, unit="m", help="Edge length of a cell.")] = 1.0
     line_style: Annotated[
         Literal["Lines", "Billboards"],
         Prop(help="Lines are one pixel wide, Billboards have a width in metres."),
@@ -60,22 +60,26 @@ class Grid(Display):
         ),
     ] = 0.5
     plane: Annotated[
-        Literal["XY", "XZ", "YZ"], Prop(help="The plane of the frame in which the grid lies.")
+        Literal["XY", "XZ", "YZ"], Prop(help="Plane of the frame in which the grid lies.")
     ] = "XY"
     offset: Annotated[
-        tuple[float, float, float], Prop(unit="m", help="Where the middle of the grid is.")
+        tuple[float, float, float],
+        Prop(unit="m", help="Centre of the grid in the reference frame."),
     ] = (0.0, 0.0, 0.0)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All lines as one node that follows the reference frame."""
         if self.alpha == 0:
-            ctx.warn("Grid", "Invisible: alpha is 0.")
+            ctx.warn("Grid", "Invisible: alpha is 0. Increase it to show the grid.")
             return
         wanted = self.plane_cell_count, self.normal_cell_count
         plane, normal = _inner(*wanted)
         reach = self.cell_size * max(plane, normal) + max(map(abs, self.offset))
         if reach > REACH_M:
-            ctx.error("Grid", f"It reaches {reach:g} m. Choose smaller cells or a smaller offset.")
+            ctx.error(
+                "Grid",
+                f"The grid reaches {reach:g} m. Choose smaller cells or a smaller offset.",
+            )
             return
         segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
         color = faded_color(self.color, self.alpha)
@@ -90,8 +94,8 @@ class Grid(Display):
         cells = f"{plane} x {plane}" + (f" x {normal}" if normal else "")
         ctx.warn(
             "Grid",
-            f"More than {MOST_LINES} lines are too many for a browser: only the {cells} cells in "
-            "the middle are drawn. Choose fewer and larger cells.",
+            f"More than {MOST_LINES} lines are too many for a browser; showing the {cells} "
+            "cells in the middle. Choose fewer and larger cells.",
         )
 
 
@@ -104,7 +108,7 @@ def _inner(plane: int, normal: int) -> tuple[int, int]:
     """The cells along the plane and along the normal that can be drawn around the middle."""
 
     def within(most: int) -> tuple[int, int]:
-        # An even number less, so that the lines that stay are where they would be.
+        # Fewer by an even number, so that the remaining lines keep their places.
         return min(plane, most - (plane - most) % 2), min(normal, most - (normal - most) % 2)
 
     if _count(plane, normal) <= MOST_LINES:

@@ -22,11 +22,11 @@ from webviz_displays.shared.geometry import (
 )
 
 MOST_POSES = 100_000
-"""Drawn of one path; they take up to 50 ms of the frame loop."""
+"""Poses drawn per path; they take up to 50 ms of the frame loop."""
 
 
 class Path(Display):
-    """The line that a planner wants a robot to follow, and the poses on it."""
+    """The line a planner wants a robot to follow, and its poses."""
 
     rviz = "rviz_default_plugins/Path"
 
@@ -54,7 +54,7 @@ class Path(Display):
     buffer_length: Annotated[int, Prop(ge=1, help="How many of the newest paths to show.")] = 1
     offset: Annotated[
         tuple[float, float, float],
-        Prop(unit="m", help="Where the path is drawn relative to where it is, in the fixed frame."),
+        Prop(unit="m", help="Offset of the drawn path, in the fixed frame."),
     ] = (0.0, 0.0, 0.0)
     pose_style: Annotated[
         Literal["None", "Axes", "Arrows"], Prop(help="How to draw each pose of the path.")
@@ -93,7 +93,7 @@ class Path(Display):
         path: messages.Path = sample.message
         count = len(path.poses)
         if not count:
-            ctx.warn("Path", "The path is empty.")
+            ctx.warn("Path", "The path is empty. Check the planner's log.")
             return
         bad = ~is_drawable(path.poses.positions)
         bad |= ~np.isfinite(path.poses.orientations).all(axis=1)
@@ -109,7 +109,7 @@ class Path(Display):
             rows = evenly(count, MOST_POSES)
             positions, orientations = positions[rows], orientations[rows]
         if count == 1 and self.pose_style == "None":
-            ctx.warn("Path", "The path has one pose only, which makes no line.")
+            ctx.warn("Path", "The path has only one pose; a line needs two.")
 
         # Offset is in the fixed frame; the group turns with the frame of the path.
         origin = origin_near(positions)
@@ -118,7 +118,7 @@ class Path(Display):
         xyz = positions - origin
         color = faded_color(self.color, self.alpha)
         if self.alpha == 0:
-            ctx.warn("Path", "The line is invisible: alpha is 0.")
+            ctx.warn("Path", "The line is invisible: alpha is 0. Increase it to show the line.")
         elif self.line_style == "Lines":
             group.strip("line", xyz, color)
         else:
@@ -138,7 +138,7 @@ class Path(Display):
             ctx.warn(
                 "Orientation",
                 f"The orientation of {(~ok).sum()} of {len(ok)} poses is all zeros; "
-                "they are drawn unturned.",
+                "they are drawn without rotation. Fix the planner.",
             )
         if self.pose_style == "Axes":
             group.axes("poses", xyz, wxyz, self.length, self.radius)
@@ -154,7 +154,7 @@ class Path(Display):
 
 
 def _fault(path: messages.Path, index: int) -> str:
-    """What is wrong with a pose."""
+    """A description of an invalid pose."""
     x, y, z = path.poses.positions[index].tolist()
     qx, qy, qz, qw = path.poses.orientations[index].tolist()
     return (

@@ -74,7 +74,7 @@ def test_of_too_many_lines_those_in_the_middle_are_drawn(
     made = grid(bench, plane_cell_count=plane, normal_cell_count=normal, cell_size=0.5)
     level, text = made.statuses()["Grid"]
     assert level == "WARN"
-    assert f"only the {cells}" in text
+    assert f"showing the {cells}" in text
     segments = made.nodes()["grid"].segments
     if cells:
         assert len(segments) == lines
@@ -88,7 +88,7 @@ def test_a_grid_that_reaches_too_far_is_not_drawn(bench: Benches, far: Any) -> N
     made = grid(bench, **far)
     assert made.nodes() == {}
     level, text = made.statuses()["Grid"]
-    assert (level, text[:11]) == ("ERROR", "It reaches ")
+    assert (level, text[:16]) == ("ERROR", "The grid reaches")
 
 
 @pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])

@@ -145,7 +145,7 @@ def test_an_intensity_that_is_nan_has_the_lowest_colour(lab: Benches) -> None:
 def test_without_intensities_colours_show_the_range_and_a_status_says_so(lab: Benches) -> None:
     bench = lab(scan([1, 1.8, 3]))
     assert colors(bench) == [RED, GREEN, MAGENTA]
-    assert "coloured by range" in bench.statuses()["Intensity"][1]
+    assert "colouring by range" in bench.statuses()["Intensity"][1]
 
 
 def test_intensities_of_another_number_are_not_used_and_named(lab: Benches) -> None:

@@ -240,7 +240,7 @@ def test_an_update_with_too_little_data_is_refused_and_said(bench) -> None:
     at.turn()
     assert at.statuses()["Update"] == (
         "ERROR",
-        "The update's size is 2 x 2 = 4 cells, but it carries 2.",
+        "The update's size is 2 x 2 = 4 cells, but its data has 2. Fix the publisher.",
     )
 
 
@@ -279,7 +279,10 @@ def test_updates_before_the_map_are_ignored(bench) -> None:
     at = bench(Map())
     send_update(at, 0, 0, [[100]])
     assert at.nodes() == {}
-    assert at.statuses()["Map"] == ("WARN", "No map received.")
+    assert at.statuses()["Map"] == (
+        "WARN",
+        "No map received. Start the map server or choose another topic.",
+    )
     send_map(at, [[0]])
     assert at.statuses()["Map"][0] == "OK"
 
@@ -288,16 +291,16 @@ def test_updates_before_the_map_are_ignored(bench) -> None:
     ("change", "said"),
     [
         ({"info": {"width": 0, "height": 3}}, "size is 0 x 3"),
-        ({"info": {"width": 2, "height": 2}}, "2 x 2 = 4 cells, but it carries 6"),
-        ({"info": {"width": 2**32 - 1, "height": 2**32 - 1}}, "but it carries 6"),
+        ({"info": {"width": 2, "height": 2}}, "2 x 2 = 4 cells, but its data has 6"),
+        ({"info": {"width": 2**32 - 1, "height": 2**32 - 1}}, "but its data has 6"),
         ({"info": {"resolution": 0.0}}, "resolution is 0 m"),
         ({"info": {"resolution": math.nan}}, "resolution is nan m"),
         ({"info": {"resolution": math.inf}}, "resolution is inf m"),
         ({"info": {"resolution": 1e38}}, "resolution is 1e+38 m"),
         ({"info": {"resolution": 1e-38}}, "it must be at least 1e-06 m"),
         ({"info": {"origin": {"position": {"y": 1e308}}}}, "origin is (0, 1e+308, 0)"),
-        ({"info": {"origin": {"position": {"x": math.nan}}}}, "origin holds a NaN"),
-        ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin holds a NaN or infinity"),
+        ({"info": {"origin": {"position": {"x": math.nan}}}}, "origin is not finite"),
+        ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin is not finite"),
     ],
 )
 def test_a_map_that_cannot_be_drawn_says_why(bench, change, said) -> None:
@@ -327,7 +330,7 @@ def test_after_a_map_that_cannot_be_drawn_the_one_before_stays_as_it_was(bench) 
     assert at.poses()["tile 0 0"] == pose
     level, text = at.statuses()["Map"]
     assert level == "ERROR"
-    assert text.endswith("The map before it is still shown.")
+    assert text.endswith("Keeping the previous map.")
     send_map(at, [[100, 100]])
     assert at.statuses()["Map"][0] == "OK"
     assert at.poses()["tile 0 0"].position == pytest.approx((2.0, 0.0, 0.0))

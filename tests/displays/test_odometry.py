@@ -239,7 +239,7 @@ def test_a_bad_covariance_of_a_robot_at_rest_is_named(shown: Benches, size: floa
     bench = shown(good, bad)
     level, text = bench.statuses()["Covariance"]
     assert level == "WARN"
-    assert text.startswith("1 of 2 covariances are not drawn")
+    assert text.startswith("1 of 2 covariances are invalid and not drawn")
     assert len(bench.nodes()["ellipsoids"].positions) == 1
 
 
@@ -262,7 +262,7 @@ def test_a_negative_variance_out_of_the_plane_counts_as_none_and_is_named(shown:
         (odometry(turn=(0, 0, NAN, 1)), "orientation (0, 0, nan, 1)"),
         (odometry(1e300), "too far away"),
         (odometry(turn=(0, 0, 0, 0)), "all zeros"),
-        (odometry(turn=(0, 0, 0, 1.01)), "not normalized: its squares add up to 1.0201"),
+        (odometry(turn=(0, 0, 0, 1.01)), "not normalized: its squared length is 1.0201"),
         (odometry(turn=(0, 0, 1e300, 0)), "not normalized"),
     ],
 )

@@ -128,7 +128,7 @@ def test_unnormalized_orientations_are_normalized(shown: Benches) -> None:
 def test_an_empty_path_is_named(shown: Benches) -> None:
     bench = shown(path((0, 0, 0), (1, 0, 0)), path())
     assert bench.nodes() == {}
-    assert bench.statuses()["Path"] == ("WARN", "The path is empty.")
+    assert bench.statuses()["Path"] == ("WARN", "The path is empty. Check the planner's log.")
 
 
 def test_a_single_pose_is_no_line(shown: Benches) -> None:

@@ -68,14 +68,14 @@ def test_what_is_not_finite_is_left_out_whatever_is_dense_says(
     assert colors(bench) == [RED, MAGENTA]
     assert bench.statuses()["Points"] == (
         "OK",
-        "Showing 2 of 5 points; left out: 3 not finite or farther than 1e9 m.",
+        "Showing 2 of 5 points; dropped: 3 not finite or farther than 1e9 m.",
     )
 
 
 @pytest.mark.parametrize(
     ("values", "level", "words"),
     [
-        (xyz_cloud([(NAN, NAN, NAN)]), "WARN", "Showing 0 of 1 points; left out: 1 not finite"),
+        (xyz_cloud([(NAN, NAN, NAN)]), "WARN", "Showing 0 of 1 points; dropped: 1 not finite"),
         (xyz_cloud(THREE) | {"width": 0, "data": []}, "WARN", "empty: width x height is 0"),
         (xyz_cloud(THREE) | {"height": 0}, "WARN", "empty: width x height is 0"),
         (xyz_cloud(THREE) | {"data": []}, "ERROR", "0 bytes, but 3 x 1 points of 12 bytes need 36"),
@@ -156,7 +156,7 @@ def test_more_points_than_the_limit_are_picked_evenly_and_it_is_said(lab: Benche
     assert len(colors(bench)) == 100
     assert bench.statuses()["Points"] == (
         "OK",
-        "Showing 100 of 1 000 points; left out: 900 over max_points, 100.",
+        "Showing 100 of 1 000 points; dropped: 900 over max_points of 100.",
     )
     bench.set("max_points", 0)
     assert len(bench.xyz("points")) == 1000
@@ -167,8 +167,8 @@ def test_one_point_of_each_voxel_is_shown_and_it_is_said(lab: Benches) -> None:
     bench = lab(xyz_cloud(points), voxel_size=0.1)
     np.testing.assert_allclose(bench.xyz("points")[:, 0], [0.01, -0.01, 0.11], atol=1e-6)
     assert bench.statuses()["Points"][1] == (
-        "Showing 3 of 5 points; left out: 1 not finite or farther than 1e9 m, "
-        "1 in voxels of 0.1 m that show another."
+        "Showing 3 of 5 points; dropped: 1 not finite or farther than 1e9 m, "
+        "1 in voxels of 0.1 m that already show a point."
     )
 
 
@@ -246,7 +246,7 @@ def test_the_alpha_of_rgba_fades_points_and_hides_those_of_0(lab: Benches) -> No
     np.testing.assert_allclose(bench.xyz("points")[:, 0], [1, 3])
     level, text = bench.statuses()["Points"]
     assert level == "OK"
-    assert "1 of them are invisible: their alpha in rgba is 0." in text
+    assert "1 of them are invisible: their rgba has alpha 0." in text
 
 
 def test_a_cloud_of_alpha_0_warns(lab: Benches) -> None:
@@ -361,7 +361,7 @@ def test_more_solids_than_a_browser_can_light_are_drawn_flat_and_it_is_said(
     assert (node.shape, len(node.xyz)) == (outline, 3)
     text = bench.statuses()["Style"][1]
     assert words in text
-    assert "can light 2 solids, not 3" in text
+    assert "the limit is 2 solids, got 3" in text
 
 
 def test_dots_are_so_many_pixels_wide_and_limited(
@@ -372,7 +372,7 @@ def test_dots_are_so_many_pixels_wide_and_limited(
     node = bench.nodes()["points"]
     assert isinstance(node, Lines)
     assert (node.width, node.unit, len(node.segments)) == (4.0, "px", 2)
-    assert "1 over the limit of the style Points, 2" in bench.statuses()["Points"][1]
+    assert "1 over the limit of the style Points of 2" in bench.statuses()["Points"][1]
 
 
 def test_clouds_stay_for_the_decay_time(lab: Benches) -> None:
@@ -397,7 +397,7 @@ def test_clouds_of_the_decay_time_share_the_limit_of_points(lab: Benches) -> Non
     assert max(shown) <= 800
     assert [len(node.xyz) for node in bench.nodes().values()] == [100] * 8
     assert bench.statuses()["Points"][1] == (
-        "Showing 100 of 1 000 points; left out: 900 over max_points, 800 for 8 clouds."
+        "Showing 100 of 1 000 points; dropped: 900 over max_points of 800 for 8 clouds."
     )
     bench.turn(10.05)
     bench.send(CLOUD, cloud, frame="lidar")

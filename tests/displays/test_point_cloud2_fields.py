@@ -147,7 +147,7 @@ def test_reading_the_usual_layout_copies_nothing_but_the_points() -> None:
             "The data has 147 bytes, but 4 x 3 points of 12 bytes need 148.",
         ),
         ({"width": 2**32 - 1, "height": 2**32 - 1}, "The data has 48 bytes, but"),
-        ({"point_step": 0}, "point_step is 0, but there are 4 points."),
+        ({"point_step": 0}, "point_step is 0, but the cloud has 4 points."),
         ({"point_step": 11}, "Field 'z' takes bytes 8 to 12 of each point, but point_step is 11."),
         ({"fields": []}, "The cloud has no field 'x'; its fields are: none."),
     ],

@@ -82,7 +82,10 @@ def test_until_a_description_comes_the_topic_is_named(bench) -> None:
     at = bench(RobotModel())
     at.turn()
     assert at.nodes() == {}
-    assert at.statuses()["URDF"] == ("WARN", "No robot description yet on /robot_description.")
+    assert at.statuses()["URDF"] == (
+        "WARN",
+        "No robot description received on /robot_description. Start robot_state_publisher.",
+    )
 
 
 def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, slow_arm) -> None:

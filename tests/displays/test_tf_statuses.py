@@ -9,7 +9,7 @@ def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
     at.turn()
     level, text = at.statuses()["Filter (whitelist)"]
     assert level == "ERROR"
-    assert "'(' is no regular expression" in text
+    assert "'(' is not a valid regular expression" in text
     assert len(at.nodes()["axes"].positions) == 1
     at.set("filter_whitelist", "odom")
     assert "Filter (whitelist)" not in at.statuses()

@@ -16,7 +16,7 @@ from webviz_displays.shared.geometry import FARTHEST, is_drawable, matrices, w_f
 F64 = NDArray[np.float64]
 
 MOST_ANGLE = 1000.0
-"""Radians; float32 resolves 0.003 degrees there, and no laser turns so often."""
+"""Radians; float32 resolves 0.003 degrees there, and no laser turns that often."""
 
 MOST_BEAMS = 100_000
 """Drawn of one scan, twenty times as many as any laser has; they take 25 ms of the frame loop."""
@@ -30,7 +30,7 @@ class Hits:
         beams: int (N,), index of each in the message.
         xyz: float64 (N, 3), metres in the frame of the scan.
         total: beams of the message.
-        dropped: how many of the others for which reason; those without any are left out.
+        dropped: counts of the other beams by reason; reasons without beams are omitted.
     """
 
     beams: NDArray[np.intp]
@@ -39,7 +39,7 @@ class Hits:
     dropped: dict[str, int]
 
     def sentence(self) -> str:
-        """What is shown of what was received."""
+        """How many points are shown and why the others are dropped."""
         text = f"Showing {len(self.beams)} of {self.total} points"
         if not self.dropped:
             return text + "."
@@ -48,19 +48,19 @@ class Hits:
 
 
 def fault(scan: messages.LaserScan) -> str:
-    """Why no beam of a scan has a place, "" if they have; a sentence."""
+    """A sentence why no beam of a scan can be placed, "" if they can."""
     if not len(scan.ranges):
-        return "The scan has no ranges."
+        return "The scan has no ranges. Check the laser driver."
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
         if np.isnan(value := getattr(scan, name)) or (name.startswith("angle") and np.isinf(value)):
-            return f"{name} is {value}: the publisher must set it to a number."
+            return f"{name} is {value}. The publisher must set it to a finite number."
     for name, most in (("angle_min", MOST_ANGLE), ("angle_increment", math.tau)):
         if abs(value := getattr(scan, name)) > most:
             return f"{name} is {value:g} rad; expected a number from {-most:g} to {most:g}."
     if scan.range_max <= scan.range_min:
         return (
             f"range_max ({scan.range_max:g} m) is not greater than range_min "
-            f"({scan.range_min:g} m), so no range is valid."
+            f"({scan.range_min:g} m), so no range is valid. Fix them in the laser driver."
         )
     return ""
 
@@ -96,10 +96,10 @@ def project(scan: messages.LaserScan) -> Hits:
 
 
 def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
-    """The points as they would be, had all beams been shot at the stamp of the scan.
+    """The points as if all beams had been measured at the stamp of the scan.
 
     Each beam is placed in the fixed frame with the transform at its own time, stamp +
-    i * time_increment. Where there is none, the one of the nearest beam that has one is used.
+    i * time_increment. If it is missing, the transform of the nearest beam that has one is used.
 
     Args:
         hits: of the scan in `sample`.

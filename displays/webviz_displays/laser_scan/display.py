@@ -20,7 +20,7 @@ LONG_SCAN_S = 1.0
 """A scan that takes longer is probably a wrong time_increment (RViz's limit)."""
 
 _ENDLESS_SCAN_S = 3600.0
-"""What takes longer is no scan, and its stamps may overflow."""
+"""A longer duration is not a valid scan, and its stamps may overflow."""
 
 
 class LaserScan(PointsDisplay):
@@ -32,20 +32,20 @@ class LaserScan(PointsDisplay):
         Topic, Input("sensor_msgs/msg/LaserScan"), Prop(help="Topic of the scans.")
     ] = Topic("/scan")
     color_transformer: Annotated[
-        Literal["Intensity", "AxisColor", "FlatColor"], Prop(help="What colours mean.")
+        Literal["Intensity", "AxisColor", "FlatColor"], Prop(help="How points are coloured.")
     ] = "Intensity"
     channel_name: Annotated[
         Literal["intensity", "range", "x", "y", "z"],
         Prop(
             when=("color_transformer", "Intensity"),
-            help="The number that is coloured; x, y and z are in the fixed frame.",
+            help="Value that determines the colour; x, y and z are in the fixed frame.",
         ),
     ] = "intensity"
     deskew: Annotated[
         Literal["De-skewed", "As measured"],
         Prop(
             rviz="De-skew",
-            help="Place each beam where the laser was at its time, or all at the stamp.",
+            help="Place each beam by the laser's pose at its own time, or all beams at the stamp.",
         ),
     ] = "De-skewed"
 
@@ -69,7 +69,10 @@ class LaserScan(PointsDisplay):
             ctx.warn("Points", f"Invisible: alpha is 0. {hits.sentence()}")
             return
         if scan.angle_increment == 0 and hits.total > 1:
-            ctx.warn("Angles", "angle_increment is 0: all beams lie on one line.")
+            ctx.warn(
+                "Angles",
+                "angle_increment is 0, so all beams lie on one line. Set it in the laser driver.",
+            )
         xyz = self._place(hits, sample, ctx)
         colors = self._colors(scan, hits, xyz, sample, ctx)
         # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
@@ -80,13 +83,16 @@ class LaserScan(PointsDisplay):
         scan: messages.LaserScan = sample.message
         duration = (hits.total - 1) * scan.time_increment
         if not abs(duration) < _ENDLESS_SCAN_S:
-            ctx.warn("Scan Time", f"time_increment is {scan.time_increment}; it is taken as 0.")
+            ctx.warn(
+                "Scan Time",
+                f"time_increment is {scan.time_increment}; using 0. Fix it in the laser driver.",
+            )
             return hits.xyz
         if duration > LONG_SCAN_S:
             ctx.warn(
                 "Scan Time",
                 f"The scan takes {duration:.3g} s by its time_increment of "
-                f"{scan.time_increment:g} s, which is rather long: is it in seconds?",
+                f"{scan.time_increment:g} s. Check that the driver gives it in seconds.",
             )
         if self.deskew == "As measured" or not duration or not sample.stamp_ns:
             return hits.xyz
@@ -95,7 +101,7 @@ class LaserScan(PointsDisplay):
             ctx.warn(
                 "De-skew",
                 f"{missing} of {len(xyz)} beams have no transform at their time; "
-                "they are drawn with that of the nearest beam which has.",
+                "the transform of the nearest beam that has one is used.",
             )
         return xyz
 
@@ -112,7 +118,7 @@ class LaserScan(PointsDisplay):
     def _channel(
         self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
     ) -> F64:
-        """The numbers (N,) that are coloured."""
+        """The values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):
             return coordinate(sample.pose, xyz, "xyz".index(self.channel_name))
         if self.channel_name == "intensity":
@@ -123,8 +129,8 @@ class LaserScan(PointsDisplay):
                 ctx.warn(
                     "Intensity",
                     f"The scan has {count} intensities for {hits.total} ranges; "
-                    "the points are coloured by range.",
+                    "colouring by range.",
                 )
             else:
-                ctx.ok("Intensity", "The scan has no intensities; it is coloured by range.")
+                ctx.ok("Intensity", "The scan has no intensities; colouring by range.")
         return scan.ranges[hits.beams].astype(np.float64)

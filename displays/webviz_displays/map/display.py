@@ -17,12 +17,12 @@ OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
 
 BEHIND = 100_000
-"""Layers that `draw_behind` lowers a map by: more than there are displays."""
+"""Layers that `draw_behind` lowers a map by: more than any config has displays."""
 
 
 @dataclass(frozen=True)
 class Look:
-    """What turns the cells of a tile into a picture.
+    """How the cells of a tile become a picture.
 
     Args:
         table: RGBA by cell value, uint8 (256, 4).
@@ -35,7 +35,7 @@ class Look:
     layer: int
 
     def is_like(self, other: Look | None) -> bool:
-        """Whether equal cells look alike; tables are kept, so the same one is the same object."""
+        """Whether equal cells look alike; tables are cached, so identity is enough."""
         return (
             other is not None
             and self.table is other.table
@@ -50,9 +50,9 @@ class Folded:
     Args:
         grid: the last map that could be drawn, if any.
         stamp_ns: of that map.
-        fault: what is wrong with a map that came after it.
+        fault: why a newer map could not be drawn.
         updates: how many changed the grid.
-        update_fault: what is wrong with the last update.
+        update_fault: why the last update was refused.
     """
 
     grid: TiledGrid | None
@@ -65,23 +65,23 @@ class Folded:
 class Map(Display):
     """An occupancy grid as a flat picture: free, occupied and unknown cells.
 
-    A map that cannot be drawn is an error, and the one before it stays: a robot that drives by it
+    A map that cannot be drawn is an error, and the previous map stays: a robot that drives by it
     is still seen on it.
     """
 
     rviz = "rviz_default_plugins/Map"
 
-    topic: Annotated[Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Whole maps.")] = Topic(
-        "/map"
-    )
+    topic: Annotated[
+        Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Topic of the maps.")
+    ] = Topic("/map")
     update_topic: Annotated[
         Topic,
         Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
-        Prop(help="Rectangles of cells that change the map; empty is the map's topic + _updates."),
+        Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
     ] = Topic()
     alpha: Annotated[
         float,
-        Prop(ge=0, le=1, widget="slider", help="Opacity of the map, 0 is invisible."),
+        Prop(ge=0, le=1, widget="slider", help="Opacity of the map; 0 is invisible."),
     ] = 0.7
     color_scheme: Annotated[
         Literal["map", "costmap", "raw"],
@@ -91,15 +91,15 @@ class Map(Display):
         ),
     ] = "map"
     draw_behind: Annotated[
-        bool, Prop(help="Lie behind all other maps, wherever it is in the list.")
+        bool, Prop(help="Draw this map below all other maps, regardless of its place in the list.")
     ] = False
     use_timestamp: Annotated[
         bool,
-        Prop(help="Stay where the map's frame was at its stamp, instead of following the frame."),
+        Prop(help="Keep the map where its frame was at the stamp, instead of following the frame."),
     ] = False
     binary_representation: Annotated[
         bool,
-        Prop(rviz="Binary representation", help="Two colours only, split at the threshold."),
+        Prop(rviz="Binary representation", help="Use two colours only, split at the threshold."),
     ] = False
     binary_threshold: Annotated[
         int,
@@ -117,7 +117,7 @@ class Map(Display):
         return self.use_timestamp and name == "topic"
 
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
-        """Take a new map, or change the one there is."""
+        """Take a new map, or update the current one."""
         grid = state.grid if state else None
         if name == "topic":
             try:
@@ -125,7 +125,7 @@ class Map(Display):
             except GridFault as fault:
                 return replace(state or Folded(None), fault=str(fault))
         if state is None or grid is None or state.fault:
-            return state  # an update says nothing without the map it changes
+            return state  # an update means nothing without the map it changes
         try:
             grid = updated(grid, sample.message, sample.frame)
         except GridFault as fault:
@@ -135,7 +135,7 @@ class Map(Display):
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the tiles; those whose cells and colours did not change keep their nodes."""
         if not samples:
-            ctx.warn("Map", "No map received.")
+            ctx.warn("Map", "No map received. Start the map server or choose another topic.")
             return
         folded: Folded = samples[-1].message
         grid = folded.grid
@@ -164,7 +164,7 @@ class Map(Display):
         self._report(folded, grid, ctx)
 
     def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
-        """Where the frame was at the stamp; remembered, as transforms are kept for seconds only."""
+        """Where the frame was at the stamp; kept, because transforms expire after seconds."""
         key = (ctx.frames.fixed_frame, frame, stamp_ns)
         if pose := ctx.frames.at(frame, stamp_ns):
             ctx.state["pose at stamp"] = (key, pose)
@@ -174,9 +174,9 @@ class Map(Display):
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"
         if folded.fault:
-            ctx.error("Map", f"{folded.fault} The map before it is still shown.")
+            ctx.error("Map", f"{folded.fault} Keeping the previous map.")
         elif self.alpha == 0:
-            ctx.warn("Map", f"{size}, invisible: alpha is 0.")
+            ctx.warn("Map", f"{size}, invisible: alpha is 0. Increase it to show the map.")
         else:
             ctx.ok("Map", f"{size} in frame '{grid.frame}'.")
         if folded.update_fault:
@@ -187,7 +187,7 @@ class Map(Display):
 
 
 def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, Image]:
-    """A node for each tile, those of the call before where nothing changed."""
+    """A node for each tile; unchanged tiles keep the node of the previous call."""
     before: dict[Corner, tuple[NDArray[np.int8], Image]] = {}
     if look.is_like(state.get("look")):
         before = state["tiles"]

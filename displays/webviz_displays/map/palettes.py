@@ -26,7 +26,7 @@ def lookup_table(
     Args:
         scheme: RViz's colour scheme.
         alpha: 0 to 1, multiplies the palette's own.
-        binary_threshold: legal values from this one on get one colour, those below another; None
+        binary_threshold: legal values from here on get one colour, those below another; None
             keeps them apart.
 
     Returns:
@@ -58,7 +58,7 @@ def _raw() -> NDArray[np.uint8]:
 
 
 def _legal_and_special(scheme: Scheme) -> NDArray[np.uint8]:
-    """What map and costmap have in common, around the legal values 0 to 100."""
+    """The colours outside the legal values 0 to 100, shared by map and costmap."""
     colors = np.empty((256, 3), np.uint8)
     legal = (255 * np.arange(101)) // 100
     if scheme == "map":

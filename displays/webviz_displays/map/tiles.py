@@ -16,14 +16,14 @@ from webviz_displays.shared.geometry import FARTHEST, normalized
 TILE = 512
 """Cells along the edges of a tile, unless there would be more than `MOST_TILES`."""
 MOST_TILES = 128
-"""Of a map. Each is a picture of its own, which takes the frame loop up to a millisecond."""
+"""Per map. Each tile is a picture, which takes the frame loop up to a millisecond."""
 LONGEST_TILE = 8192
-"""Cells along an edge: what every browser accepts in a texture."""
+"""Cells along the edge of a texture that every browser accepts."""
 MOST_CELLS = MOST_TILES * LONGEST_TILE
-"""Along the edge of a map."""
+"""Cells along the edge of a map."""
 
 SMALLEST_CELL = 1e-6
-"""Metres; what is smaller is an error of the publisher, and nobody could see it."""
+"""Metres; smaller cells are a publisher's error and invisible."""
 
 Corner = tuple[int, int]
 """Row and column of a tile's cell (0, 0) in the grid."""
@@ -42,7 +42,7 @@ class TiledGrid:
         width, height: in cells.
         resolution: edge of a cell in metres.
         origin: of the corner of cell (0, 0).
-        tiles: int8 arrays of at most `tile_shape` cells by corner. They are never written to, and
+        tiles: int8 arrays of at most `tile_shape` cells, by corner. They are read-only, and
             a tile that a message leaves as it was stays the same object.
     """
 
@@ -60,7 +60,7 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
     Args:
         message: the grid.
         frame: its frame id.
-        before: tiles that did not change are taken from here.
+        before: the previous grid, whose unchanged tiles are reused.
 
     Raises:
         GridFault: the message contradicts itself, or what it describes cannot be drawn.
@@ -68,11 +68,13 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
     info, data = message.info, message.data
     width, height = info.width, info.height
     if not width or not height:
-        raise GridFault(f"The map has no cells: its size is {width} x {height}.")
+        raise GridFault(
+            f"The map has no cells: its size is {width} x {height}. Check the map server."
+        )
     if len(data) != width * height:
         raise GridFault(
             f"The map's size is {width} x {height} = {width * height} cells, "
-            f"but it carries {len(data)}."
+            f"but its data has {len(data)}. Fix the publisher."
         )
     if max(width, height) > MOST_CELLS:
         raise GridFault(
@@ -91,7 +93,7 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
     for row, column in _corners((0, height), (0, width), shape):
         tile = cells[row : row + rows, column : column + columns]
         old = known.get((row, column))
-        # A copy, for a view would keep the whole message alive.
+        # A copy: a view would keep the whole message alive.
         tiles[row, column] = old if old is not None and np.array_equal(old, tile) else tile.copy()
     return TiledGrid(frame, width, height, info.resolution, _origin(info.origin), tiles)
 
@@ -107,7 +109,7 @@ def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
     if len(data) != width * height:
         raise GridFault(
             f"The update's size is {width} x {height} = {width * height} cells, "
-            f"but it carries {len(data)}."
+            f"but its data has {len(data)}. Fix the publisher."
         )
     if x < 0 or y < 0 or x + width > grid.width or y + height > grid.height:
         raise GridFault(
@@ -158,11 +160,11 @@ def _corners(
 
 
 def _origin(pose: Any) -> Pose:
-    """A geometry_msgs/msg/Pose; an orientation that was never set counts as none, as in RViz."""
+    """A geometry_msgs/msg/Pose; an all-zero orientation counts as the identity, as in RViz."""
     p, q = pose.position, pose.orientation
     position, wxyz = (p.x, p.y, p.z), (q.w, q.x, q.y, q.z)
     if not all(map(isfinite, (*position, *wxyz))):
-        raise GridFault("The map's origin holds a NaN or infinity.")
+        raise GridFault("The map's origin is not finite. Fix it in the map's file.")
     if max(map(abs, position)) >= FARTHEST:
         x, y, z = position
         raise GridFault(

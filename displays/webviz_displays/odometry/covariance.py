@@ -17,10 +17,10 @@ F64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 WIDEST = np.deg2rad(89.0)
-"""An angle that uncertain is drawn as if it were this; the tangent of 90 degrees has no end."""
+"""Larger angles are clamped to this; the tangent of 90 degrees is infinite."""
 
 LARGEST = FARTHEST**2
-"""Square metres or square radians; what deviates more reaches farther than can be drawn."""
+"""Square metres or square radians; larger variances reach farther than can be drawn."""
 
 _LIFT = 1e-3
 """Metres; flat ellipses lie so high above their pose, to be seen on a map of the same height."""
@@ -61,7 +61,7 @@ def read(covariances: F64) -> tuple[Covariances, Mask]:
 
     Returns:
         The covariances, and which (N,) of them have entries up to `LARGEST` and are positive
-        semidefinite in the parts that are drawn. The others are to be left out.
+        semidefinite in the parts that are drawn. The caller skips the others.
     """
     matrices = np.reshape(covariances, (-1, 6, 6))
     finite = np.all(np.abs(matrices) <= LARGEST, axis=(1, 2))

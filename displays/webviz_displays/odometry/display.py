@@ -19,11 +19,11 @@ from webviz_displays.shared.pose_properties import Covariance, PoseShape
 from webviz_displays.shared.rods import add_transparent_arrows
 
 MOST_COVARIANCES = 100
-"""RViz's default Keep. Each covariance is some transparent solids, which browsers have to sort."""
+"""RViz's default Keep. Each covariance is several transparent solids, which browsers sort."""
 
 
 class Odometry(Display):
-    """Where a robot believes it was and is, and how sure it is of that."""
+    """Where a robot estimates that it was and is, with the uncertainty."""
 
     rviz = "rviz_default_plugins/Odometry"
 
@@ -31,21 +31,21 @@ class Odometry(Display):
         Topic("/odom")
     )
     position_tolerance: Annotated[
-        float, Prop(ge=0, unit="m", help="A pose is added if the robot moved at least so far,")
+        float, Prop(ge=0, unit="m", help="Add a pose after the robot moved by this distance.")
     ] = 0.1
     angle_tolerance: Annotated[
-        float, Prop(ge=0, unit="rad", help="or turned at least so much, since the last one.")
+        float, Prop(ge=0, unit="rad", help="Add a pose after the robot turned by this angle.")
     ] = 0.1
-    keep: Annotated[int, Prop(ge=0, help="How many of the newest poses stay; 0 is all.")] = 100
+    keep: Annotated[int, Prop(ge=0, help="Number of newest poses to keep; 0 keeps all.")] = 100
     shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
-    covariance: Annotated[Covariance, Prop(help="How to draw uncertainty.")] = Covariance()
+    covariance: Annotated[Covariance, Prop(help="How to draw the covariances.")] = Covariance()
 
     def history(self) -> Keep:
         """The newest poses that were accepted."""
         return Keep(count=self.keep)
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether the robot moved by one of the tolerances, or what is wrong with the pose.
+        """Whether the robot moved by one of the tolerances, or why the pose is invalid.
 
         A robot at rest counts as well when its covariance becomes invalid, or valid again.
         """
@@ -59,7 +59,7 @@ class Odometry(Display):
         return self.covariance.value and is_sound(new.message) != is_sound(last)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """All poses as one node, and what is uncertain as a few more."""
+        """All poses as one node, and their covariances as a few more."""
         if not samples:
             return
         ctx.ok("Pose", f"Showing {len(samples)} pose{'s' if len(samples) != 1 else ''}.")
@@ -77,7 +77,7 @@ class Odometry(Display):
             group.axes("poses", poses.positions, poses.wxyzs, look.axes_length, look.axes_radius)
             return
         if look.alpha == 0:
-            ctx.warn("Pose", "The arrows are invisible: alpha is 0.")
+            ctx.warn("Pose", "The arrows are invisible: alpha is 0. Increase it to show them.")
             return
         length = look.shaft_length + look.head_length
         segments = along_x(poses.positions, poses.rotations, length)
@@ -97,8 +97,8 @@ class Odometry(Display):
         if not ok.all():
             ctx.warn(
                 "Covariance",
-                f"{(~ok).sum()} of {len(ok)} covariances are not drawn: they are not finite, "
-                f"larger than {covariance.LARGEST:g}, or have a negative eigenvalue.",
+                f"{(~ok).sum()} of {len(ok)} covariances are invalid and not drawn: not finite, "
+                f"larger than {covariance.LARGEST:g}, or with a negative eigenvalue.",
             )
         elif negative.any():
             ctx.warn(

@@ -1,4 +1,4 @@
-"""Odometry messages as arrays, and what may be wrong with them."""
+"""Odometry messages as arrays, and checks of their poses."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Trail:
 
 
 def fault(message: messages.Odometry) -> str:
-    """Why a pose cannot be drawn, "" if it can; a sentence."""
+    """A sentence why a pose cannot be drawn, "" if it can."""
     p, q = message.pose.pose.position, message.pose.pose.orientation
     if not all(map(isfinite, (p.x, p.y, p.z, q.x, q.y, q.z, q.w))):
         return (
@@ -49,11 +49,11 @@ def fault(message: messages.Odometry) -> str:
         return f"The position ({p.x:g}, {p.y:g}, {p.z:g}) is too far away to be drawn."
     square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if square == 0.0:
-        return "The orientation is all zeros: the publisher has to set it (w = 1 is unturned)."
+        return "The orientation is all zeros. The publisher must set it (w = 1 for no rotation)."
     if abs(square - 1.0) >= UNIT_TOLERANCE:
         return (
             f"The orientation ({q.x:g}, {q.y:g}, {q.z:g}, {q.w:g}) is not normalized: "
-            f"its squares add up to {square:g} instead of 1."
+            f"its squared length is {square:g} instead of 1."
         )
     return ""
 
@@ -61,7 +61,7 @@ def fault(message: messages.Odometry) -> str:
 def has_moved(
     new: messages.Odometry, last: messages.Odometry, distance: float, angle: float
 ) -> bool:
-    """Whether a pose is at least so far (m) or so much turned (rad) from the last one."""
+    """Whether a pose is at least this far (m) or turned this much (rad) from the last one."""
     a, b = new.pose.pose, last.pose.pose
     p, q = a.position, b.position
     if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
@@ -76,14 +76,14 @@ def is_sound(message: messages.Odometry) -> bool:
 
 
 class Trails:
-    """Trails of a list of samples that grows at its end and is cut at its beginning."""
+    """Trails of a list of samples that grows at its end and shrinks at its start."""
 
     def __init__(self) -> None:
         self._samples: list[Sample] = []
         self._trail = trail([])
 
     def of(self, samples: Sequence[Sample]) -> Trail:
-        """`trail` of these samples; those of the call before are not looked at again."""
+        """`trail` of these samples; only new ones are read."""
         first = next((i for i, old in enumerate(self._samples) if old is samples[0]), None)
         known = 0 if first is None else len(self._samples) - first
         if first is None or self._samples[first:] != list(samples[:known]):

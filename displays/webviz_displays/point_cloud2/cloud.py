@@ -1,4 +1,4 @@
-"""Reading the fields of a PointCloud2, whatever their types, order and padding."""
+"""Reading the fields of a PointCloud2 of any types, order and padding."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ _XYZ = np.dtype("V12")
 """Three floats as one item: numpy copies strided items five times as fast as strided rows."""
 
 _NAMED = 20
-"""Fields that a sentence lists."""
+"""Fields that a status lists by name."""
 
 
 class CloudError(ValueError):
-    """Why a cloud, or a field of it, cannot be read; a sentence."""
+    """A cloud, or one of its fields, cannot be read; the text is a sentence that says why."""
 
 
 class Cloud:
-    """The points of a message as arrays, views of its bytes where nothing has to be converted.
+    """The points of a message as arrays; views of its bytes if no conversion is needed.
 
     Args:
         message: its fields may have any type, order and place, big-endian and padded rows included.
@@ -35,10 +35,10 @@ class Cloud:
     Attributes:
         count: of points.
         names: of the fields, in the order of the message.
-        remark: what is odd about the sizes, "" if nothing; a sentence.
+        remark: a sentence about inconsistent sizes, "" if they agree.
 
     Raises:
-        CloudError: there are fewer bytes than width, height and steps tell.
+        CloudError: there are fewer bytes than width, height and steps require.
     """
 
     def __init__(self, message: messages.PointCloud2) -> None:
@@ -51,13 +51,15 @@ class Cloud:
         if self._row_step < row:
             self.remark = (
                 f"row_step is {message.row_step}, less than width x point_step, {row}; "
-                "rows are read as if they followed each other."
+                "reading the rows as contiguous. Fix the publisher."
             )
             self._row_step = row
         if not self.count:
             return
         if not message.point_step:
-            raise CloudError(f"point_step is 0, but there are {self.count} points.")
+            raise CloudError(
+                f"point_step is 0, but the cloud has {self.count} points. Fix the publisher."
+            )
         needed = (message.height - 1) * self._row_step + row
         if size < needed:
             raise CloudError(
@@ -80,7 +82,7 @@ class Cloud:
         """A field of all points (N,) in the type of the message; the first of several elements.
 
         Raises:
-            CloudError: there is no such field, or it cannot be read.
+            CloudError: the field is missing or cannot be read.
         """
         offset, dtype = self._place(name)
         return self._view(dtype, offset)
@@ -89,7 +91,7 @@ class Cloud:
         """The four bytes of a field of all points as one number (N,), whatever its type.
 
         Raises:
-            CloudError: there is no such field, or it is not of four bytes.
+            CloudError: the field is missing or does not have four bytes.
         """
         offset, dtype = self._place(name)
         if dtype.itemsize != 4:
@@ -101,7 +103,7 @@ class Cloud:
 
         Returns:
             float32 (N, 3) in metres, and that point, zero if they are near zero already: float32
-            resolves 0.5 m at UTM coordinates. What cannot be drawn may be anything.
+            resolves 0.5 m at UTM coordinates. Rows that cannot be drawn are undefined.
 
         Raises:
             CloudError: x, y or z is missing or cannot be read.
@@ -120,7 +122,7 @@ class Cloud:
             xyz = np.ascontiguousarray(self._view(_XYZ, offset))
             return xyz.view(np.float32).reshape(-1, 3), origin
         xyz = np.empty((self.count, 3), np.float32)
-        with np.errstate(over="ignore", invalid="ignore"):  # such points are left out later
+        with np.errstate(over="ignore", invalid="ignore"):  # such points are dropped later
             for i, column in enumerate(columns):
                 if origin[i]:
                     np.subtract(
@@ -148,7 +150,7 @@ class Cloud:
         return field.offset, dtype
 
     def _view(self, dtype: np.dtype[Any], offset: int) -> NDArray[Any]:
-        """What lies at an offset in all points (N,); a copy only where rows are padded."""
+        """The values at an offset in all points (N,); a copy only if rows are padded."""
         if not self.count:
             return np.empty(0, dtype)
         height, width, step = self._message.height, self._message.width, self._message.point_step
@@ -168,9 +170,9 @@ def drawable(xyz: NDArray[np.float32]) -> NDArray[np.intp] | None:
 
 
 def _make_sense_swapped(columns: list[NDArray[Any]]) -> bool:
-    """Whether coordinates are sensible in the other byte order, and most are not in theirs.
+    """Whether coordinates are plausible only in the other byte order.
 
-    Floats in the wrong order are noise, of which a fifth happens to be sensible.
+    Floats in the wrong order are noise, of which one fifth happens to be plausible.
     """
     some = [column[:: max(len(column) // 100, 1)] for column in columns]
     if any(column.dtype.kind != "f" for column in some):
@@ -187,7 +189,7 @@ def _are_sensible(values: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def _middle(columns: list[NDArray[Any]]) -> Position:
-    """A round point near most points, judged by a hundred of them."""
+    """A round point near most points, estimated from a hundred of them."""
     step = max(len(columns[0]) // 100, 1)
     with np.errstate(invalid="ignore"):
         some = np.stack([column[::step].astype(np.float64) for column in columns], axis=1)

@@ -1,4 +1,4 @@
-"""The colours that a point cloud brings along."""
+"""The colours contained in a point cloud."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def automatic(names: list[str]) -> str:
 
 
 def packed_colors(cloud: Cloud, rows: Rows | None) -> tuple[U8, U8 | None]:
-    """Colours (N, 3) of a field "rgb" or "rgba", 0xAARRGGBB in four bytes of whatever type.
+    """Colours (N, 3) of a field "rgb" or "rgba", 0xAARRGGBB in four bytes of any type.
 
     Returns:
         The colours and, if there is only "rgba", opacities (N,) from 0 to 255.
 
     Raises:
-        CloudError: there is no such field, or it cannot be read.
+        CloudError: the field is missing or cannot be read.
     """
     has_alpha = "rgb" not in cloud.names and "rgba" in cloud.names
     numbers = picked(cloud.quads("rgba" if has_alpha else "rgb"), rows)
@@ -53,7 +53,7 @@ def separate_colors(cloud: Cloud, rows: Rows | None) -> U8:
     """Colours (N, 3) of fields "r", "g" and "b": floats from 0 to 1, or integers from 0 to 255.
 
     Raises:
-        CloudError: one of them is missing, or cannot be read.
+        CloudError: one of them is missing or cannot be read.
     """
     channels = [picked(cloud.values(name), rows) for name in "rgb"]
     colors = np.empty((len(channels[0]), 3), np.uint8)
@@ -61,7 +61,7 @@ def separate_colors(cloud: Cloud, rows: Rows | None) -> U8:
         scale = 255.0 if channel.dtype.kind == "f" else 1.0
         with np.errstate(invalid="ignore", over="ignore"):
             bright = np.multiply(channel, scale, dtype=np.float64)
-        np.fmax(bright, 0.0, out=bright)  # these two take the number where the other is NaN
+        np.fmax(bright, 0.0, out=bright)  # fmax and fmin ignore NaN
         np.fmin(bright, 255.0, out=bright)
         colors[:, i] = np.rint(bright, out=bright)
     return colors

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Rows = NDArray[np.intp]
 
 _CELLS = 1 << 21
-"""Voxels along each axis until their numbers begin anew: three such numbers fit 63 bits."""
+"""Voxels along each axis until their numbers wrap: three such numbers fit 63 bits."""
 
 _SPREAD = 0x9E3779B97F4A7C15
 """2^64 divided by the golden ratio, which scatters numbers (Knuth, TAOCP 3, section 6.4)."""
@@ -21,7 +21,7 @@ _LEAST_VOXEL = 1e-4
 
 @functools.lru_cache(maxsize=4)
 def evenly(total: int, limit: int) -> Rows:
-    """`limit` of `total` rows, ascending: one somewhere in each of `limit` equal parts.
+    """`limit` of `total` rows, ascending: one from each of `limit` equal parts.
 
     Always the same for the same numbers, so that a scene at rest stands still; not at equal
     distances, which would show as stripes in an organised cloud.
@@ -45,8 +45,8 @@ def one_per_voxel(xyz: NDArray[np.float32], size: float) -> Rows:
     for axis in range(3):
         numbers *= _CELLS
         numbers += np.floor(xyz[:, axis] / size).astype(np.int64) & (_CELLS - 1)
-    # Sorting a million numbers takes longer than all the rest of a display, hence a hash table.
-    # Who writes a slot last has it; those of other voxels who wanted it try again in a new table.
+    # Sorting a million numbers takes longer than the rest of a display, hence a hash table.
+    # The last writer owns a slot; points of other voxels retry in a new table.
     bits = max(len(xyz), 2).bit_length()
     table = np.empty(1 << bits, np.intp)
     left = np.arange(len(xyz))

@@ -23,7 +23,7 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
 DOTS_LIMIT = 50_000
-"""Dots of the style Points are lines to the browser, which is slow with more of them."""
+"""The browser draws the style Points as lines, and slows down with more of them."""
 
 WHITE = (255, 255, 255)
 
@@ -39,23 +39,23 @@ class PointCloud2(PointsDisplay):
     color_transformer: Annotated[
         Literal["Auto", "Intensity", "AxisColor", "FlatColor", "RGB8", "RGBF32"],
         Prop(
-            help="What colours mean; Auto takes rgb or rgba if the cloud has one, else intensity, "
-            "else r, g and b, else the axis."
+            help="How points are coloured; Auto uses the first of rgb or rgba, intensity, "
+            "r g b and the axis that the cloud has."
         ),
     ] = "Auto"
     channel_name: Annotated[
         str,
         Prop(
             when=BY_INTENSITY,
-            help="The field that is coloured, any of the cloud's.",
+            help="Field that determines the colour.",
         ),
     ] = "intensity"
     max_points: Annotated[
         int,
         Prop(
             ge=0,
-            help="Of more points so many are shown, evenly picked; 0 shows all. Clouds that stay "
-            "for the decay time share them. A browser needs 15 bytes for each.",
+            help="Limit of points shown, evenly sampled; 0 shows all. Clouds kept "
+            "for the decay time share it. Each point takes 15 bytes to send.",
         ),
     ] = 300_000
     voxel_size: Annotated[
@@ -70,7 +70,7 @@ class PointCloud2(PointsDisplay):
         for number in [number for number, received_ns in clouds.items() if received_ns < oldest]:
             del clouds[number]
         shares = ctx.state.get("shares", 1) if self.decay_time else 1
-        count = len(clouds) + 1 if self.decay_time else 1  # one is about to come
+        count = len(clouds) + 1 if self.decay_time else 1  # including the next one
         if count > shares or count < shares // 4:
             shares = 1 << (count - 1).bit_length()
         ctx.state["shares"] = shares
@@ -101,7 +101,7 @@ class PointCloud2(PointsDisplay):
             xyz = xyz[seen]
             colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
             if hidden := len(seen) - len(xyz):
-                sentence += f" {spaced(hidden)} of them are invisible: their alpha in rgba is 0."
+                sentence += f" {spaced(hidden)} of them are invisible: their rgba has alpha 0."
         (ctx.ok if len(xyz) else ctx.warn)("Points", sentence)
         if self.alpha == 0:
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
@@ -110,15 +110,15 @@ class PointCloud2(PointsDisplay):
         self.draw_points(xyz, colors, group, ctx)  # as in RViz, boxes turn with the sensor
 
     def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
-        """Which points to show, None for all, and a sentence about it.
+        """The rows of the points to show, None for all, and a sentence about them.
 
         Args:
             xyz: all points of a cloud.
-            shares: so many clouds share what may be shown.
+            shares: number of clouds that share the limit.
         """
         total = len(xyz)
         if not total:
-            return None, "The cloud is empty: width x height is 0."
+            return None, "The cloud is empty: width x height is 0. Check the sensor or its filter."
         reasons: list[str] = []
 
         def left(before: int, rows: Rows | None, reason: str) -> int:
@@ -132,7 +132,9 @@ class PointCloud2(PointsDisplay):
         if self.voxel_size:
             kept = one_per_voxel(picked(xyz, rows), self.voxel_size)
             rows = kept if rows is None else rows[kept]
-            count = left(count, rows, f"in voxels of {self.voxel_size:g} m that show another")
+            count = left(
+                count, rows, f"in voxels of {self.voxel_size:g} m that already show a point"
+            )
         name, limit = "max_points", self.max_points or total * shares
         if self.style == "Points" and limit > DOTS_LIMIT:
             name, limit = "the limit of the style Points", DOTS_LIMIT
@@ -140,10 +142,10 @@ class PointCloud2(PointsDisplay):
             kept = evenly(count, max(limit // shares, 1))
             rows = kept if rows is None else rows[kept]
             many = f" for {shares} clouds" if shares > 1 else ""
-            count = left(count, rows, f"over {name}, {spaced(limit)}{many}")
+            count = left(count, rows, f"over {name} of {spaced(limit)}{many}")
         sentence = f"Showing {spaced(count)} of {spaced(total)} points"
         if reasons:
-            sentence += f"; left out: {', '.join(reasons)}"
+            sentence += f"; dropped: {', '.join(reasons)}"
         return rows, f"{sentence}."
 
     def _colors(
@@ -176,7 +178,7 @@ class PointCloud2(PointsDisplay):
         return colors, opacities
 
     def _channel(self, cloud: Cloud) -> NDArray[Any]:
-        """The numbers (N,) that are coloured; as in RViz "intensities" stands in."""
+        """The values (N,) that determine the colour; as in RViz "intensities" is a fallback."""
         name = self.channel_name
         if name == "intensity" and name not in cloud.names and "intensities" in cloud.names:
             name = "intensities"

@@ -1,4 +1,4 @@
-"""A robot as its description says, where its transforms say."""
+"""The RobotModel display."""
 
 from webviz_displays.robot_model.display import RobotModel
 

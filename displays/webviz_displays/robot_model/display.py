@@ -1,4 +1,4 @@
-"""A robot as its description says, where its transforms say."""
+"""The RobotModel display."""
 
 from __future__ import annotations
 
@@ -28,10 +28,12 @@ SECOND = 1_000_000_000
 
 
 class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What to show of the links' inertial properties."""
+    """Which inertial properties of the links to show."""
 
-    mass: Annotated[bool, Prop(help="A ball of lead of each link's mass.")] = False
-    inertia: Annotated[bool, Prop(help="The box that has each link's moments of inertia.")] = False
+    mass: Annotated[bool, Prop(help="Show each link's mass as a lead sphere.")] = False
+    inertia: Annotated[
+        bool, Prop(help="Show each link's inertia as a box with the same moments.")
+    ] = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +42,7 @@ class _Model:
 
     Args:
         robot: without collision shapes.
-        full: with them, None while nobody wants them or they are being loaded.
+        full: with them; None if they are switched off or still loading.
         prefix: of frame ids.
         shown: links that are switched on.
     """
@@ -55,7 +57,7 @@ class _Model:
         return self.prefix + link
 
     def lost(self, frames: Frames) -> list[str]:
-        """Links that should be drawn and have no transform."""
+        """Enabled links without a transform."""
         latest, prefix = frames.latest, self.prefix
         return [link for link in self.shown if latest(prefix + link) is None]
 
@@ -68,70 +70,76 @@ class RobotModel(Display):
     description_topic: Annotated[
         Topic,
         Input("std_msgs/msg/String", latched=True, optional=True),
-        Prop(when=("description_source", "Topic"), help="Where the robot's URDF is published."),
+        Prop(when=("description_source", "Topic"), help="Topic of the robot's URDF."),
     ] = Topic("/robot_description")
     description_source: Annotated[
-        Literal["Topic", "File"], Prop(help="Whether the robot's URDF comes by topic or by file.")
+        Literal["Topic", "File"], Prop(help="Read the robot's URDF from a topic or from a file.")
     ] = "Topic"
     description_file: Annotated[
         str,
         Prop(
             when=("description_source", "File"),
-            help="A URDF file, or a xacro file, on the machine webviz runs on.",
+            help="URDF or xacro file on the machine that runs webviz.",
         ),
     ] = ""
     package_paths: Annotated[
         list[str],
         Prop(
-            help="Folders with ROS packages, in which meshes are searched before those on "
+            help="Folders with ROS packages to search for meshes before those on "
             "AMENT_PREFIX_PATH. Files outside packages need --mesh-root."
         ),
     ] = msgspec.field(default_factory=list)
     visual_enabled: Annotated[bool, Prop(help="Draw the links' visual shapes.")] = True
     collision_enabled: Annotated[bool, Prop(help="Draw the links' collision shapes.")] = False
-    mass_properties: Annotated[MassProperties, Prop(help="Draw masses and inertias.")] = (
-        MassProperties()
-    )
+    mass_properties: Annotated[
+        MassProperties, Prop(help="Draw the links' masses and inertias.")
+    ] = MassProperties()
     update_interval: Annotated[
-        float, Prop(ge=0, unit="s", help="Least time between moves; 0 is as often as possible.")
+        float,
+        Prop(ge=0, unit="s", help="Minimum time between moves; 0 moves as often as possible."),
     ] = 0.0
     alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")] = 1.0
     tf_prefix: Annotated[
         str,
-        Prop(rviz="TF Prefix", help="The robot's frames are named prefix/link, as in a namespace."),
+        Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link."),
     ] = ""
     all_links_enabled: Annotated[
         bool,
-        Prop(rviz="Links/All Links Enabled", help="Draw the links without settings of their own."),
+        Prop(
+            rviz="Links/All Links Enabled",
+            help="Draw the links that have no settings of their own.",
+        ),
     ] = True
-    links: Annotated[dict[str, LinkSettings], Prop(help="Settings of single links, by name.")] = (
+    links: Annotated[dict[str, LinkSettings], Prop(help="Settings of single links by name.")] = (
         msgspec.field(default_factory=dict)
     )
-    joints: Annotated[
-        dict[str, JointSettings], Prop(help="Settings of single joints, by name.")
-    ] = msgspec.field(default_factory=dict)
+    joints: Annotated[dict[str, JointSettings], Prop(help="Settings of single joints by name.")] = (
+        msgspec.field(default_factory=dict)
+    )
 
     def listens(self, name: str) -> bool:
         """A description from a file needs no topic."""
         return self.description_source == "Topic"
 
     def depends(self, ctx: Context) -> object:
-        """How far loading is, and which links are lost; those turn grey.
+        """Loading progress, and which links lack a transform; those turn grey.
 
-        Which were lost when it was drawn counts too: a robot just loaded has never been asked.
+        Links lost when it was drawn count too: a robot just loaded has no earlier state.
         """
         model: _Model | None = ctx.state.get("model")
         loading = [progress(loading) for loading in ctx.state.get("loading", {}).values()]
         return loading, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """Draw the robot there is; each link moves with its frame."""
+        """Draw the current robot; each link moves with its frame."""
         model = ctx.state["model"] = self._model(samples, ctx)
         if model is None:
             return
         report_robot(model.robot, model.full, ctx)
         if not (self.visual_enabled or self.collision_enabled):
-            ctx.warn("Shapes", "Neither visual nor collision shapes are switched on.")
+            ctx.warn(
+                "Shapes", "Neither visual nor collision shapes are switched on. Enable one of them."
+            )
         report_strangers("Link", list(self.links), list(model.robot.links), ctx)
         report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)
         for name in [joint for joint in self.joints if joint in model.robot.joints][:NAMED]:
@@ -146,7 +154,7 @@ class RobotModel(Display):
             group.add(part.key, paint(part.node, grey=part.link in lost), part.pose)
 
     def tick(self, ctx: Context) -> None:
-        """Say where links are, and draw their trails."""
+        """Report where links are, and draw their trails."""
         model: _Model | None = ctx.state.get("model")
         if model is None:
             return
@@ -159,7 +167,7 @@ class RobotModel(Display):
         self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
 
     def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
-        """Why the first lost links are; the texts hold times, so they are renewed every second."""
+        """Why the first links are lost; the texts contain times and are renewed every second."""
         moment = (lost, ctx.frames.now_ns // SECOND)
         known, reasons = ctx.state.get("reasons", (None, {}))
         if known != moment:
@@ -193,7 +201,7 @@ class RobotModel(Display):
         )
 
     def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
-        """The robot as described; until a new one is loaded, the one there was."""
+        """The described robot; the previous one until it is loaded."""
         before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
         request = self._request(samples, ctx)
         if request is None:
@@ -221,9 +229,13 @@ class RobotModel(Display):
         if self.description_source == "File":
             if self.description_file:
                 return request_file(self.description_file, paths)
-            ctx.warn("URDF", "No description file is chosen.")
+            ctx.warn("URDF", "No description file is chosen. Enter its path in Description File.")
             return None
         if samples:
             return Request(text=samples[-1].message.data, package_paths=paths)
-        ctx.warn("URDF", f"No robot description yet on {self.description_topic.name}.")
+        ctx.warn(
+            "URDF",
+            f"No robot description received on {self.description_topic.name}. "
+            "Start robot_state_publisher.",
+        )
         return None

@@ -27,23 +27,29 @@ _AXES = Axes(np.zeros((1, 3), np.float32), np.array(((1, 0, 0, 0),), np.float32)
 
 
 class LinkSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What a user chose for one link."""
+    """Settings of one link."""
 
     enabled: Annotated[bool, Prop(help="Draw this link.")] = True
     alpha: Annotated[
-        float, Prop(ge=0, le=1, widget="slider", help="Opacity, times that of the robot.")
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Opacity of the link, multiplied by that of the robot.",
+        ),
     ] = 1.0
-    show_trail: Annotated[bool, Prop(help="Draw the last 2 m of the link's way.")] = False
+    show_trail: Annotated[bool, Prop(help="Draw the link's last 2 m of travel.")] = False
     show_axes: Annotated[
-        bool, Prop(help="Draw the axes of the link's frame, and say where it is.")
+        bool, Prop(help="Draw the axes of the link's frame and report its pose.")
     ] = False
 
 
 class JointSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What a user chose for one joint."""
+    """Settings of one joint."""
 
     show_axes: Annotated[
-        bool, Prop(help="Draw the axes of the joint's frame at position 0, and say how it moves.")
+        bool, Prop(help="Draw the axes of the joint's frame at position 0 and report how it moves.")
     ] = False
     show_joint_axis: Annotated[
         bool, Prop(help="Draw an arrow along the axis the joint moves along or about.")
@@ -52,12 +58,12 @@ class JointSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
 
 @dataclass(frozen=True)
 class Choices:
-    """What a user chose for a robot.
+    """Settings of a robot.
 
     Args:
         visual, collision, mass, inertia: what to draw of each link.
         alpha: opacity of visual and collision shapes.
-        links: by name; they decide for the links they name.
+        links: by name; they override `all_links`.
         joints: by name.
         all_links: whether to draw the links that have no settings.
     """
@@ -84,7 +90,7 @@ class Part:
         link: name of the link.
         key: unique in the robot.
         pose: of the node in the link's frame.
-        node: as it looks while the link has a transform.
+        node: its look while the link has a transform.
     """
 
     link: str
@@ -94,23 +100,23 @@ class Part:
 
 
 class Paint:
-    """Shapes with another opacity or in grey, each made once: a model can hold megabytes."""
+    """Cache of shapes with another opacity or in grey: a model can hold megabytes."""
 
     def __init__(self) -> None:
         self._made: dict[tuple[int, float, bool], tuple[Node, Node]] = {}
         self._before: dict[tuple[int, float, bool], tuple[Node, Node]] = {}
 
     def begin(self) -> None:
-        """Keep what is used between this call and the next, and drop the rest at the next."""
+        """Start a round: shapes not used until the next call are dropped then."""
         self._before, self._made = self._made, {}
 
     def __call__(self, node: Node, alpha: float = 1.0, grey: bool = False) -> Node:
-        """`node` with its opacity multiplied by `alpha`, and grey if so wanted."""
+        """`node` with its opacity multiplied by `alpha`, and optionally grey."""
         alpha = 1.0 if alpha >= OPAQUE else alpha
         if (alpha == 1.0 and not grey) or not isinstance(node, Mesh | Glb):
             return node
         key = (id(node), alpha, grey)
-        # The unpainted node is held too, so that its id is nobody else's.
+        # The unpainted node is held too, so that its id is not reused.
         made = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, grey))
         self._made[key] = made
         return made[1]
@@ -123,7 +129,7 @@ def parts_of(
 
     Args:
         visuals: the robot.
-        collisions: the same with its collision shapes, None while they are not loaded.
+        collisions: the same with its collision shapes; None until they are loaded.
         choices: the user's.
         paint: makes the shapes transparent.
     """

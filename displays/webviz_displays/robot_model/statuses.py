@@ -1,4 +1,4 @@
-"""What there is to say about a robot; all lists are bounded."""
+"""Statuses of a robot; all lists are bounded."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from webviz.data.transforms import Explanation, Kind
 from webviz_urdf import Joint, Missing, Robot
 
 NAMED = 5
-"""Missing meshes, warnings and links that are named; the rest is counted."""
+"""Missing meshes, warnings and links that are listed; the rest is counted."""
 
 
 def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
-    """Say what was read and what is missing.
+    """Report what was read and what is missing.
 
     Args:
         robot: as loaded.
         full: with its collision shapes, if they are wanted and loaded.
-        ctx: where to say it.
+        ctx: receives the statuses.
     """
     missing = [m for m in (full or robot).missing if full or m.kind == "visual"]
     drawn = sum(len(link.visuals) for link in robot.links.values())
@@ -35,14 +35,14 @@ def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
 
 
 def report_strangers(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
-    """Say which settings are for links or joints that the robot does not have."""
+    """Report settings of links or joints that the robot does not have."""
     strangers = sorted(set(chosen) - set(known))
     if strangers:
         ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names(strangers)}.")
 
 
 def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
-    """Why a link has no pose, as far as the description of its robot tells more than `reason`."""
+    """Why a link has no pose; the description may give a better reason than `reason`."""
     joint = next((joint for joint in robot.joints.values() if joint.child == link), None)
     if reason.kind != Kind.UNKNOWN_FRAME or joint is None:
         return reason
@@ -65,13 +65,13 @@ def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
 def report_places(
     total: int, lost: Sequence[str], reasons: Mapping[str, str], ctx: Context
 ) -> None:
-    """Say which links have no transform.
+    """Report which links have no transform.
 
     Args:
         total: links that should be drawn.
-        lost: names of those without a transform.
-        reasons: why, by the first link that has each reason.
-        ctx: where to say it.
+        lost: names of the links without a transform.
+        reasons: by the first link that has each reason.
+        ctx: receives the statuses.
     """
     if not lost:
         ctx.ok("Links", f"{count(total, 'link')} placed by transforms.")
@@ -79,14 +79,14 @@ def report_places(
     ctx.error(
         "Links",
         f"{len(lost)} of {count(total, 'link')} without a transform: {names(lost)}. "
-        "What was seen before is grey where it was.",
+        "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():
         ctx.error(f"Link {link}", reason)
 
 
 def report_link(link: str, pose: Pose, ctx: Context) -> None:
-    """Say where a link is in the fixed frame."""
+    """Report the pose of a link in the fixed frame."""
     x, y, z = pose.position
     qw, qx, qy, qz = pose.wxyz
     ctx.ok(
@@ -97,7 +97,7 @@ def report_link(link: str, pose: Pose, ctx: Context) -> None:
 
 
 def report_joint(joint: Joint, ctx: Context) -> None:
-    """Say how a joint moves."""
+    """Report how a joint moves."""
     unit = "m" if joint.type == "prismatic" else "rad"
     text = f"{joint.type.capitalize()}, from {joint.parent} to {joint.child}"
     if joint.limits:
@@ -113,13 +113,13 @@ def has_axis(joint: Joint) -> bool:
 
 
 def names(listed: Sequence[str]) -> str:
-    """The first of some names, and how many more there are."""
+    """The first names, and how many more there are."""
     rest = len(listed) - NAMED
     return ", ".join(listed[:NAMED]) + (f" and {rest} more" if rest > 0 else "")
 
 
 def count(number: int, noun: str) -> str:
-    """A number of things."""
+    """A count with its noun, such as "2 links"."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 

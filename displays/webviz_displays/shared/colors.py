@@ -27,22 +27,22 @@ RAINBOW: tuple[Rgb, ...] = (
 """From red to magenta: hue 0 to 300 degrees at full saturation and value."""
 
 _PART = 1 << 14
-"""Values at a time, so that what lies between them and their colours stays in the cache."""
+"""Values per block, so that intermediate arrays stay in the cache."""
 
 
 def fractions(values: ArrayLike, low: float, high: float) -> F64:
     """Where values (N,) lie between `low` (0) and `high` (1); beyond them they are 0 or 1.
 
-    NaN counts as `low`, and so does everything if there is nothing between `low` and `high`.
+    NaN counts as `low`, and so does every value if `low` equals `high`.
     """
-    half_span = high / 2 - low / 2  # the whole might overflow
+    half_span = high / 2 - low / 2  # the difference might overflow
     if not half_span > 0.0:
         return np.zeros(np.shape(values))
-    with np.errstate(over="ignore", invalid="ignore"):  # what leaves the range is clamped below
+    with np.errstate(over="ignore", invalid="ignore"):  # overflows are clamped below
         where = np.divide(values, 2.0, dtype=np.float64)
         where -= low / 2
         where /= half_span
-    np.fmax(where, 0.0, out=where)  # these two take the number where the other is NaN
+    np.fmax(where, 0.0, out=where)  # fmax and fmin ignore NaN
     return np.fmin(where, 1.0, out=where)
 
 
@@ -71,7 +71,7 @@ def ramp(values: ArrayLike, low: float, high: float, stops: tuple[Rgb, ...] = RA
         where = fractions(values[start : start + _PART], low, high)
         where *= len(table) - 1
         index = np.rint(where, out=where).astype(np.intp)
-        # A colour as one item of three bytes: numpy copies rows of a matrix far slower.
+        # A colour as one item of three bytes: numpy copies matrix rows far more slowly.
         table.take(index, mode="clip", out=colors[start : start + _PART])
     return colors.view(np.uint8).reshape(-1, 3)
 
@@ -80,7 +80,7 @@ def ramp(values: ArrayLike, low: float, high: float, stops: tuple[Rgb, ...] = RA
 def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
     """Colours between the stops, close enough for 8 bits."""
     values = np.array(stops, dtype=np.float64)
-    # Twice as fine as 8 bits from stop to stop, so that the middle between two is there as well.
+    # Twice as fine as 8 bits between stops, so that midpoints are included.
     places = 510 * np.arange(len(values))
     steps = np.arange(places[-1] + 1)
     channels = [np.interp(steps, places, values[:, c]) for c in range(3)]
@@ -89,7 +89,7 @@ def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
 
 
 def faded(colors: U8, alpha: float | F64) -> U8:
-    """What colours (..., 3) look like in front of RViz's background, `alpha` one or (..., 1).
+    """Colours (..., 3) blended with RViz's background; `alpha` is a scalar or (..., 1).
 
     The browser draws points, lines and arrows opaque, so this stands in for their transparency.
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 FIXED_FRAME = "<Fixed Frame>"
-"""RViz's word for whatever the fixed frame is."""
+"""RViz's name for the current fixed frame."""
 
 
 def frame_of(name: str) -> str | None:

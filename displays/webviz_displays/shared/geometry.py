@@ -16,7 +16,7 @@ from webviz import Pose
 F64 = NDArray[np.float64]
 
 FARTHEST = 1e9
-"""Metres; what is farther away is no measurement, and squares of it overflow a GPU's float32."""
+"""Metres; farther points are not measurements, and their squares overflow a GPU's float32."""
 
 
 def w_first(xyzw: ArrayLike) -> F64:
@@ -25,15 +25,17 @@ def w_first(xyzw: ArrayLike) -> F64:
 
 
 def normalized(quaternions: ArrayLike) -> tuple[F64, NDArray[np.bool_]]:
-    """Quaternions (N, 4) of length one, and which rows (N,) could be made so.
+    """Quaternions (N, 4) of length one, and which rows (N,) could be normalised.
 
-    A quaternion of length zero says nothing; its row becomes the identity.
+    A quaternion of length zero becomes the identity.
     """
     quaternions = np.asarray(quaternions, dtype=np.float64).reshape(-1, 4)
     scale = np.abs(quaternions).max(axis=1, keepdims=True, initial=0.0)
     ok = np.isfinite(scale[:, 0]) & (scale[:, 0] > 0.0)
     shrunk = np.where(ok[:, None], quaternions, (1.0, 0.0, 0.0, 0.0))
-    shrunk = shrunk / np.where(ok[:, None], scale, 1.0)  # so that no square over- or underflows
+    shrunk = shrunk / np.where(
+        ok[:, None], scale, 1.0
+    )  # prevents squares from over- or underflowing
     return shrunk / np.linalg.norm(shrunk, axis=1, keepdims=True), ok
 
 
@@ -69,12 +71,12 @@ def conjugate(wxyz: ArrayLike) -> F64:
 
 
 def transformed(pose: Pose, xyz: ArrayLike) -> F64:
-    """Points (N, 3) given in the coordinates of `pose`, in those the pose is given in."""
+    """Points (N, 3) moved from the frame of `pose` to the frame it is given in."""
     return np.asarray(xyz, dtype=np.float64) @ matrices(pose.wxyz).T + pose.position
 
 
 def coordinate(pose: Pose, xyz: NDArray[np.floating[Any]], axis: int) -> F64:
-    """One of the coordinates of `transformed`, (N,), for a third of its cost."""
+    """One coordinate of `transformed`, (N,), at one third of the cost."""
     row = matrices(pose.wxyz)[axis]
     columns = [xyz[:, i] * row[i].astype(xyz.dtype) for i in np.flatnonzero(row)]
     return np.add(functools.reduce(np.add, columns), pose.position[axis], dtype=np.float64)

@@ -1,4 +1,4 @@
-"""What displays of points have in common: RViz's properties of point clouds."""
+"""Base of the displays of points: RViz's properties of point clouds."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
 BY_INTENSITY = ("color_transformer", ("Intensity", "Auto"))
-"""Where options of this transformer have a meaning: Auto, where there is one, may choose it."""
+"""When options of this transformer apply; Auto may choose it too."""
 BY_AXIS = ("color_transformer", ("AxisColor", "Auto"))
-"""Where options of this transformer have a meaning."""
+"""When options of this transformer apply."""
 
 SOLIDS_LIMIT = 20_000
-"""A browser without a GPU draws so many lit solids once a second."""
+"""A browser without a GPU draws this many lit solids once a second."""
 
 _SOLIDS: dict[str, Literal["box", "sphere"]] = {"Boxes": "box", "Spheres": "sphere"}
 
 _AXES = ("X", "Y", "Z")
 _LEAST_SPAN = 1e-3
-"""Metres; a planar scan differs by rounding only, which is no reason for a rainbow."""
+"""Metres; heights in a planar scan differ by rounding only, which must not make a rainbow."""
 
-# A pixel dot is a line so short that only its width is seen; along no axis, so that it is hardly
+# A pixel dot is a line too short to show more than its width; along no axis, so that it is hardly
 # ever seen from its end, where it would vanish.
 _DOT = np.array((0.2e-3, 0.3e-3, 0.9e-3), np.float32)
 
 
 class ValueBounds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Between which coordinates the rainbow of AxisColor lies."""
+    """The range of coordinates of AxisColor's rainbow."""
 
-    value: Annotated[bool, Prop(help="Take the bounds from the points of each message.")] = True
+    value: Annotated[bool, Prop(help="Compute the bounds from the points of each message.")] = True
     min_value: Annotated[
-        float, Prop(unit="m", when=("value", False), help="Coordinate that is drawn red.")
+        float, Prop(unit="m", when=("value", False), help="Coordinate drawn in red.")
     ] = -10.0
     max_value: Annotated[
-        float, Prop(unit="m", when=("value", False), help="Coordinate that is drawn magenta.")
+        float, Prop(unit="m", when=("value", False), help="Coordinate drawn in magenta.")
     ] = 10.0
 
 
@@ -73,12 +73,12 @@ class PointsDisplay(Display):
             ge=0,
             le=1,
             widget="slider",
-            help="Opacity of Spheres and Boxes; what is flat is opaque in the browser and fades "
+            help="Opacity of Spheres and Boxes; flat styles stay opaque in the browser and fade "
             "towards dark grey.",
         ),
     ] = 1.0
     decay_time: Annotated[
-        float, Prop(ge=0, unit="s", help="How long messages stay; 0 shows the newest only.")
+        float, Prop(ge=0, unit="s", help="How long to keep messages; 0 shows only the newest.")
     ] = 0.0
     # Each display has its own choices of these two.
     color_transformer: Any = "Intensity"
@@ -88,11 +88,11 @@ class PointsDisplay(Display):
         Prop(
             rviz="Use rainbow",
             when=BY_INTENSITY,
-            help="Red is low and magenta high, instead of a ramp between two colours.",
+            help="Colour from red (low) to magenta (high) instead of between two colours.",
         ),
     ] = True
     invert_rainbow: Annotated[
-        bool, Prop(when=("use_rainbow", True), help="Magenta is low and red high.")
+        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
     ] = False
     min_color: Annotated[
         Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
@@ -104,23 +104,27 @@ class PointsDisplay(Display):
         bool,
         Prop(
             when=BY_INTENSITY,
-            help="Take the lowest and highest value from each message.",
+            help="Compute the lowest and highest value from each message.",
         ),
     ] = True
     min_intensity: Annotated[
         float,
-        Prop(when=("autocompute_intensity_bounds", False), help="Value with the lowest colour."),
+        Prop(
+            when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."
+        ),
     ] = 0.0
     max_intensity: Annotated[
         float,
-        Prop(when=("autocompute_intensity_bounds", False), help="Value with the highest colour."),
+        Prop(
+            when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."
+        ),
     ] = 4096.0
     color: Annotated[
         Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
     ] = (255, 255, 255)
     axis: Annotated[
         Literal["X", "Y", "Z"],
-        Prop(when=BY_AXIS, help="The coordinate that is coloured."),
+        Prop(when=BY_AXIS, help="Coordinate that determines the colour."),
     ] = "Z"
     autocompute_value_bounds: Annotated[
         ValueBounds,
@@ -130,12 +134,12 @@ class PointsDisplay(Display):
         bool,
         Prop(
             when=BY_AXIS,
-            help="Colour by coordinates in the fixed frame instead of the sensor's.",
+            help="Use coordinates in the fixed frame instead of the sensor's.",
         ),
     ] = True
 
     def history(self) -> Keep:
-        """What came within the decay time, or the newest."""
+        """The messages within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
 
     def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose) -> U8:
@@ -205,7 +209,7 @@ class PointsDisplay(Display):
             ctx.ok(
                 "Style",
                 f"{self.style} are drawn as {'discs' if outline == 'circle' else 'squares'} that "
-                f"face the camera: a browser can light {SOLIDS_LIMIT} solids, not {len(xyz)}.",
+                f"face the camera: the limit is {SOLIDS_LIMIT} solids, got {len(xyz)} points.",
             )
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")

@@ -1,4 +1,4 @@
-"""Properties that displays of poses have in common."""
+"""Properties shared by the displays of poses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     """How to draw a pose."""
 
     value: Annotated[
-        Literal["Arrow", "Axes"], Prop(help="An arrow along x, or all three axes.")
+        Literal["Arrow", "Axes"], Prop(help="Draw an arrow along x, or all three axes.")
     ] = "Arrow"
     color: Annotated[Color, Prop(when=("value", "Arrow"), help="Colour of the arrows.")] = (
         255,
@@ -27,7 +27,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
             le=1,
             widget="slider",
             when=("value", "Arrow"),
-            help="Opacity of the arrows, 0 is invisible.",
+            help="Opacity of the arrows; 0 is invisible.",
         ),
     ] = 1.0
     shaft_length: Annotated[
@@ -53,7 +53,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How to draw the uncertainty of positions: ellipses, or ellipsoids."""
 
-    value: Annotated[bool, Prop(help="Draw it.")] = True
+    value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     color: Annotated[Color, Prop(when=("value", True), help="Colour of the ellipses.")] = (
         204,
         51,
@@ -61,53 +61,61 @@ class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     )
     alpha: Annotated[
         float,
-        Prop(ge=0, le=1, widget="slider", when=("value", True), help="0 is invisible, 1 opaque."),
+        Prop(ge=0, le=1, widget="slider", when=("value", True), help="Opacity; 0 is invisible."),
     ] = 0.3
     scale: Annotated[
-        float, Prop(gt=0, when=("value", True), help="Standard deviations from middle to rim.")
+        float, Prop(gt=0, when=("value", True), help="Size in standard deviations.")
     ] = 1.0
 
 
 class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How to draw the uncertainty of orientations: wedges, or discs at the tips of the axes."""
 
-    value: Annotated[bool, Prop(help="Draw it.")] = True
+    value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     frame: Annotated[
         Literal["Local", "Fixed"],
         Prop(
             when=("value", True),
-            help="Along the axes of the robot, or of the frame its pose is given in.",
+            help="Draw along the robot's axes, or those of the frame of its pose.",
         ),
     ] = "Local"
     color_style: Annotated[
         Literal["Unique", "RGB"],
-        Prop(when=("value", True), help="One colour, or a colour for each axis."),
+        Prop(when=("value", True), help="Use one colour, or one per axis."),
     ] = "Unique"
-    color: Annotated[Color, Prop(when=("color_style", "Unique"), help="The one colour.")] = (
+    color: Annotated[
+        Color, Prop(when=("color_style", "Unique"), help="Colour of the wedges and discs.")
+    ] = (
         255,
         255,
         127,
     )
     alpha: Annotated[
         float,
-        Prop(ge=0, le=1, widget="slider", when=("value", True), help="0 is invisible, 1 opaque."),
+        Prop(ge=0, le=1, widget="slider", when=("value", True), help="Opacity; 0 is invisible."),
     ] = 0.5
     offset: Annotated[
         float,
-        Prop(gt=0, unit="m", when=("value", True), help="Where it is drawn, from the position."),
+        Prop(
+            gt=0,
+            unit="m",
+            when=("value", True),
+            help="Distance from the position at which it is drawn.",
+        ),
     ] = 1.0
     scale: Annotated[
-        float, Prop(gt=0, when=("value", True), help="Standard deviations from middle to rim.")
+        float, Prop(gt=0, when=("value", True), help="Size in standard deviations.")
     ] = 1.0
 
 
 class Covariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How to draw the uncertainty of poses."""
 
-    value: Annotated[bool, Prop(help="Draw it.")] = True
+    value: Annotated[bool, Prop(help="Draw this covariance.")] = True
     position: Annotated[
-        PositionCovariance, Prop(when=("value", True), help="Uncertainty of positions.")
+        PositionCovariance, Prop(when=("value", True), help="How to draw the position covariance.")
     ] = PositionCovariance()
     orientation: Annotated[
-        OrientationCovariance, Prop(when=("value", True), help="Uncertainty of orientations.")
+        OrientationCovariance,
+        Prop(when=("value", True), help="How to draw the orientation covariance."),
     ] = OrientationCovariance()

@@ -1,4 +1,4 @@
-"""Rods and arrows as solids, which can be transparent and have a size of their own each."""
+"""Rods and arrows as solids, which can be transparent and differ in size."""
 
 from __future__ import annotations
 

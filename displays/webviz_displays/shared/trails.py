@@ -1,4 +1,4 @@
-"""Where links have been lately."""
+"""Trails of links."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ Position = tuple[float, float, float]
 
 
 class Trails:
-    """The ways of some links in one fixed frame; each forgets what is more than 2 m back."""
+    """Trails of links in one fixed frame; each keeps the last 2 m."""
 
     def __init__(self) -> None:
         self._points: dict[str, deque[Position]] = {}
 
     def update(self, positions: Mapping[str, Position | None]) -> None:
-        """Note where the links are now; None where that is not known. Others are forgotten."""
+        """Record where the links are now, None if unknown; other links are forgotten."""
         self._points = {link: self._points.get(link, deque(maxlen=ELEMENTS)) for link in positions}
         for link, position in positions.items():
             points = self._points[link]

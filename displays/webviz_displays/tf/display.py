@@ -22,15 +22,15 @@ from webviz_displays.tf.frame_tree import outline
 SECOND = 1_000_000_000
 
 NAMED = 5
-"""Reasons of lost frames that get a status of their own."""
+"""Lost frames that get a status of their own."""
 
 READ_OUT = 20
-"""Frames that say where they are."""
+"""Frames whose pose is reported."""
 
 
 @dataclass(eq=False)
 class _Known:
-    """What is derived from the names and the shape of the tree."""
+    """State derived from the names and the shape of the tree."""
 
     version: tuple[int, int]
     selected: NDArray[np.bool_]
@@ -39,7 +39,7 @@ class _Known:
 
 
 class TF(Display):
-    """The coordinate frames, their names, and an arrow from each to its parent."""
+    """The coordinate frames, their names, and arrows to their parents."""
 
     rviz = "rviz_default_plugins/TF"
 
@@ -50,36 +50,37 @@ class TF(Display):
         float, Prop(gt=0, help="Size of names, axes and arrows; at 1 an axis is 0.2 m long.")
     ] = 1.0
     update_interval: Annotated[
-        float, Prop(ge=0, unit="s", help="Least time between updates; 0 is as often as possible.")
+        float,
+        Prop(ge=0, unit="s", help="Minimum time between updates; 0 updates as often as possible."),
     ] = 0.0
     frame_timeout: Annotated[
         float,
         Prop(
             ge=1,
             unit="s",
-            help="A frame not updated for a third of this time turns grey, then it disappears.",
+            help="Frames not updated for one third of this time turn grey, then disappear.",
         ),
     ] = 15.0
     filter_whitelist: Annotated[
         str,
         Prop(
             rviz="Filter (whitelist)",
-            help="Show only frames in whose name this regular expression is found.",
+            help="Show only frames whose name matches this regular expression.",
         ),
     ] = ""
     filter_blacklist: Annotated[
         str,
         Prop(
             rviz="Filter (blacklist)",
-            help="Hide frames in whose name this regular expression is found.",
+            help="Hide frames whose name matches this regular expression.",
         ),
     ] = ""
     all_enabled: Annotated[
-        bool, Prop(rviz="Frames/All Enabled", help="Show the frames without a switch of their own.")
+        bool, Prop(rviz="Frames/All Enabled", help="Show frames that have no switch of their own.")
     ] = True
     frames: Annotated[
         dict[str, bool],
-        Prop(help="Switches of single frames, by name; those switched on say where they are."),
+        Prop(help="Switches of single frames by name; frames switched on report their pose."),
     ] = msgspec.field(default_factory=dict)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -102,7 +103,10 @@ class TF(Display):
             return
         poses = ctx.frames.all()
         if not poses.names:
-            ctx.warn("Frames", "No transforms: nothing has arrived on /tf or /tf_static.")
+            ctx.warn(
+                "Frames",
+                "No transforms received on /tf or /tf_static. Start robot_state_publisher.",
+            )
             return
         known = self._known(ctx, poses.names)
         ages = state["ages"].update(poses.stamps_ns, now_ns)
@@ -135,7 +139,7 @@ class TF(Display):
         rows = np.flatnonzero(shown)
         if not len(rows):
             return
-        # Nodes are float32: far from the origin only what is relative to a near point is exact.
+        # Nodes are float32: far from the origin, only offsets from a near point are exact.
         near = np.round(poses.positions[rows].mean(axis=0) / 1000.0) * 1000.0
         x, y, z = near.tolist()
         group = ctx.follow(None, offset=Pose((x, y, z)), key="near")
@@ -170,7 +174,7 @@ class TF(Display):
             parts.append(f"{old} not updated for more than {self.frame_timeout:g} s")
         say = ctx.ok if count and not old and not len(lost) else ctx.warn
         say("Frames", ", ".join(parts) + ".")
-        # Explanations hold times, so they are renewed, but not on every tick.
+        # Explanations contain times, so they are renewed, but not on every tick.
         moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
         if ctx.state.get("moment") != moment:
             names = sorted(poses.names[place] for place in lost)

@@ -1,4 +1,4 @@
-"""Frames that are no longer published grow old: first grey, then faint, then gone."""
+"""Frames that are no longer published turn grey, then fade, then disappear."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ GREY = 178.5
 """RViz's 0.7 of white."""
 
 STEPS = 10
-"""Of opacity: a browser makes a batch of transparent solids anew for each new one."""
+"""Levels of opacity: the browser rebuilds a batch of transparent solids for each new one."""
 
 
 class Ages:
     """How long ago the transform of each frame last changed, in ROS time.
 
-    A stamp alone does not tell: a bag played without its clock has stamps of another day, yet its
-    frames move. So a frame is as old as its first stamp seen, and young again with each new stamp.
+    A stamp alone is not enough: a bag played without its clock has stamps of another day, yet its
+    frames move. A frame therefore ages from when it was first seen, and anew with each new stamp.
     """
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class Ages:
         self._changed_ns = np.zeros(0, np.int64)
 
     def update(self, stamps_ns: NDArray[np.int64], now_ns: int) -> F64:
-        """Ages in seconds, float64 (N,); 0 for frames reached by static transforms only.
+        """Ages in seconds, float64 (N,); 0 for frames with static transforms only.
 
         Args:
             stamps_ns: int64 (N,), the newest stamp of each frame, 0 for static ones. Frames keep
@@ -44,7 +44,7 @@ class Ages:
 
 
 def fade(ages: F64, timeout: float) -> tuple[F64, F64]:
-    """How grey and how opaque frames of these ages are, each 0 to 1, as in RViz.
+    """Greyness and opacity of frames by age, each 0 to 1, as in RViz.
 
     Up to a third of the timeout a frame has its colours, up to two thirds it turns grey, then it
     becomes transparent, in `STEPS` steps.
@@ -55,5 +55,5 @@ def fade(ages: F64, timeout: float) -> tuple[F64, F64]:
 
 
 def faded(colors: F64, greyness: F64) -> U8:
-    """Colours (M, 3), 0 to 255, as N frames have them that are so grey (N,); uint8 (N, M, 3)."""
+    """Colours (M, 3), 0 to 255, for N frames of this greyness (N,); uint8 (N, M, 3)."""
     return np.rint(colors + greyness[:, None, None] * (GREY - colors)).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""Which frames the TF display shows, and which is whose parent."""
+"""Which frames the TF display shows, and their parents."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class FrameFilter:
     """A user's choice of frames.
 
     Args:
-        whitelist: only names in which it is found, if there is one.
-        blacklist: no names in which it is found.
-        switches: by name; they decide for the frames they name.
+        whitelist: shows only matching names, unless None.
+        blacklist: hides matching names.
+        switches: by name; they override `default`.
         default: for the frames without a switch.
     """
 
@@ -29,7 +29,7 @@ class FrameFilter:
     default: bool
 
     def select(self, names: Sequence[str]) -> NDArray[np.bool_]:
-        """bool (N,): which of the names are wanted."""
+        """bool (N,): which of the names are shown."""
         return np.array([self._wants(name) for name in names], np.bool_)
 
     def _wants(self, name: str) -> bool:
@@ -44,12 +44,14 @@ def compiled(text: str) -> re.Pattern[str] | None:
     """A regular expression, None if it is empty.
 
     Raises:
-        ValueError: it is not one; the text says why.
+        ValueError: it is invalid; the text says why.
     """
     try:
         return re.compile(text) if text else None
     except re.error as error:
-        raise ValueError(f"'{text}' is no regular expression ({error}); it is ignored.") from None
+        raise ValueError(
+            f"'{text}' is not a valid regular expression ({error}); ignoring it."
+        ) from None
 
 
 def parent_indices(frames: Frames, names: Sequence[str]) -> NDArray[np.int64]:

@@ -23,7 +23,7 @@ AXIS_LENGTH, AXIS_DIAMETER = 0.2, 0.02
 SHAFT_DIAMETER, HEAD_DIAMETER, HEAD_LENGTH = 0.01, 0.04, 0.1
 TEXT_HEIGHT = 0.1
 LEAST_DISTANCE = 0.001
-"""Metres to the parent from which on there is an arrow."""
+"""Metres to the parent above which an arrow is drawn."""
 
 _AXES = np.array(((255.0, 0.0, 0.0), (0.0, 255.0, 0.0), (0.0, 0.0, 255.0)))
 _ARROW = np.array(((204.0, 204.0, 76.5), (255.0, 25.5, 153.0)))
@@ -44,7 +44,7 @@ class Marks:
     opacity: F64
 
     def only(self, rows: NDArray[np.bool_]) -> Marks:
-        """Some of them."""
+        """A subset of the frames."""
         return Marks(self.positions[rows], self.greyness[rows], self.opacity[rows])
 
 
@@ -84,12 +84,12 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
 
 
 def add_names(group: Group, marks: Marks, names: tuple[str, ...], scale: float) -> None:
-    """Names below the origins, wherever one looks from."""
+    """Names below the origins, from any viewpoint."""
     group.labels("names", marks.positions, names, TEXT_HEIGHT * scale, below=True)
 
 
 def _add(group: Group, shape: Solid, key: str, solids: Rods, colors: U8, opacity: F64) -> None:
-    """Opaque solids as `key`, transparent ones apart."""
+    """Draw opaque solids as `key`, transparent ones separately."""
     faint = opacity < 1.0
     if not faint.all():
         positions, scales, wxyzs = (array[~faint] for array in solids)

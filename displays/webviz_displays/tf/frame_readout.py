@@ -1,4 +1,4 @@
-"""Where a frame is in its parent and in the fixed frame, in words."""
+"""The pose of a frame in its parent and in the fixed frame, as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tree of frames in a line of text."""
+"""The tree of frames as a line of text."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 LISTED = 40
-"""Frames that are named; the rest is counted."""
+"""Frames listed by name; the rest is counted."""
 
 
 def outline(names: Sequence[str], parents: NDArray[np.int64]) -> str:
