@@ -12,7 +12,7 @@ import contextlib
 import threading
 import time
 import uuid
-from collections.abc import AsyncGenerator, Callable, Iterable, Sequence
+from collections.abc import AsyncGenerator, Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,8 +20,11 @@ import viser
 from numpy.typing import NDArray
 from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
+from viser.infra._infra import ClientId, WebsockClientConnection
 from viser.infra._messages import Message
 
+from webviz.edges.page import modules
+from webviz.edges.page.channel import Channel
 from webviz.edges.scene.contact_script import BEAT, CONTACT_SCRIPT
 from webviz.edges.scene.late import Late
 from webviz.edges.scene.outbox import Outbox
@@ -273,6 +276,33 @@ class Adapter:
         for client_id, cursor in tuple(self._buffer.generator_cursors.items()):
             if cursor < oldest_wanted and client_id in self._socket._live_connections:
                 self._socket._live_connections[client_id].transport.abort()
+
+
+def greet(server: viser.ViserServer, channel: Channel, constants: Mapping[str, Any]) -> None:
+    """Makes every page that connects load the modules and open the channel.
+
+    Args:
+        server: the server; to be called before it has browsers.
+        channel: of the server.
+        constants: what Python and the modules share.
+    """
+    socket = server._websock_server
+
+    def join(client: WebsockClientConnection) -> None:
+        key = channel.join(client.client_id)
+        source = modules.bootstrap(client.client_id, key, constants)
+        client.queue_message(wire.RunJavascriptMessage(source=source))
+
+    def leave(client: WebsockClientConnection) -> None:
+        channel.leave(client.client_id)
+
+    def end(browser: int) -> None:
+        if browser in socket._live_connections:
+            socket._live_connections[ClientId(browser)].transport.abort()
+
+    channel.on_lost = end
+    socket.on_client_connect(join)
+    socket.on_client_disconnect(leave)
 
 
 def message_type(kind: str) -> type[Any]:

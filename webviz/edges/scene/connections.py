@@ -25,12 +25,15 @@ MAX_WAIT = 5.0
 """Seconds that a connection may owe for what cannot be kept waiting, such as pings."""
 
 
+WHOLE = (Opcode.BINARY, Opcode.TEXT)
+"""What carries a message, if it is all of it."""
+
 FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
 
 class Gate:
-    """The connections of a server: those that open, and the browsers inside."""
+    """The connections of a server: those that open, the browsers inside, and their channels."""
 
     def __init__(self) -> None:
         descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -38,6 +41,7 @@ class Gate:
         """Of either kind."""
         self._opening: dict[Connection, None] = {}
         self._inside: set[Connection] = set()
+        self._beside: set[Connection] = set()
 
     @property
     def is_full(self) -> bool:
@@ -66,10 +70,20 @@ class Gate:
         finally:
             self._inside.discard(connection)
 
+    @contextlib.contextmanager
+    def beside(self, connection: Connection) -> Iterator[None]:
+        """Notes the channel of a browser that is inside."""
+        self.leave(connection)
+        self._beside.add(connection)
+        try:
+            yield
+        finally:
+            self._beside.discard(connection)
+
     def close(self) -> None:
         """Sends everybody away, within a second also those who do not listen."""
-        for connection in (*self._opening, *self._inside):
-            patience = FAREWELL if connection in self._inside else 0.0
+        for connection in (*self._opening, *self._inside, *self._beside):
+            patience = 0.0 if connection in self._opening else FAREWELL
             connection.loop.call_later(patience, connection.transport.abort)
 
 
@@ -106,8 +120,11 @@ class Connection(websocket.ServerConnection):
         """Whether the request wants the headers only."""
         self.host = ""
         """As the browser addressed the server, if that is a name of it."""
+        self.is_channel = False
+        """Whether it is the channel of a page, instead of viser's own connection."""
         self._gate = gate
-        self._judge = Judge(accepts)
+        self.objection = Judge(accepts).objection
+        """What is wrong with a message, or None if it may pass."""
         self._allowance = Allowance()
         self._head: bytearray | None = bytearray()
         self._is_refused = False
@@ -151,7 +168,7 @@ class Connection(websocket.ServerConnection):
     def process_event(self, event: Any) -> None:
         """Handles the request, or a frame as it comes."""
         # Whole messages wait in `recv`; others take effect, or memory, at once.
-        is_whole = isinstance(event, Frame) and event.opcode is Opcode.BINARY and event.fin
+        is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
         is_request = not isinstance(event, Frame)
         is_instant = not (is_whole or is_request)
         if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
@@ -165,7 +182,7 @@ class Connection(websocket.ServerConnection):
             cost = 1.0 + len(data) / BYTES_PER_MESSAGE
             # At least the others' turn: received messages are there without waiting.
             await asyncio.sleep(self._allowance.spend(cost, self.loop.time()))
-            objection = self._judge.objection(data)
+            objection = self.objection(data)
             if objection is None:
                 return data
             self.logger.warning("A message of a browser was ignored: %s.", objection)

@@ -17,6 +17,8 @@ import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
+from webviz.edges.page import modules
+from webviz.edges.page.channel import Channel, objection
 from webviz.edges.scene.connections import Connection, Gate
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
@@ -31,7 +33,12 @@ Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 
 
 def guarded_serve(
-    serve: Callable[..., Any], listener: Listener, gate: Gate, hosts: HostList, accepts: Accepts
+    serve: Callable[..., Any],
+    listener: Listener,
+    gate: Gate,
+    hosts: HostList,
+    accepts: Accepts,
+    channel: Channel,
 ) -> Callable[..., Any]:
     """Wraps `websockets.asyncio.server.serve` as viser calls it.
 
@@ -43,6 +50,7 @@ def guarded_serve(
         hosts: names under which the server may be addressed.
         accepts: whether a decoded message that sets a value, changes a form or announces a file
             may pass.
+        channel: to the modules of the page.
     """
     log = listener.log = sparing_log("webviz.server")
 
@@ -55,6 +63,20 @@ def guarded_serve(
         if reason is not None:
             return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
         connection.host = request.headers["Host"].lower()
+        path = request.path.partition("?")[0]
+        if (source := modules.module(path)) is not None:
+            response = connection.respond(http.HTTPStatus.OK, "")
+            response.body = source
+            headers = {"Content-Type": modules.CONTENT_TYPE, "Content-Length": str(len(source))}
+            for name, value in headers.items():
+                del response.headers[name]
+                response.headers[name] = value
+            response.headers["Cache-Control"] = "no-cache"
+            return response
+        if is_upgrade(request) and path == modules.CHANNEL:
+            connection.is_channel = True
+            connection.objection = objection
+            return None
         if gate.is_full:
             return connection.respond(
                 http.HTTPStatus.SERVICE_UNAVAILABLE,
@@ -63,7 +85,7 @@ def guarded_serve(
             )
         if is_upgrade(request):
             return None
-        if request.path.partition("?")[0] not in PAGES:
+        if path not in PAGES:
             status, text = NOT_FOUND
             return connection.respond(status, text + "\n")
         # viser asks for the one header of that name.
@@ -80,6 +102,9 @@ def guarded_serve(
             response.body = b""
 
     async def welcome(handler: Handler, connection: Connection) -> None:
+        if connection.is_channel:
+            await channel.serve(connection, lambda: gate.beside(connection))
+            return
         if connection.subprotocol != f"viser-v{viser.__version__}":
             # The code upon which the page says why, and stops.
             await connection.close(1002, "This page is of another version of webviz: reload it")

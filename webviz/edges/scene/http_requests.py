@@ -16,7 +16,7 @@ from websockets.streams import StreamReader
 MAX_HEAD_BYTES = 16 << 10
 MAX_PATH_BYTES = 2 << 10
 PAGES = ("/", "/index.html")
-"""All that is served; viser's page is one file."""
+"""All that is served of viser, whose page is one file."""
 
 Refusal = tuple[http.HTTPStatus, str]
 
@@ -85,7 +85,7 @@ def add_policy(headers: Headers, host: str) -> None:
     headers["Content-Security-Policy"] = "; ".join(
         (
             "default-src 'none'",
-            "script-src 'unsafe-inline' 'unsafe-eval' blob:",
+            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
             "worker-src blob:",
             "style-src 'unsafe-inline'",
             "img-src data: blob:",

@@ -1,0 +1,236 @@
+"""What pages and the server tell each other beside viser's connection."""
+
+from __future__ import annotations
+
+import http.client
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import msgspec
+import playwright.sync_api as playwright
+import pytest
+import websockets.exceptions
+import websockets.sync.client
+from websockets.sync.connection import Connection
+
+from webviz.edges.page.channel import MAX_CHARACTERS, MAX_WAITING
+from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
+from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene.quiet_server import Server
+from webviz.shell.pictures.browser import Page
+
+
+class Wish(FromPage, frozen=True):
+    text: str
+
+
+class News(ToPage, frozen=True):
+    text: str
+
+
+class Weather(ToPage, frozen=True):
+    kept = True
+    text: str
+
+
+@pytest.fixture
+def server() -> Iterator[Server]:
+    server = open_server(port=0)
+    yield server
+    server.stop()
+
+
+@contextmanager
+def channel(server: Server, **options: Any) -> Iterator[Connection]:
+    url = f"ws://127.0.0.1:{server.get_port()}/webviz/channel"
+    with websockets.sync.client.connect(url, compression=None, close_timeout=0.1, **options) as it:
+        yield it
+
+
+def key_of(peer: Any) -> tuple[int, str]:
+    """What viser's connection is told of the channel: who it is, and the key."""
+    for message in peer.replay():
+        if message["type"] == "RunJavascriptMessage":
+            told = msgspec.json.decode(message["source"].rpartition(")(")[2].removesuffix(");"))
+            return told["browser"], told["key"]
+    raise AssertionError("no bootstrap")
+
+
+def hello(key: str) -> str:
+    return msgspec.json.encode({"type": "Hello", "key": key}).decode()
+
+
+def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
+    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    heard: list[tuple[int, Wish]] = []
+    server.channel.on(Wish, lambda browser, wish: heard.append((browser, wish)))
+    call().replay()
+    browser, key = key_of(call())
+    with channel(server) as page:
+        page.send(hello(key))
+        page.send('{"type":"Wish","text":"rain"}')
+        wait_until(lambda: bool(heard))
+    assert heard == [(browser, Wish("rain"))]
+
+
+def test_a_page_is_told_what_waited_for_it_and_only_the_newest_of_what_is_kept(
+    server: Server, call: Callable[..., Any]
+) -> None:
+    server.channel.send(Weather("rain"))
+    server.channel.send(News("nobody is here"))
+    server.channel.send(Weather("sun"))
+    browser, key = key_of(call())
+    other, _ = key_of(call())
+    server.channel.send(News("for another"), other)
+    server.channel.send(News("for you"), browser)
+    server.channel.send(Weather("wind"))
+    with channel(server) as page:
+        page.send(hello(key))
+        got = [msgspec.json.decode(page.recv(10)) for _ in range(2)]
+    assert got == [{"type": "News", "text": "for you"}, {"type": "Weather", "text": "wind"}]
+
+
+@pytest.mark.parametrize(
+    "first", [hello("x"), hello(""), "", "[", '{"type":"Hello"}', b"\x00", '{"type":"Wish"}']
+)
+def test_a_stranger_without_a_key_is_sent_away(
+    server: Server, call: Callable[..., Any], first: str | bytes
+) -> None:
+    key_of(call())
+    with channel(server) as page:
+        page.send(first)
+        if isinstance(first, bytes):  # not even read
+            page.send("{}")
+        with pytest.raises(websockets.exceptions.ConnectionClosed):
+            page.recv(10)
+
+
+def test_a_key_opens_one_channel_only(server: Server, call: Callable[..., Any]) -> None:
+    _, key = key_of(call())
+    with channel(server) as page, channel(server) as thief:
+        server.channel.send(News("hello"))
+        page.send(hello(key))
+        page.recv(10)
+        thief.send(hello(key))
+        with pytest.raises(websockets.exceptions.ConnectionClosed):
+            thief.recv(10)
+
+
+def test_a_channel_from_another_site_is_refused(server: Server) -> None:
+    with (
+        pytest.raises(websockets.exceptions.InvalidStatus, match="403"),
+        channel(server, additional_headers={"Origin": "http://evil.example"}),
+    ):
+        pass
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [
+        "",
+        "null",
+        "[" * 60_000,
+        '{"type":"Wish"}',
+        '{"type":"Wish","text":1e999}',
+        '{"type":"Wish","text":"a","more":1}',
+        '{"type":"None"}',
+        '{"type":"News","text":"a"}',
+        f'{{"type":"Wish","text":"{"a" * MAX_CHARACTERS}"}}',
+        b'{"type":"Wish","text":"a"}',
+    ],
+)
+def test_nonsense_is_ignored(
+    server: Server,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+    nonsense: str | bytes,
+) -> None:
+    heard: list[Wish] = []
+    server.channel.on(Wish, lambda _, wish: heard.append(wish))
+    _, key = key_of(call())
+    with channel(server) as page:
+        page.send(hello(key))
+        page.send(nonsense)
+        page.send('{"type":"Wish","text":"sense"}')
+        wait_until(lambda: bool(heard))
+    assert heard == [Wish("sense")]
+
+
+def test_a_page_that_reads_nothing_has_to_connect_anew(
+    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    peer = call()
+    browser, key = key_of(peer)
+    live = server._websock_server._live_connections
+    with channel(server, max_queue=1) as page:
+        page.send(hello(key))
+        for _ in range(MAX_WAITING):
+            server.channel.send(Weather("x" * 10_000))  # of these the newest only
+        assert browser in live
+        for _ in range(40 * MAX_WAITING):
+            server.channel.send(News("x" * 10_000), browser)
+        wait_until(lambda: browser not in live)
+
+
+def test_when_the_channel_ends_the_page_is_told_by_viser(
+    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    browser, key = key_of(call())
+    with channel(server) as page:
+        page.send(hello(key))
+        server.channel.send(News("hello"))
+        page.recv(10)
+    wait_until(lambda: browser not in server._websock_server._live_connections)
+
+
+def test_modules_are_served_as_scripts_and_nothing_else_is(server: Server) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=10)
+    connection.request("GET", "/webviz/channel.js?x")
+    answer = connection.getresponse()
+    assert (answer.status, answer.getheader("Content-Type")) == (
+        200,
+        "text/javascript; charset=utf-8",
+    )
+    assert answer.getheader("X-Content-Type-Options") == "nosniff"
+    policy = answer.getheader("Content-Security-Policy") or ""
+    assert "default-src 'none'" in policy
+    assert "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:;" in policy
+    assert int(answer.getheader("Content-Length") or 0) == len(answer.read())
+
+
+@pytest.mark.parametrize(
+    "path", ["", "bootstrap.js", "messages.py", "%6dain.js", "../webviz/main.js", "main.js/", "."]
+)
+def test_nothing_but_modules_is_below_their_folder(server: Server, path: str) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=10)
+    connection.request("GET", f"/webviz/{path}")
+    assert connection.getresponse().status == 404
+
+
+def test_a_real_page_answers_and_is_back_when_the_server_is_another(
+    browser: playwright.Browser, server: Server
+) -> None:
+    answers: list[tuple[int, Answer]] = []
+
+    def listen(server: Server) -> None:
+        Scene(server)
+        server.channel.on(Answer, lambda *answer: answers.append(answer))
+
+    listen(server)
+    page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
+    server.channel.send(Ask("first"))
+    page.wait_for(lambda: answers, "the page answers")
+    assert answers == [(page.evaluate("() => window.webviz.browser"), Answer("first"))]
+    port = server.get_port()
+    server.stop()
+    again = open_server(port=port)
+    try:
+        listen(again)
+        page.wait_for(again.get_clients, "the page is back")
+        again.channel.send(Ask("second"))
+        page.wait_for(lambda: len(answers) == 2, "the page answers again")
+    finally:
+        page.close()
+        again.stop()

@@ -1,0 +1,35 @@
+// The channel to the server: JSON objects whose `type` says what they are.
+
+const MAX_UNSENT = 100;
+
+const listeners = new Map();
+let socket = null;
+let unsent = [];
+
+/** Calls `listener` with each message of a type. */
+export function on(type, listener) {
+  listeners.set(type, [...(listeners.get(type) ?? []), listener]);
+}
+
+/** Tells the server something, as soon as it can be reached. */
+export function send(message) {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  else if (unsent.length < MAX_UNSENT) unsent.push(message);
+}
+
+/** Opens the channel; to be called when everybody listens who will. */
+export function open(url, key) {
+  socket?.close();
+  const mine = (socket = new WebSocket(url));
+  mine.onopen = () => {
+    mine.send(JSON.stringify({ type: "Hello", key }));
+    const messages = unsent;
+    unsent = [];
+    messages.forEach(send);
+  };
+  // When it ends, the server ends viser's connection too: that is made anew, and brings a new key.
+  mine.onmessage = ({ data }) => {
+    const message = JSON.parse(data);
+    for (const listener of listeners.get(message.type) ?? []) listener(message);
+  };
+}

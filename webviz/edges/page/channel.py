@@ -1,0 +1,202 @@
+"""The channel between the server and the pages of webviz, beside viser's own connection."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import logging
+import secrets
+import threading
+from collections.abc import Callable
+from functools import reduce
+from operator import or_
+from typing import Any, Protocol, TypeVar
+
+import msgspec
+from websockets.exceptions import ConnectionClosed
+
+from webviz.edges.page.messages import FromPage, Hello, ToPage
+
+MAX_WAITING = 256
+"""Messages that may wait for one page; a page that takes none of them has to connect again."""
+MAX_CHARACTERS = 64 << 10
+"""Of a message of a page."""
+HELLO_S = 10.0
+"""For a page to say who it is."""
+
+M = TypeVar("M", bound=FromPage)
+
+
+class Connection(Protocol):
+    """What is needed of a websocket."""
+
+    logger: Any
+    transport: Any
+
+    async def recv(self) -> Any:
+        """The next message."""
+        ...
+
+    async def send(self, message: str, /) -> None:
+        """Sends a message, and waits while the page does not read."""
+        ...
+
+    async def close(self, code: int = 1000, reason: str = "") -> None:
+        """Ends the connection."""
+        ...
+
+
+class Channel:
+    """Tells pages something, and hears what they tell.
+
+    Each page that joins viser's server is given a key by viser's connection, and names it when it
+    opens the channel: hence the channel knows which of viser's clients it talks to. Both
+    connections live and end together, so that nothing is lost between two of them: what is sent
+    before a page has opened its channel waits for it.
+    """
+
+    def __init__(self) -> None:
+        self.on_lost: Callable[[int], None] = lambda browser: None
+        """Called on the event loop with a browser whose channel has ended."""
+        self._lock = threading.Lock()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._outboxes: dict[int, _Outbox] = {}
+        self._kept: dict[type[ToPage], ToPage] = {}
+        self._listeners: dict[type[FromPage], list[Callable[[int, Any], None]]] = {}
+        self._decoder = msgspec.json.Decoder[FromPage](Hello)
+
+    def send(self, message: ToPage, browser: int | None = None) -> None:
+        """Tells one page, or everyone; from any thread, at once.
+
+        Without `browser`, pages that join later are told the newest of each kind that is `kept`.
+        """
+        with self._lock:
+            if browser is None and message.kept:
+                self._kept[type(message)] = message
+            for id_, outbox in self._outboxes.items():
+                if browser in (None, id_):
+                    outbox.put(message)
+            loop = self._loop
+        if loop is not None:
+            with contextlib.suppress(RuntimeError):  # the server has stopped
+                loop.call_soon_threadsafe(self._wake)
+
+    def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:
+        """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
+
+        It runs on the event loop of the server, so it must do no more than note what it heard.
+        """
+        with self._lock:
+            self._listeners.setdefault(kind, []).append(listener)
+            known = reduce(or_, self._listeners, Hello)
+            self._decoder = msgspec.json.Decoder[FromPage](known)
+
+    # Called on the event loop
+
+    def join(self, browser: int) -> str:
+        """Expects the page of a browser, and returns the key that it has to name."""
+        key = secrets.token_urlsafe(32)
+        with self._lock:
+            self._loop = asyncio.get_running_loop()
+            outbox = self._outboxes[browser] = _Outbox(key)
+            for message in self._kept.values():
+                outbox.put(message)
+        return key
+
+    def leave(self, browser: int) -> None:
+        """Forgets a browser that is gone."""
+        with self._lock:
+            self._outboxes.pop(browser, None)
+
+    async def serve(
+        self, connection: Connection, inside: Callable[[], contextlib.AbstractContextManager[None]]
+    ) -> None:
+        """Talks to a page until one of both ends.
+
+        Args:
+            connection: of the page.
+            inside: entered once the page has named its key.
+        """
+        try:
+            browser, outbox = await asyncio.wait_for(self._introduce(connection), HELLO_S)
+        except (ConnectionClosed, TimeoutError, msgspec.MsgspecError, KeyError):
+            await connection.close(1008, "This is no page of webviz")
+            return
+        outbox.abort = connection.transport.abort
+        writer = asyncio.create_task(self._write(connection, outbox))
+        self._wake()
+        try:
+            with inside(), contextlib.suppress(ConnectionClosed):
+                while True:
+                    self._hear(browser, await connection.recv(), connection.logger)
+        finally:
+            writer.cancel()
+            self.on_lost(browser)
+
+    async def _introduce(self, connection: Connection) -> tuple[int, _Outbox]:
+        hello = msgspec.json.decode(await connection.recv(), type=Hello)
+        with self._lock:
+            keys = {outbox.key: browser for browser, outbox in self._outboxes.items()}
+            browser = keys[hello.key]
+            outbox = self._outboxes[browser]
+            outbox.key = None  # it serves once
+        return browser, outbox
+
+    async def _write(self, connection: Connection, outbox: _Outbox) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            while True:
+                outbox.filled.clear()
+                while (message := self._next(outbox)) is not None:
+                    await connection.send(msgspec.json.encode(message).decode())
+                await outbox.filled.wait()
+
+    def _next(self, outbox: _Outbox) -> ToPage | None:
+        with self._lock:
+            return outbox.waiting.pop(next(iter(outbox.waiting))) if outbox.waiting else None
+
+    def _hear(self, browser: int, text: str, log: logging.Logger) -> None:
+        try:
+            message = self._decoder.decode(text)
+        except (msgspec.MsgspecError, RecursionError) as error:
+            log.warning("A message of a page was ignored: %s.", error)
+            return
+        for listener in self._listeners.get(type(message), ()):
+            listener(browser, message)
+
+    def _wake(self) -> None:
+        for outbox in tuple(self._outboxes.values()):
+            if outbox.is_full:
+                outbox.abort()
+            elif outbox.waiting:
+                outbox.filled.set()
+
+
+class _Outbox:
+    """What one page still has to be told."""
+
+    def __init__(self, key: str) -> None:
+        self.key: str | None = key
+        self.abort: Callable[[], None] = lambda: None
+        """Ends the connection of the page, if it has one."""
+        self.waiting: dict[object, ToPage] = {}
+        self.is_full = False
+        """Whether something did not fit any more."""
+        self.filled = asyncio.Event()
+        self._numbers = itertools.count()
+
+    def put(self, message: ToPage) -> None:
+        key = type(message) if message.kept else next(self._numbers)
+        self.waiting.pop(key, None)
+        if len(self.waiting) < MAX_WAITING and not self.is_full:
+            self.waiting[key] = message
+        else:
+            self.waiting.clear()
+            self.is_full = True
+
+
+def objection(data: str | bytes) -> str | None:
+    """What is wrong with a message before it is read, or None."""
+    if not isinstance(data, str):
+        return "bytes instead of text"
+    return f"{len(data)} characters" if len(data) > MAX_CHARACTERS else None

@@ -1,0 +1,53 @@
+"""viser's server as webviz runs it."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import rich
+import viser
+
+from webviz.edges.page.channel import Channel
+
+
+class Server(viser.ViserServer):
+    """viser's server without its greetings on the terminal, that waits for nobody when it stops.
+
+    Args:
+        channel: to the modules of its pages.
+        close: sends everybody away; called on the event loop.
+        options: viser's.
+    """
+
+    def __init__(self, channel: Channel, close: Callable[[], None], **options: Any) -> None:
+        self.channel = channel
+        self._close = close
+        with _quiet():
+            super().__init__(**options)
+
+    def stop(self) -> None:
+        """Ends the server's threads and frees the port."""
+        with contextlib.suppress(RuntimeError):  # it has stopped before
+            self.get_event_loop().call_soon_threadsafe(self._close)
+        with _quiet():
+            super().stop()
+
+
+@contextlib.contextmanager
+def replaced(module: Any, name: str, value: Any) -> Iterator[None]:
+    """Gives a module another value of a name for a while."""
+    original = getattr(module, name)
+    setattr(module, name, value)
+    try:
+        yield
+    finally:
+        setattr(module, name, original)
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    console = rich.get_console()
+    with replaced(console, "quiet", True):
+        yield
