@@ -38,7 +38,7 @@ def state_of(count: int) -> State:
         display = make(cls, {"name": f"{name} {i}"})
         statuses = {"Topic": Status(Level.OK, "10.0 Hz"), "Transform": Status(Level.OK, "OK")}
         rows.append(Row(f"display{i}", name, display, display.name, statuses))
-    return State(tuple(rows), "map", ("map", "odom"), {}, {})
+    return State(rows=tuple(rows), frames=("map", "odom"))
 
 
 def load(browser: playwright.Browser, url: str, rows: int) -> float:

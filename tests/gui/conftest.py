@@ -54,7 +54,7 @@ class Loop:
 
     def __init__(self, server: viser.ViserServer) -> None:
         self.commands: list[Command] = []
-        self.state = State((), "map", (), {}, {})
+        self.state = State()
         self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.panel = Panel(server, self._queue.put)
         on_typed(Adapter(server), take_typed)

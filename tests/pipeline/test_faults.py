@@ -98,7 +98,7 @@ def feed(b: Any) -> None:
     b.clock += 0.1
     b.transform("map", "base", b.source.now)
     b.pose("/pose", "base", b.source.now)
-    b.viewer._next_panel = b.viewer._next_folder = b.viewer._next_autosave = 0.0
+    b.viewer._next_panel = b.viewer._files._next_look = 0.0
 
 
 @pytest.mark.parametrize("leaves", [False, True], ids=["raises", "exits"])
@@ -128,22 +128,18 @@ PARTS = {
     "source.inbox.drain": "Source",
     "source.inbox.received": "Topics",
     "source.inbox.dropped": "",
-    "viewer._hearing._time.step": "Time",
-    "viewer._hearing._time.status": "Time",
-    "viewer._hearing._listener.take": "Transforms",
-    "viewer._hearing._listener.statuses": "Transforms",
-    "viewer._hearing._listener.subscriptions": "Transforms",
-    "viewer._hearing.monitor.take": "Topics",
-    "viewer._hearing.monitor.look": "Topics",
-    "viewer._hearing.monitor.subscription": "Topics",
-    "viewer._viewing.follow": "Views",
-    "viewer._viewing.followed": "Views",
-    "viewer._viewing.views": "Views",
-    "viewer._viewing.statuses": "Views",
-    "viewer._session.look_around": "Files",
-    "viewer._session.keep": "Files",
-    "viewer._session.file": "Files",
-    "viewer._stopwatch.clock": "Time",
+    "viewer._time.ros.step": "Time",
+    "viewer._time.ros.status": "Time",
+    "viewer._arrivals._transforms._listener.take": "Transforms",
+    "viewer._arrivals._transforms._listener.statuses": "Transforms",
+    "viewer._arrivals._transforms._listener.subscriptions": "Transforms",
+    "viewer._showing._views.follow": "Views",
+    "viewer._showing._views.followed": "Views",
+    "viewer._showing._views.state": "Views",
+    "viewer._showing._views.statuses": "Views",
+    "viewer._files._look_around": "Files",
+    "viewer._files.state": "Files",
+    "viewer._time._stopwatch.clock": "Time",
     "scene.has_watchers": "Scene",
     "scene.flush": "Scene",
     "scene.set_background": "Scene",
@@ -187,7 +183,7 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
             logged.append(len([record for record in caplog.records if record.exc_info]))
         assert calls
         assert sound.turns == before + 5
-        state = b.viewer.state(b.viewer._frames)
+        state = b.viewer.state()
     rows = [status for row in state.rows for status in row.statuses.values()]
     told = [state.statuses[PARTS[part]]] if PARTS[part] else rows
     assert any(status.level is Level.ERROR and "Boom" in status.text for status in told)
@@ -204,7 +200,7 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
         raise Boom
 
     with monkeypatch.context() as patch:
-        patch.setattr(b.viewer._session.displays, "set", boom)
+        patch.setattr(b.viewer._displays.list, "set", boom)
         refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
         b.turn()
     assert "Boom" in str(refused.exception())

@@ -149,7 +149,7 @@ def test_a_refused_value_changes_nothing(bench: Callable[..., Any]) -> None:
     b.viewer.enqueue(SetProperty("display1", "nonsense", 1))
     b.viewer.enqueue(SetProperty("display9", "size", 1))
     b.turn()
-    assert b.viewer.state(_frames(b)).rows[0].display.size == 0.1
+    assert b.viewer.state().rows[0].display.size == 0.1
 
 
 def test_a_new_fixed_frame_moves_what_is_drawn_and_loses_nothing(
@@ -344,12 +344,6 @@ def test_the_same_latched_message_again_is_ignored(bench: Callable[..., Any]) ->
     for _ in range(3):
         b.pose("/pose", "base", T, 1.0)
     assert b.statuses()["Topic"][1].startswith("1 message,")
-
-
-def _frames(b: Any) -> Any:
-    from webviz.api.frames import Frames
-
-    return Frames(b.viewer.buffer, "map", b.source.now)
 
 
 class WithUpdates(Dot):

@@ -7,7 +7,6 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -313,7 +312,7 @@ class SlowViewer:
     """Takes a picture for as long as a test wants."""
 
     def __init__(self) -> None:
-        self.state = replace(State((), "map", (), {}, {}), file=File("/somewhere.yaml"))
+        self.state = State(file=File("/somewhere.yaml"))
         self.ready = threading.Event()
 
     def do(self, command: Command) -> str:

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 from bags import START_NS, Bag, ns
 
-from webviz.api.frames import Frames
 from webviz.engine.loop import FrameLoop
 from webviz.engine.sources.bag import BagSource
 from webviz.files.opening import parse
@@ -77,8 +76,7 @@ def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
         viewer.turn()
     scene.watched = True
     viewer.turn()
-    frames = Frames(viewer.buffer, viewer.settings.fixed_frame, source.now_ns())
-    rows = viewer.state(frames).rows
+    rows = viewer.state().rows
     viewer.close()
     source.close()
     # In which slot of a display a sample is drawn makes no difference.

@@ -12,8 +12,8 @@ from typing import Any
 from webviz.data.messages import encode
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
+from webviz.engine.scene import Cameras, NoCameras
 from webviz.engine.state import State
-from webviz.engine.viewing import Cameras, NoCameras
 from webviz.files.config import Config, Item, Settings
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene

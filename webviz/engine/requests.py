@@ -13,10 +13,9 @@ from typing import Any, Generic, TypeVar
 
 from webviz.api.errors import Error
 from webviz.api.status import Level
-from webviz.engine.commands import Command, FileCommand
+from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import Answer
-from webviz.files.config import ConfigError
 from webviz.files.config.disk import in_thread
 
 MAX_REQUESTS = 1000
@@ -46,7 +45,7 @@ class Job(Generic[T]):
     then: Callable[[T], str]
 
 
-Request = tuple[Command, Future[str]]
+Request = tuple[Command, Sender, Future[str]]
 
 
 class Requests:
@@ -69,18 +68,18 @@ class Requests:
         self._running: tuple[Future[Any], Job[Any], Future[str]] | None = None
         self._has_ended = False
 
-    def put(self, command: Command) -> Future[str]:
+    def put(self, command: Command, sender: Sender) -> Future[str]:
         """Ask for something; see `FrameLoop.enqueue`."""
         answer: Future[str] = Future()
         try:
-            self._waiting.put_nowait((command, answer))
+            self._waiting.put_nowait((command, sender, answer))
         except queue.Full:
             answer.set_exception(Refused("Too many requests at once."))
         if self._has_ended:
             self._refuse_waiting()
         return answer
 
-    def obey(self, do: Callable[[Command], str | Job[Any]]) -> list[Callable[[], None]]:
+    def obey(self, do: Callable[[Command, Sender], str | Job[Any]]) -> list[Callable[[], None]]:
         """Do what was asked for.
 
         Args:
@@ -92,8 +91,8 @@ class Requests:
         """
         answers = self._finish()
         while (request := self._next()) is not None:
-            command, answer = request
-            answers += self._attempt(answer, functools.partial(do, command))
+            command, sender, answer = request
+            answers += self._attempt(answer, functools.partial(do, command, sender))
         return answers
 
     def end(self) -> None:
@@ -158,13 +157,13 @@ class Requests:
                 if self._running is not None and isinstance(request[0], FileCommand):
                     self._defer(request)
                     continue
-            if request[1].set_running_or_notify_cancel():
+            if request[-1].set_running_or_notify_cancel():
                 return request
 
     def _in_one_sentence(self, act: Callable[[], str | Job[Any]]) -> str | Job[Any]:
         try:
             return act()
-        except ConfigError as error:
+        except Error as error:
             raise Refused(str(error)) from error
         except AttributeError as error:
             raise Refused(f"Not changed: {error}.") from error
@@ -185,5 +184,5 @@ class Requests:
 
 
 def _refuse(request: Request, reason: str) -> None:
-    if request[1].set_running_or_notify_cancel():
-        request[1].set_exception(Refused(reason))
+    if request[-1].set_running_or_notify_cancel():
+        request[-1].set_exception(Refused(reason))

@@ -3,31 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 from webviz.api.declared import Color
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
+from webviz.engine.parts.views import ViewsPart
 from webviz.engine.pipeline import Runner
-from webviz.engine.pipeline.drawing import Scene as DrawingScene
 from webviz.engine.pipeline.guard import CRASHED, Guard
-from webviz.engine.viewing import ViewedScene, Viewing
-
-
-class Scene(DrawingScene, ViewedScene, Protocol):
-    """What the viewer needs of a scene besides drawing; see `webviz.edges.scene.Scene`."""
-
-    def flush(self) -> None:
-        """Send everything that changed since the last flush."""
-        ...
-
-    def has_watchers(self) -> bool:
-        """Whether any browser is connected."""
-        ...
-
-    def set_background(self, rgb: Color) -> None:
-        """Fill what lies behind everything with one colour."""
-        ...
+from webviz.engine.scene import Scene
 
 
 class Showing:
@@ -35,15 +18,15 @@ class Showing:
 
     Args:
         scene: where to draw.
-        viewing: the views.
+        views: what browsers look at.
         guard: for all calls.
     """
 
-    def __init__(self, scene: Scene, viewing: Viewing, guard: Guard) -> None:
+    def __init__(self, scene: Scene, views: ViewsPart, guard: Guard) -> None:
         self.statuses: dict[str, Status] = {}
         """What could not be drawn; the scene drops it, so it stays missing."""
         self._scene = scene
-        self._viewing = viewing
+        self._views = views
         self._guard = guard
         self._background: Color | None = None
 
@@ -58,10 +41,10 @@ class Showing:
             crashed = guard("Scene", self._scene.set_background, background) is CRASHED
             self._background = None if crashed else background
         followed = (runner.followed() for runner in runners)
-        wanted = guard.attempt("Views", set[str](), self._viewing.followed).union(*followed)
+        wanted = guard.attempt("Views", set[str](), self._views.followed).union(*followed)
         guard("Transforms", frames.prepare, wanted)
         for runner in runners:
             runner.draw(frames)
-        guard("Views", self._viewing.follow, frames)
+        guard("Views", self._views.follow, frames)
         if guard("Drawing", self._scene.flush) is CRASHED:
             self.statuses["Scene"] = Status(Level.ERROR, guard.crashes["Drawing"])

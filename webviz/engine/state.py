@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
@@ -113,9 +114,9 @@ class Inspected:
     age_s: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class State:
-    """A viewer at one moment.
+    """A viewer at one moment; each part of it fills in the fields that it owns.
 
     Args:
         rows: the displays in order.
@@ -132,13 +133,14 @@ class State:
         inspected: a topic that somebody looks into.
         transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
         views: what each browser shows, by its id.
+        more: what parts that are not webviz's own return, by name.
     """
 
-    rows: tuple[Row, ...]
-    fixed_frame: str
-    frames: tuple[str, ...]
-    topics: Mapping[str, tuple[str, ...]]
-    statuses: Mapping[str, Status]
+    rows: tuple[Row, ...] = ()
+    fixed_frame: str = Settings().fixed_frame
+    frames: tuple[str, ...] = ()
+    topics: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    statuses: Mapping[str, Status] = field(default_factory=dict)
     settings: Settings = field(default_factory=Settings)
     file: File = File()
     answer: Answer = Answer()
@@ -148,3 +150,4 @@ class State:
     inspected: Inspected | None = None
     transforms: str = ""
     views: Mapping[int, View] = field(default_factory=dict)
+    more: Mapping[str, Any] = field(default_factory=dict)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 from webviz.api.declared import Topic
@@ -28,6 +28,16 @@ class Subscription:
     topic: Topic
     latched: bool = False
     asked: int = 0
+
+
+def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
+    """All wishes by topic. The first one decides on the type and QoS of a topic."""
+    wanted: dict[str, Subscription] = {}
+    for wish in wishes:
+        for topic, subscription in wish.items():
+            first = wanted.setdefault(topic, subscription)
+            wanted[topic] = replace(first, asked=max(first.asked, subscription.asked))
+    return wanted
 
 
 @dataclass(frozen=True)

@@ -158,7 +158,7 @@ class Stage:
         return result
 
     def _state(self) -> State:
-        return self._viewer.state(self._frames())
+        return self._viewer.state()
 
     def _frames(self) -> Frames:
         viewer = self._viewer

@@ -11,8 +11,7 @@ from typing import Protocol
 from webviz.api.bounds import Box, bounds, union
 from webviz.api.frames import compose
 from webviz.api.nodes import Node, Pose, Rgb
-from webviz.engine.showing import Scene
-from webviz.engine.viewing import Cameras, NoCameras
+from webviz.engine.scene import Cameras, NoCameras, Scene
 
 
 class Target(Scene, Protocol):

@@ -42,19 +42,21 @@ class WatchedViewer(FrameLoop):
     def snapshot(self) -> State:
         """The state after the last turn."""
         with self._lock:
-            return self.state(self._frames)
+            return self.state()
 
     def wanted(self) -> Mapping[str, Subscription]:
         """All that is subscribed to, by topic."""
         with self._lock:
-            return self._wanted()
+            return self._parts.subscriptions()
 
     def is_waiting(self, id: str) -> bool:
         """Whether the newest message of a display waits for its transform."""
         with self._lock:
-            return any(runner.is_waiting() for runner in self._list.active() if runner.id == id)
+            return any(
+                runner.is_waiting() for runner in self._displays.list.active() if runner.id == id
+            )
 
     def is_busy(self) -> bool:
         """Whether slow work of any display is still to be drawn."""
         with self._lock:
-            return any(runner.is_busy() for runner in self._list.active())
+            return any(runner.is_busy() for runner in self._displays.list.active())

@@ -1,0 +1,66 @@
+"""What people ask of a viewer: queued by the panel, services or Python, done by the frame loop."""
+
+from webviz.engine.commands.command import PROGRAM, Command, Sender
+from webviz.engine.commands.displays import (
+    AddDisplay,
+    DuplicateDisplay,
+    MoveDisplay,
+    RemoveDisplay,
+    SetProperty,
+    nobody,
+)
+from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save
+from webviz.engine.commands.panel import Refresh
+from webviz.engine.commands.plugins import ReloadPlugin
+from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
+from webviz.engine.commands.time import Pause, Reset
+from webviz.engine.commands.topics import InspectTopic
+from webviz.engine.commands.transforms import InspectTransforms
+from webviz.engine.commands.views import (
+    ChangeView,
+    FocusDisplay,
+    RemoveView,
+    RenameView,
+    ResetView,
+    SaveImage,
+    SaveView,
+    ShowView,
+    StartWithView,
+    ViewCommand,
+)
+
+__all__ = [
+    "PROGRAM",
+    "AddDisplay",
+    "ChangeView",
+    "Command",
+    "DuplicateDisplay",
+    "Export",
+    "FileCommand",
+    "FocusDisplay",
+    "InspectTopic",
+    "InspectTransforms",
+    "Load",
+    "MoveDisplay",
+    "Open",
+    "Pause",
+    "Refresh",
+    "ReloadPlugin",
+    "RemoveDisplay",
+    "RemoveView",
+    "RenameView",
+    "Reset",
+    "ResetView",
+    "Save",
+    "SaveImage",
+    "SaveView",
+    "Sender",
+    "SetBackground",
+    "SetFixedFrame",
+    "SetFrameRate",
+    "SetProperty",
+    "ShowView",
+    "StartWithView",
+    "ViewCommand",
+    "nobody",
+]

@@ -1,0 +1,15 @@
+"""What is about plug-ins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from webviz.engine.commands.command import Command
+
+
+@dataclass(frozen=True)
+class ReloadPlugin(Command):
+    """Load a file with displays again, after it was saved."""
+
+    path: Path

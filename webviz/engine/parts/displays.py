@@ -1,0 +1,108 @@
+"""The displays at work, and what changes their list."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import make
+from webviz.api.display import Display
+from webviz.api.registry import display_types
+from webviz.api.status import Status
+from webviz.engine.commands import (
+    AddDisplay,
+    Command,
+    DuplicateDisplay,
+    MoveDisplay,
+    RemoveDisplay,
+    Sender,
+    SetProperty,
+)
+from webviz.engine.parts.display_list import DisplayList
+from webviz.engine.parts.part import Batches, Core, Handler, Part
+from webviz.engine.pipeline import Runner, Services
+from webviz.engine.sources import Subscription, merged
+from webviz.files.config import ConfigError, mistakes, nearest, sentences
+
+
+class DisplaysPart(Part):
+    """All displays.
+
+    Args:
+        core: what all parts share.
+        services: of the runners.
+    """
+
+    name = "Displays"
+
+    def __init__(self, core: Core, services: Services) -> None:
+        super().__init__(core)
+        self.list = DisplayList(services)
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {
+            SetProperty: self._set,
+            AddDisplay: self._add,
+            RemoveDisplay: self._remove,
+            DuplicateDisplay: self._duplicate,
+            MoveDisplay: self._move,
+        }
+
+    def subscriptions(self) -> Mapping[str, Subscription]:
+        """What the displays hear. The first one decides on the type and QoS of a topic."""
+        return merged(runner.subscriptions() for runner in self.list.active())
+
+    def take(self, batches: Batches) -> None:
+        """Hand messages to the displays."""
+        for runner in self.list.active():
+            runner.take(batches, self.core.frames, self.core.offers)
+
+    def reset(self) -> None:
+        """Forget all messages."""
+        for runner in self.list.runners():
+            self.core.guard(self.name, runner.reset)
+
+    def state(self) -> Mapping[str, Any]:
+        """The list."""
+        return {"rows": self.list.rows(self._statuses_of)}
+
+    def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
+        core = self.core
+        dropped = core.source.inbox.dropped
+        return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
+
+    # Commands
+
+    def _set(self, command: SetProperty, sender: Sender) -> None:
+        self.list.set(command.display, command.path, command.value)
+
+    def _add(self, command: AddDisplay, sender: Sender) -> None:
+        new = _new(command.type, command.values)
+        command.made(self.list.add(new, self.list.group(command.group)).id)
+
+    def _remove(self, command: RemoveDisplay, sender: Sender) -> None:
+        self.list.remove(command.display)
+
+    def _duplicate(self, command: DuplicateDisplay, sender: Sender) -> None:
+        if twin := self.list.duplicate(command.display):
+            command.made(twin.id)
+
+    def _move(self, command: MoveDisplay, sender: Sender) -> None:
+        self.list.move(command.display, command.group, command.before)
+
+
+def _new(type_name: str, values: dict[str, Any]) -> Display:
+    types = display_types()
+    if type_name not in types:
+        hint = nearest(type_name, types)
+        raise ConfigError(f"There is no display type `{type_name}`: {hint}")
+    cls = types[type_name]
+    try:
+        return make(cls, values)
+    except msgspec.ValidationError as error:
+        found = mistakes(cls, values, error)
+        raise ConfigError(f"Not added: {sentences(found)}") from error

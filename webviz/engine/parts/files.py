@@ -1,0 +1,168 @@
+"""The file that is shown and saved."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import time
+from collections.abc import Mapping
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+from webviz.api.status import Status
+from webviz.engine.commands import Command, Export, Load, Open, Save, Sender
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.views import ViewsPart
+from webviz.engine.requests import Job
+from webviz.engine.state import File
+from webviz.engine.statuses import import_status
+from webviz.files import config as config_file
+from webviz.files import opening
+from webviz.files.config import Config, ConfigError
+from webviz.files.config.disk import in_thread
+from webviz.files.config.files import SUFFIXES
+
+MAX_OTHERS = 200
+FOLDER_S = 2.0
+"""How often to look for config files that others wrote."""
+
+
+class FilesPart(Part):
+    """A config at work, and where it is saved.
+
+    Args:
+        core: what all parts share.
+        displays: to fill; empty.
+        settings: to fill.
+        views: begin anew when another config is shown.
+        config: what to begin with.
+        path: the file it came from, None for none.
+    """
+
+    name = "Files"
+
+    def __init__(
+        self,
+        core: Core,
+        displays: DisplaysPart,
+        settings: SettingsPart,
+        views: ViewsPart,
+        config: Config,
+        path: Path | None = None,
+    ) -> None:
+        super().__init__(core)
+        self._displays = displays
+        self._settings = settings
+        self._views = views
+        self._path = path
+        self._folder = path.absolute().parent if path else Path.cwd()
+        self._report: list[str] = []
+        self._others: tuple[str, ...] = ()
+        self._listing: Future[tuple[str, ...]] | None = None
+        self._next_look = 0.0
+        self._saved: dict[str, Any] = {}
+        self._is_changed = False
+        self._show(config)
+        views.start_with(config.settings.view)
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {Open: self._open, Load: self._load, Save: self._save, Export: self._export}
+
+    def config(self) -> Config:
+        """What to save to come back to this: a snapshot, for any thread."""
+        return Config(self._settings.settings, self._displays.list.items())
+
+    def keep_up(self, commanded: bool) -> None:
+        """Find out whether something was changed since it was saved, and what the folder has."""
+        if commanded:
+            self._is_changed = config_file.document(self.config()) != self._saved
+        now = time.monotonic()
+        if commanded or now >= self._next_look:
+            self._next_look = now + FOLDER_S
+            self._look_around()
+
+    def state(self) -> Mapping[str, Any]:
+        """Where this is saved."""
+        if self._listing is not None and self._listing.done():
+            self._others, self._listing = self._listing.result(), None
+        path = str(self._path) if self._path else ""
+        return {"file": File(path, self._is_changed, str(self._folder), self._others)}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """What of the .rviz file that is open has no counterpart here."""
+        return {"Import": import_status(self._report)} if self._report else {}
+
+    def _look_around(self) -> None:
+        """Begin to look for the config files of the folder; `state` has them a moment later."""
+        if self._listing is None:
+            with contextlib.suppress(OSError):
+                self._listing = in_thread(functools.partial(_config_files, self._folder))
+
+    def _open(self, command: Open, sender: Sender) -> Job[Config]:
+        wanted = self._folder / command.path
+
+        def then(config: Config) -> str:
+            self._show(config)
+            self._path = wanted
+            self._views.open(config.settings.view)
+            return f"Opened {wanted.name}."
+
+        return Job(lambda: opening.load(wanted), then)
+
+    def _load(self, command: Load, sender: Sender) -> Job[Config]:
+        text, name = command.text, command.name
+
+        def then(config: Config) -> str:
+            self._show(config)
+            self._path = None
+            self._is_changed = True
+            self._saved = {}
+            self._views.open(config.settings.view)
+            return f"Opened {name}, which is not saved here yet."
+
+        return Job(lambda: opening.parse(text, name), then)
+
+    def _save(self, command: Save, sender: Sender) -> Job[None]:
+        target = self._folder / command.path if command.path else self._path
+        if target is None:
+            raise ConfigError("This config has no file yet: give it a name.")
+        config = self.config()
+
+        def then(_: None) -> str:
+            self._path = target
+            self._saved = config_file.document(config)
+            return f"Saved {target.name}."
+
+        return Job(lambda: opening.save(config, target), then)
+
+    def _export(self, command: Export, sender: Sender) -> Job[str]:
+        config = self.config()
+
+        def then(text: str) -> str:
+            command.deliver(text)
+            return ""
+
+        return Job(lambda: opening.text_of(config, command.name), then)
+
+    def _show(self, config: Config) -> None:
+        self._displays.list.clear()
+        for item in config.displays:
+            self._displays.list.add(item)
+        self._settings.settings = config.settings
+        self._report = config.report
+        self._saved = config_file.document(self.config())
+        self._is_changed = False
+
+
+def _config_files(folder: Path) -> tuple[str, ...]:
+    """The names of the config files in a folder, sorted, not more than can be offered."""
+    try:
+        names = [path.name for path in folder.iterdir() if path.suffix.lower() in SUFFIXES]
+    except OSError:
+        names = []
+    return tuple(sorted(names)[:MAX_OTHERS])

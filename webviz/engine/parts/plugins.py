@@ -1,0 +1,38 @@
+"""Displays from files that are edited meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from webviz.engine import plugins
+from webviz.engine.commands import Command, ReloadPlugin, Sender
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
+
+
+class PluginsPart(Part):
+    """Loads plug-ins again.
+
+    Args:
+        core: what all parts share.
+        displays: that go on as what the file says now.
+        settings: keep what is needed to write entries that came from RViz again.
+    """
+
+    name = "Plugins"
+
+    def __init__(self, core: Core, displays: DisplaysPart, settings: SettingsPart) -> None:
+        super().__init__(core)
+        self._displays = displays
+        self._settings = settings
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {ReloadPlugin: self._reload}
+
+    def _reload(self, command: ReloadPlugin, sender: Sender) -> None:
+        displays, settings = self._displays.list, self._settings
+        plugins.reload(command.path, displays.runners())
+        settings.settings = displays.read_again(settings.settings)

@@ -1,0 +1,60 @@
+"""What holds for the scene as a whole: the fixed frame, the background, the frame rate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.engine.commands import Command, Sender, SetBackground, SetFixedFrame, SetFrameRate
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.files.config import ConfigError, Settings, explain, sentences
+
+
+class SettingsPart(Part):
+    """The settings of a config at work."""
+
+    name = "Settings"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self.settings = Settings()
+        """All that is shown besides displays."""
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {
+            SetFixedFrame: self._set_fixed_frame,
+            SetBackground: self._set_background,
+            SetFrameRate: self._set_frame_rate,
+        }
+
+    def set(self, key: str, value: Any) -> None:
+        """Change a setting.
+
+        Raises:
+            ConfigError: the value does not fit; nothing was changed.
+        """
+        values = msgspec.to_builtins(self.settings) | {key: value}
+        try:
+            self.settings = msgspec.convert(values, Settings)
+        except msgspec.ValidationError as error:
+            found = explain(error, Settings, values)
+            raise ConfigError(f"Not changed: {sentences([found])}") from error
+
+    def state(self) -> Mapping[str, Any]:
+        """All settings."""
+        return {"settings": self.settings, "fixed_frame": self.settings.fixed_frame}
+
+    def _set_fixed_frame(self, command: SetFixedFrame, sender: Sender) -> None:
+        if not (name := command.frame.removeprefix("/")):
+            raise ConfigError("The fixed frame needs a name.")
+        self.set("fixed_frame", name)
+
+    def _set_background(self, command: SetBackground, sender: Sender) -> None:
+        self.set("background", command.color)
+
+    def _set_frame_rate(self, command: SetFrameRate, sender: Sender) -> None:
+        self.set("frame_rate", command.hz)

@@ -1,0 +1,62 @@
+"""The time that is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.api.status import Status
+from webviz.engine.commands import Command, Pause, Reset, Sender
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.pipeline.ros_time import RosTime
+from webviz.engine.pipeline.stopwatch import Stopwatch
+
+
+class TimePart(Part):
+    """ROS time: it may stand still on the page, and it may start over.
+
+    Args:
+        core: what all parts share.
+        reset: lets all parts forget what they received.
+    """
+
+    name = "Time"
+
+    def __init__(self, core: Core, reset: Callable[[], None]) -> None:
+        super().__init__(core)
+        self._reset_all = reset
+        self._stopwatch = Stopwatch()
+        self._paused_ns: int | None = None
+        self.ros = RosTime(core.clock)
+        """Whether it started over."""
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {Reset: self._reset, Pause: self._pause}
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether somebody lets it stand still."""
+        return self._paused_ns is not None
+
+    @property
+    def shown_ns(self) -> int:
+        """ROS time to show."""
+        return self.core.now_ns if self._paused_ns is None else self._paused_ns
+
+    def state(self) -> Mapping[str, Any]:
+        """The clocks."""
+        return {"clock": self._stopwatch.clock(self.core.frames.now_ns, self.is_paused)}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """What is worth knowing of the time."""
+        status = self.ros.status(self.core.offers)
+        return {"Time": status} if status else {}
+
+    def _reset(self, command: Reset, sender: Sender) -> None:
+        self._reset_all()
+        self._stopwatch.start()
+
+    def _pause(self, command: Pause, sender: Sender) -> None:
+        self._paused_ns = self.core.frames.now_ns if command.paused else None

@@ -1,0 +1,232 @@
+"""What browsers look at: does what people ask of views, and lets views follow their frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.api.bounds import union
+from webviz.api.frames import Frames
+from webviz.api.status import Level, Status
+from webviz.api.views import (
+    FIXED_FRAME,
+    VIEW_TYPES,
+    Rig,
+    View,
+    focus,
+    mimic,
+    rig_of,
+    target_group,
+    type_of,
+)
+from webviz.engine.commands import (
+    ChangeView,
+    Command,
+    FocusDisplay,
+    RemoveView,
+    RenameView,
+    ResetView,
+    SaveImage,
+    SaveView,
+    Sender,
+    ShowView,
+    StartWithView,
+)
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
+from webviz.files.config import ConfigError, explain, nearest, sentences
+
+
+class ViewsPart(Part):
+    """The views of all browsers.
+
+    Args:
+        core: what all parts share.
+        settings: has the saved views, and the one to start with.
+        displays: which may be looked at.
+    """
+
+    name = "Views"
+
+    def __init__(self, core: Core, settings: SettingsPart, displays: DisplaysPart) -> None:
+        super().__init__(core)
+        self._settings = settings
+        self._displays = displays
+        self._scene = core.scene
+        self._cameras = core.scene.cameras
+        self._start: View | None = None
+        self._placed: set[str] = set()
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {
+            ShowView: self._show,
+            ChangeView: self._change,
+            ResetView: self._zero,
+            FocusDisplay: self._focus,
+            SaveView: self._save,
+            RenameView: self._rename,
+            RemoveView: self._remove,
+            StartWithView: self._begin_with,
+            SaveImage: self._save_image,
+        }
+
+    def start_with(self, view: View) -> None:
+        """Let browsers that join begin with a view."""
+        if view != self._start:
+            self._start = view
+            self._cameras.start_with(view)
+
+    def open(self, view: View) -> None:
+        """Let every browser begin anew with a view, now and when it joins."""
+        self.start_with(view)
+        self._cameras.show(view)
+
+    def followed(self) -> set[str]:
+        """The frames whose poses `follow` will ask for."""
+        return self._cameras.target_frames()
+
+    def follow(self, frames: Frames) -> None:
+        """Bring what views follow to where it is; the scene still has to be flushed."""
+        wanted = self._cameras.target_frames()
+        for frame in wanted:
+            if pose := frames.latest(frame):
+                self._scene.set_pose(target_group(frame), pose)
+        for frame in self._placed - wanted:
+            self._scene.remove_group(target_group(frame))
+        self._placed = wanted
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Why views stand still."""
+        frames = self.core.frames
+        lost = [
+            f"The view cannot follow {frame}. {frames.why_not(frame)}"
+            for frame in sorted(self._cameras.target_frames())
+            if frames.latest(frame) is None
+        ]
+        return {"Target Frame": Status(Level.WARN, " ".join(lost))} if lost else {}
+
+    def state(self) -> Mapping[str, Any]:
+        """What every browser shows now."""
+        return {"views": self._cameras.views()}
+
+    # Commands
+
+    def _show(self, command: ShowView, sender: Sender) -> None:
+        view = _named(command.view, self._saved())
+        self._cameras.show(view, _browser(command, sender))
+
+    def _change(self, command: ChangeView, sender: Sender) -> None:
+        for id, view in self._seen(_browser(command, sender)).items():
+            self._cameras.show(self._changed(view, command.key, command.value, id), id)
+
+    def _zero(self, command: ResetView, sender: Sender) -> None:
+        for id, view in self._seen(_browser(command, sender)).items():
+            self._cameras.show(type(view)(target_frame=view.target_frame), id)
+
+    def _focus(self, command: FocusDisplay, sender: Sender) -> None:
+        ids = self._displays.list.within(command.display)
+        boxes = (self._scene.bounds(f"{id}/") for id in ids)
+        box = union(box for box in boxes if box is not None)
+        if box is None:
+            raise ConfigError("Nothing of it is drawn, so there is nothing to look at.")
+        for id, view in self._seen(_browser(command, sender)).items():
+            rig = self._rig(type(view), view.target_frame)
+            size = self._cameras.size(id)
+            self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
+
+    def _save(self, command: SaveView, sender: Sender) -> None:
+        if not command.name:
+            raise ConfigError("A saved view needs a name.")
+        view = command.view or self._one(_browser(command, sender))
+        self._keep({**self._saved(), command.name: view})
+
+    def _rename(self, command: RenameView, sender: Sender) -> None:
+        saved, name, new_name = self._saved(), command.name, command.new_name
+        view = _found(name, saved)
+        if new_name != name and new_name in saved:
+            raise ConfigError(f"There is a view named {new_name} already.")
+        names = {key: new_name if key == name else key for key in saved}
+        self._keep({names[key]: saved[key] for key in saved} | {new_name: view})
+
+    def _remove(self, command: RemoveView, sender: Sender) -> None:
+        saved = self._saved()
+        _found(command.name, saved)
+        self._keep({key: view for key, view in saved.items() if key != command.name})
+
+    def _begin_with(self, command: StartWithView, sender: Sender) -> None:
+        if command.view is None:
+            view = self._one(_browser(command, sender))
+        else:
+            view = _named(command.view, self._saved())
+        self._settings.set("view", view)
+        self.start_with(view)
+
+    def _save_image(self, command: SaveImage, sender: Sender) -> None:
+        self._cameras.save_image(command.name, _browser(command, sender))
+
+    def _seen(self, browser: int | None) -> Mapping[int, View]:
+        """The views of one browser or of all.
+
+        Raises:
+            ConfigError: there is none.
+        """
+        views = self._cameras.views()
+        if browser is not None:
+            views = {id_: view for id_, view in views.items() if id_ == browser}
+        if not views:
+            raise ConfigError("No browser is open, or none that is ready.")
+        return views
+
+    def _one(self, browser: int | None) -> View:
+        views = self._seen(browser)
+        return views[max(views)]
+
+    def _changed(self, view: View, key: str, value: Any, browser: int) -> View:
+        rig = self._rig(type(view), view.target_frame)
+        height = self._cameras.size(browser)[1]
+        if key == "type":
+            if value not in VIEW_TYPES:
+                raise ConfigError(f"There is no view `{value}`: {nearest(str(value), VIEW_TYPES)}")
+            cls = VIEW_TYPES[value]
+            new_rig = self._rig(cls, view.target_frame)
+            return mimic(view, rig, cls, view.target_frame, new_rig, height)
+        if key == "target_frame":
+            frame = str(value)
+            return mimic(view, rig, type(view), frame, self._rig(type(view), frame), height)
+        values = msgspec.to_builtins(view)
+        if key not in values:
+            raise ConfigError(f"{type_of(view)} has no `{key}`: {nearest(key, values)}")
+        try:
+            return msgspec.convert(values | {key: value}, type(view))
+        except msgspec.ValidationError as error:
+            found = explain(error, type(view), values | {key: value})
+            raise ConfigError(f"Not changed: {sentences([found])}") from error
+
+    def _rig(self, cls: type[View], frame: str) -> Rig:
+        return Rig() if frame == FIXED_FRAME else rig_of(cls, self.core.frames.latest(frame))
+
+    def _saved(self) -> Mapping[str, View]:
+        return self._settings.settings.views
+
+    def _keep(self, views: Mapping[str, View]) -> None:
+        self._settings.set("views", views)
+
+
+def _browser(command: Any, sender: Sender) -> int | None:
+    """In which browser a command acts, None for every one."""
+    return sender.browser if command.browser is None else command.browser
+
+
+def _named(view: View | str, saved: Mapping[str, View]) -> View:
+    return _found(view, saved) if isinstance(view, str) else view
+
+
+def _found(name: str, saved: Mapping[str, View]) -> View:
+    if name not in saved:
+        raise ConfigError(f"There is no saved view `{name}`: {nearest(name, saved)}")
+    return saved[name]
