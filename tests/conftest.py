@@ -6,8 +6,13 @@ from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
+from hypothesis import settings
 
 from webviz.shell.pictures.browser import NoBrowser, launched
+
+# An example is not wrong because the machine was busy.
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 
 @pytest.fixture(scope="session")

@@ -30,7 +30,11 @@ EDGES = {
     "viser": ("webviz.edges.scene", "webviz.edges.gui", "webviz.panels"),
 }
 """Who may know a library."""
-SHARED_WITH_THE_SIMULATOR = ("webviz.data.messages", "webviz.edges.ros.types")
+SHARED_WITH_THE_SIMULATOR = (
+    "webviz.data.messages",
+    "webviz.data.rotations",
+    "webviz.edges.ros.types",
+)
 BELOW_THE_EDGES = "webviz.edges.page"
 """What scene and panel are shown by; it knows neither."""
 PUBLIC = ("webviz.api", "webviz.data")

@@ -9,16 +9,14 @@ from numpy.typing import NDArray
 
 from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
+from webviz.data.rotations import matrices, normalized, w_first
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.arrows import along_x
 from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.geometry import (
     is_drawable,
-    matrices,
-    normalized,
     origin_near,
     transformed,
-    w_first,
 )
 
 MOST_POSES = 100_000

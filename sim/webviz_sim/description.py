@@ -1,14 +1,11 @@
 """What robot_state_publisher needs of a URDF: its joints and the transforms they make."""
 
-import math
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
-"""x, y, z, w."""
+from webviz.data.rotations import Quaternion, Vector, from_axis_angle, from_rpy, multiply, w_last
 
 
 class Transform(NamedTuple):
@@ -21,7 +18,7 @@ class Transform(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """One joint of a URDF."""
+    """One joint of a URDF; its rotation has w first."""
 
     name: str
     kind: str
@@ -33,11 +30,8 @@ class Joint(NamedTuple):
 
     def transform(self, angle: float = 0.0) -> Transform:
         """The child link in the parent link's frame when the joint is turned by an angle."""
-        sin = math.sin(0.5 * angle)
-        x, y, z = self.axis
-        turn = (x * sin, y * sin, z * sin, math.cos(0.5 * angle))
-        rotation = _multiply(self.rotation, turn)
-        return Transform(self.parent, self.child, self.translation, rotation)
+        rotation = multiply(self.rotation, from_axis_angle(self.axis, angle))
+        return Transform(self.parent, self.child, self.translation, w_last(rotation))
 
 
 def demo_description() -> str:
@@ -63,30 +57,11 @@ def read_joints(urdf: str) -> list[Joint]:
             parent=_link(element, "parent"),
             child=_link(element, "child"),
             translation=_vector(origin, "xyz", (0.0, 0.0, 0.0)),
-            rotation=from_euler(*_vector(origin, "rpy", (0.0, 0.0, 0.0))),
+            rotation=from_rpy(*_vector(origin, "rpy", (0.0, 0.0, 0.0))),
             axis=_vector(element.find("axis"), "xyz", (1.0, 0.0, 0.0)),
         )
         joints.append(joint)
     return joints
-
-
-def from_euler(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """The rotation that URDF's rpy means: about the fixed axes x, then y, then z."""
-    about_x = (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2))
-    about_y = (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2))
-    about_z = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
-    return _multiply(about_z, _multiply(about_y, about_x))
-
-
-def _multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    ax, ay, az, aw = a
-    bx, by, bz, bw = b
-    return (
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    )
 
 
 def _link(joint: ElementTree.Element, tag: str) -> str:

@@ -9,6 +9,7 @@ from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import JointState, LaserScan
 
+from webviz.data.rotations import from_rpy, to_rpy, w_last
 from webviz_sim.description import Transform
 from webviz_sim.lidar import LidarSettings, Scan
 from webviz_sim.pose import Pose
@@ -30,9 +31,7 @@ def stamp(nanoseconds: int) -> Time:
 
 def planar(parent: str, child: str, pose: Pose) -> Transform:
     """A pose in the plane as a transform."""
-    half = 0.5 * pose.yaw
-    rotation = (0.0, 0.0, math.sin(half), math.cos(half))
-    return Transform(parent, child, (pose.x, pose.y, 0.0), rotation)
+    return Transform(parent, child, (pose.x, pose.y, 0.0), w_last(from_rpy(0.0, 0.0, pose.yaw)))
 
 
 def to_pose(position: Point, orientation: Quaternion) -> Pose | None:
@@ -43,7 +42,7 @@ def to_pose(position: Point, orientation: Quaternion) -> Pose | None:
         return None
     if not math.isfinite(norm):
         return None
-    yaw = math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
+    _, _, yaw = to_rpy((w / norm, x / norm, y / norm, z / norm))
     return Pose(position.x, position.y, yaw)
 
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from webviz.data.rotations import matrices
 from webviz_displays.odometry import Odometry
 from webviz_displays.odometry.display import MOST_COVARIANCES
-from webviz_displays.shared.geometry import matrices
 from webviz_displays.shared.pose_properties import (
     Covariance,
     OrientationCovariance,

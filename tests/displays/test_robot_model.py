@@ -8,6 +8,7 @@ import pytest
 from psutil import Process, wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
 
+import webviz
 import webviz_urdf
 from webviz.engine.pipeline.background import Workers
 from webviz_displays.robot_model import RobotModel
@@ -72,7 +73,7 @@ def test_the_demo_robot_is_drawn_whole(bench) -> None:
     assert "Meshes" not in at.statuses()
     for link, pose in robot.fk().items():
         for shape in robot.links[link].visuals:
-            expected = webviz_urdf.compose(pose, shape.pose)
+            expected = webviz.compose(pose, shape.pose)
             assert at.poses()[f"{link} visual {shape.name}"].position == pytest.approx(
                 expected.position, abs=1e-9
             )

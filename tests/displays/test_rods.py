@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz_displays.shared.geometry import matrices
+from webviz.data.rotations import matrices
 from webviz_displays.shared.rods import rods
 
 point = st.tuples(*[st.floats(-100, 100)] * 3)

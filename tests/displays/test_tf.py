@@ -5,7 +5,7 @@ import pytest
 
 from webviz import Axes as AxesNode
 from webviz import Instances, Labels
-from webviz_displays.shared.geometry import matrices
+from webviz.data.rotations import matrices
 from webviz_displays.tf import TF
 
 SECOND = 1_000_000_000

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from rosbags.typesys import Stores, get_typestore
 
 from webviz_sim import cdr
-from webviz_sim.description import Transform, demo_description, from_euler, read_joints
+from webviz_sim.description import Transform, demo_description, read_joints
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 FRAMES = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
@@ -57,16 +57,6 @@ def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
     wheel = robot.get_transform("wheel_left_link")
     radius = robot.link_map["wheel_left_link"].visuals[0].geometry.cylinder.radius
     assert wheel[2, 3] == radius
-
-
-@settings(deadline=None)
-@given(st.tuples(*[st.floats(-math.pi, math.pi)] * 3))
-def test_rpy_turns_about_the_fixed_axes_x_then_y_then_z(rpy):
-    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    assert np.allclose(matrix(from_euler(*rpy)), about_z @ about_y @ about_x)
 
 
 @settings(deadline=None)

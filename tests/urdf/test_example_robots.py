@@ -9,9 +9,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from webviz import compose
 from webviz.api.nodes import Glb, Mesh
-from webviz_urdf import RobotDescriptionError, compose, inertia_box, load_file, mass_sphere
-from webviz_urdf.kinematics import rotation_matrix
+from webviz.data.rotations import matrices
+from webviz_urdf import RobotDescriptionError, inertia_box, load_file, mass_sphere
 
 
 def robots_folder() -> Path | None:
@@ -66,7 +67,7 @@ def extents(robot, as_trimesh) -> np.ndarray:
         for shape in link.visuals:
             pose = compose(poses[link.name], shape.pose)
             vertices = as_trimesh(shape.node).vertices
-            corners.append(vertices @ rotation_matrix(pose).T + pose.position)
+            corners.append(vertices @ matrices(pose.wxyz).T + pose.position)
     return np.ptp(np.concatenate(corners), axis=0)
 
 

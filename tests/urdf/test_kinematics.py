@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from webviz.api.nodes import Pose
-from webviz_urdf import Resolver, Robot, compose, load_robot
+from webviz import Pose, compose
+from webviz_urdf import Resolver, Robot, load_robot
 
 angle = st.floats(-10, 10)
 

@@ -4,7 +4,6 @@ from webviz_urdf.build import Progress
 from webviz_urdf.glb import glb_with
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.joints import Joint, Mimic
-from webviz_urdf.kinematics import compose
 from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import Loading, LoadingStopped, Request
 from webviz_urdf.resolve import ResolveError, Resolver
@@ -32,7 +31,6 @@ __all__ = [
     "Robot",
     "RobotDescriptionError",
     "Shape",
-    "compose",
     "glb_with",
     "inertia_box",
     "load_file",

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import Mesh, Rgb
+from webviz.data.rotations import matrices
 from webviz_urdf import primitives
 from webviz_urdf.glb import Part
-from webviz_urdf.kinematics import rotation_matrix
 from webviz_urdf.robot import Inertial, Link
 
 _RED: Rgb = (255, 0, 0)
@@ -69,5 +69,5 @@ def _principal(
 
 def _placed(part: Part, axes: NDArray[np.float64], inertial: Inertial) -> Mesh:
     """`part`, given along the columns of `axes`, moved to the centre of mass."""
-    turned = part.vertices @ (rotation_matrix(inertial.com) @ axes).T + inertial.com.position
+    turned = part.vertices @ (matrices(inertial.com.wxyz) @ axes).T + inertial.com.position
     return Mesh(turned.astype(np.float32), part.faces, _RED)

@@ -1,66 +1,13 @@
-"""Poses as rigid motions, and where the links of a robot are for given joint positions."""
+"""Where the links of a robot are for given joint positions."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
+from webviz.api.frames import compose
 from webviz.api.nodes import Pose
+from webviz.data.rotations import from_axis_angle
 from webviz_urdf.joints import Joint
-
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
-IDENTITY = Pose()
-
-
-def compose(outer: Pose, inner: Pose) -> Pose:
-    """The pose `inner`, given in the frame of `outer`, seen from the frame of `outer`'s own."""
-    x, y, z = rotate(outer.wxyz, inner.position)
-    px, py, pz = outer.position
-    return Pose((px + x, py + y, pz + z), multiply(outer.wxyz, inner.wxyz))
-
-
-def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """The rotation `b` followed by the rotation `a`."""
-    aw, ax, ay, az = a
-    bw, bx, by, bz = b
-    return (
-        aw * bw - ax * bx - ay * by - az * bz,
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-    )
-
-
-def rotate(wxyz: Quaternion, vector: Vector) -> Vector:
-    """`vector` turned by a unit quaternion."""
-    w, x, y, z = wxyz
-    conjugate = (w, -x, -y, -z)
-    _, rx, ry, rz = multiply(multiply(wxyz, (0.0, *vector)), conjugate)
-    return rx, ry, rz
-
-
-def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
-    """Rotation by `angle` rad about the unit vector `axis`; a zero axis gives no rotation."""
-    if not any(axis):
-        return 1.0, 0.0, 0.0, 0.0
-    s = math.sin(angle / 2.0)
-    return math.cos(angle / 2.0), s * axis[0], s * axis[1], s * axis[2]
-
-
-def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
-    """float64 (3, 3): columns are the pose's axes in the outer frame."""
-    w, x, y, z = pose.wxyz
-    return np.array(
-        (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        )
-    )
 
 
 def joint_position(name: str, joints: Mapping[str, Joint], positions: Mapping[str, float]) -> float:

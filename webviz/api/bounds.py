@@ -24,6 +24,7 @@ from webviz.api.nodes import (
     Points,
     Pose,
 )
+from webviz.data.rotations import matrices
 
 F64 = NDArray[np.float64]
 
@@ -45,7 +46,7 @@ class Box:
 
     def moved(self, pose: Pose) -> Box:
         """The box, along the outer axes, around this one at a pose."""
-        corners = np.where(_CORNERS, self.high, self.low) @ _rotation(pose).T + pose.position
+        corners = np.where(_CORNERS, self.high, self.low) @ matrices(pose.wxyz).T + pose.position
         return Box(corners.min(axis=0), corners.max(axis=0))
 
 
@@ -111,20 +112,9 @@ def _matrix(node: dict[str, Any]) -> F64:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))
     matrix = np.eye(4)
-    matrix[:3, :3] = _rotation(Pose(wxyz=(w, x, y, z))) * node.get("scale", (1.0, 1.0, 1.0))
+    matrix[:3, :3] = matrices((w, x, y, z)) * node.get("scale", (1.0, 1.0, 1.0))
     matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
     return matrix
-
-
-def _rotation(pose: Pose) -> F64:
-    w, x, y, z = pose.wxyz
-    return np.array(
-        (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        )
-    )
 
 
 _EXTENTS: dict[type, Callable[[Any], Extents]] = {

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from webviz import Frames, Sample
 from webviz.data import messages
+from webviz.data.rotations import matrices, w_first
 from webviz_displays.point_cloud2.decimation import evenly
-from webviz_displays.shared.geometry import FARTHEST, is_drawable, matrices, w_first
+from webviz_displays.shared.geometry import FARTHEST, is_drawable
 
 F64 = NDArray[np.float64]
 

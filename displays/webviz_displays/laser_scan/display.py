@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic
 from webviz.data import messages
+from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
-from webviz_displays.shared.geometry import conjugate, coordinate
+from webviz_displays.shared.geometry import coordinate
 from webviz_displays.shared.points_display import PointsDisplay
 
 F64 = NDArray[np.float64]

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Pose
-from webviz_displays.shared.geometry import FARTHEST, normalized
+from webviz.data.rotations import normalized
+from webviz_displays.shared.geometry import FARTHEST
 
 TILE = 512
 """Cells along the edges of a tile, unless there would be more than `MOST_TILES`."""

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Group, Mesh
+from webviz.data.rotations import from_matrices
 from webviz_displays.odometry.covariance import (
     Covariances,
     Placed,
@@ -79,18 +80,9 @@ def _turned(placed: Placed) -> tuple[F64, F64]:
     """Diameters (N, 3) along the axes of shapes of radius 1, and the turns (N, 4) of these axes.
 
     The columns of the frames are orthogonal, none is zero. Where they are left-handed the last one
-    is reversed: all these shapes are symmetric. The quaternion of a rotation matrix is the
-    eigenvector to the largest eigenvalue of a symmetric matrix of its entries (I. Bar-Itzhack,
-    "New method for extracting the quaternion from a rotation matrix", JGCD 23(6), 2000).
+    is reversed: all these shapes are symmetric.
     """
     lengths = np.linalg.norm(placed.frames, axis=1)
     m = placed.frames / lengths[:, None, :]
     m[:, :, 2] *= np.sign(np.linalg.det(m))[:, None]
-    lower = np.zeros((len(m), 4, 4))
-    xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
-    lower[:, 0, 0], lower[:, 1, 1] = xx + yy + zz, xx - yy - zz
-    lower[:, 2, 2], lower[:, 3, 3] = yy - xx - zz, zz - xx - yy
-    lower[:, 1, 0], lower[:, 2, 1] = m[:, 2, 1] - m[:, 1, 2], m[:, 1, 0] + m[:, 0, 1]
-    lower[:, 2, 0], lower[:, 3, 1] = m[:, 0, 2] - m[:, 2, 0], m[:, 2, 0] + m[:, 0, 2]
-    lower[:, 3, 0], lower[:, 3, 2] = m[:, 1, 0] - m[:, 0, 1], m[:, 2, 1] + m[:, 1, 2]
-    return 2 * lengths, np.linalg.eigh(lower)[1][:, :, 3]
+    return 2 * lengths, from_matrices(m)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from math import atan2, dist, isfinite, sqrt
+from math import dist, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Sample
 from webviz.data import messages
+from webviz.data.rotations import angle_between, matrices, multiply_many, normalized
 from webviz_displays.odometry.covariance import LARGEST
-from webviz_displays.shared.geometry import FARTHEST, matrices, multiply, normalized
+from webviz_displays.shared.geometry import FARTHEST
 
 F64 = NDArray[np.float64]
 
@@ -66,7 +67,8 @@ def has_moved(
     p, q = a.position, b.position
     if dist((p.x, p.y, p.z), (q.x, q.y, q.z)) >= distance:
         return True
-    return _angle(a.orientation, b.orientation) >= angle
+    p, q = a.orientation, b.orientation
+    return angle_between((p.w, p.x, p.y, p.z), (q.w, q.x, q.y, q.z)) >= angle
 
 
 def is_sound(message: messages.Odometry) -> bool:
@@ -106,7 +108,7 @@ def trail(samples: Sequence[Sample]) -> Trail:
     frame_wxyzs, _ = normalized(table[:, 10:])
     local_wxyzs, _ = normalized(table[:, 3:7])
     frames = matrices(frame_wxyzs)
-    wxyzs = multiply(frame_wxyzs, local_wxyzs)
+    wxyzs = multiply_many(frame_wxyzs, local_wxyzs)
     positions = np.einsum("nij,nj->ni", frames, table[:, :3]) + table[:, 7:10]
     return Trail(positions, matrices(wxyzs), wxyzs, frames)
 
@@ -116,12 +118,3 @@ def _row(sample: Sample) -> tuple[float, ...]:
     pose = sample.message.pose.pose
     p, q = pose.position, pose.orientation
     return (p.x, p.y, p.z, q.w, q.x, q.y, q.z, *sample.pose.position, *sample.pose.wxyz)
-
-
-def _angle(p: messages.Quaternion, q: messages.Quaternion) -> float:
-    """The angle between two rotations: 2 atan2(|imaginary part|, |real part|) of conj(q) p."""
-    w = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w
-    x = q.w * p.x - q.x * p.w - q.y * p.z + q.z * p.y
-    y = q.w * p.y + q.x * p.z - q.y * p.w - q.z * p.x
-    z = q.w * p.z - q.x * p.y + q.y * p.x - q.z * p.w
-    return 2.0 * atan2(sqrt(x * x + y * y + z * z), abs(w))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Group, Solid
-from webviz_displays.shared.geometry import matrices
+from webviz.data.rotations import matrices
 from webviz_displays.shared.rods import Rods, rods
 from webviz_displays.tf.fading import faded
 

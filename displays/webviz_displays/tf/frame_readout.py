@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-from webviz import Frames
+from webviz import Frames, Pose
+from webviz.api.frames import to_pose
+from webviz.data.rotations import to_rpy
 from webviz.data.transforms import TransformException
-
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
 
 
 def readout(frames: Frames, name: str) -> str | None:
@@ -26,27 +25,17 @@ def readout(frames: Frames, name: str) -> str | None:
     except TransformException:  # frames that form a loop
         return None
     kind = "static" if cache.is_static else "moving"
-    text = f"In '{parent}' ({kind}): {_words(transform.translation, transform.rotation)}."
+    text = f"In '{parent}' ({kind}): {_words(to_pose(transform))}."
     pose = frames.latest(name)
     if pose is None or parent == frames.fixed_frame:
         return text
-    w, x, y, z = pose.wxyz
-    return f"{text} In '{frames.fixed_frame}': {_words(pose.position, (x, y, z, w))}."
+    return f"{text} In '{frames.fixed_frame}': {_words(pose)}."
 
 
-def _words(position: Vector, xyzw: Quaternion) -> str:
-    x, y, z = position
-    roll, pitch, yaw = map(math.degrees, _roll_pitch_yaw(xyzw))
+def _words(pose: Pose) -> str:
+    x, y, z = pose.position
+    roll, pitch, yaw = map(math.degrees, to_rpy(pose.wxyz))
     return (
         f"position ({x:.3f}, {y:.3f}, {z:.3f}) m, "
         f"roll, pitch and yaw ({roll:.1f}, {pitch:.1f}, {yaw:.1f}) degrees"
     )
-
-
-def _roll_pitch_yaw(xyzw: Quaternion) -> Vector:
-    """The angles of a unit quaternion, in radians."""
-    x, y, z, w = xyzw
-    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
-    return roll, pitch, yaw

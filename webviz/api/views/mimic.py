@@ -25,6 +25,7 @@ from webviz.api.views.types import (
     TopDownOrtho,
     View,
 )
+from webviz.data.rotations import to_rpy
 
 NEAREST = 1e-3
 """Of the distance that was: from nearer, no direction is left."""
@@ -64,8 +65,7 @@ def rig_of(cls: type[View], pose: Pose | None) -> Rig:
     """
     if pose is None:
         return Rig()
-    w, x, y, z = pose.wxyz
-    yaw = math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z))
+    _, _, yaw = to_rpy(pose.wxyz)
     return Rig(pose.position, yaw if cls is ThirdPersonFollower else 0.0)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Node, Points, Pose
+from webviz.data.rotations import matrices, multiply_many
 
 Position = tuple[float, float, float]
 
@@ -49,10 +50,13 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
     shift = np.subtract(pose.position, origin)
     if pose.wxyz == (1.0, 0.0, 0.0, 0.0) and not shift.any():
         return node
-    rotation = rotation_matrix(pose)
+    rotation = matrices(pose.wxyz)
 
     def move(xyz: F32) -> F32:
         return _moved(xyz.reshape(-1, 3), rotation, shift).reshape(xyz.shape)
+
+    def turn(wxyzs: F32) -> F32:
+        return multiply_many(pose.wxyz, wxyzs).astype(np.float32)
 
     match node:
         case Points():
@@ -62,12 +66,10 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
         case Labels():
             return replace(node, positions=move(node.positions))
         case Axes():
-            return replace(
-                node, positions=move(node.positions), wxyzs=_turned(pose.wxyz, node.wxyzs)
-            )
+            return replace(node, positions=move(node.positions), wxyzs=turn(node.wxyzs))
         case Instances():
             unturned = np.tile(_UNTURNED, (len(node.positions), 1))
-            wxyzs = _turned(pose.wxyz, unturned if node.wxyzs is None else node.wxyzs)
+            wxyzs = turn(unturned if node.wxyzs is None else node.wxyzs)
             return replace(node, positions=move(node.positions), wxyzs=wxyzs)
     raise TypeError(f"{type(node).__name__} has no coordinates of its own")
 
@@ -86,22 +88,3 @@ def _moved(xyz: F32, rotation: NDArray[np.float64], shift: NDArray[np.float64]) 
         for axis in range(3):
             moved[rows, axis] = x * r[axis, 0] + y * r[axis, 1] + z * r[axis, 2] + t[axis]
     return moved
-
-
-def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
-    """The rotation of a pose, float64 (3, 3): columns are the axes of the frame."""
-    w, x, y, z = pose.wxyz
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def _turned(wxyz: tuple[float, float, float, float], wxyzs: F32) -> F32:
-    """The Hamilton products of one quaternion with many, float32 (N, 4)."""
-    w, x, y, z = wxyz
-    left = np.array([[w, -x, -y, -z], [x, w, -z, y], [y, z, w, -x], [z, -y, x, w]])
-    return (wxyzs @ left.T).astype(np.float32)

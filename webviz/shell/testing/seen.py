@@ -23,7 +23,7 @@ from webviz.api.nodes import (
     has_content,
 )
 from webviz.api.status import Status
-from webviz.engine.pipeline.baking import rotation_matrix
+from webviz.data.rotations import matrices
 from webviz.engine.state import Row, State
 from webviz.files import config as config_file
 from webviz.shell.testing.recording import RecordingScene
@@ -175,5 +175,5 @@ def _name(row: Row) -> str:
 
 def _moved(pose: Pose, xyz: NDArray[np.floating[Any]]) -> F64:
     """Coordinates (..., 3) of a node, in those that its pose is given in."""
-    turned = np.asarray(xyz, np.float64).reshape(-1, 3) @ rotation_matrix(pose).T
+    turned = np.asarray(xyz, np.float64).reshape(-1, 3) @ matrices(pose.wxyz).T
     return (turned + pose.position).reshape(xyz.shape)
