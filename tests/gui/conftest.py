@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -20,6 +21,10 @@ from webviz.edges.scene import on_typed, open_server
 from webviz.edges.scene.adapter import Adapter
 from webviz.engine.commands import Command, Refresh, SetProperty
 from webviz.engine.state import Row, State
+
+
+WIDTH, HEIGHT = 700, 900
+"""Of a tab in pixels."""
 
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -57,7 +62,6 @@ class Loop:
         self.state = State()
         self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
         self.panel = Panel(server, self._queue.put)
-        on_typed(Adapter(server), take_typed)
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""
@@ -93,7 +97,7 @@ class Tab:
 
     def __init__(self, page: playwright.Page, server: viser.ViserServer, loop: Loop) -> None:
         self.page = page
-        self._loop = loop
+        self.loop = loop
         self.errors: list[str] = []
         self.frames_received = 0
         page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -128,7 +132,7 @@ class Tab:
         """Click on a button of the panel, and let the loop do what it was asked."""
         self.page.get_by_role("button", name=name, exact=True).click()
         self.page.wait_for_timeout(100)
-        self._loop.drain()
+        self.loop.drain()
 
     def show_tab(self, name: str) -> None:
         """Open a tab of the panel."""
@@ -140,7 +144,7 @@ class Tab:
 
     def dialog_labels(self) -> list[str]:
         """The labels of check boxes in the dialog that is open."""
-        self._loop.drain()
+        self.loop.drain()
         return self.page.locator(":has(> div > .webviz-picks) label").all_inner_texts()
 
     def check(self, label: str) -> None:
@@ -177,11 +181,20 @@ class Tab:
         self.frames_received += 1
 
 
-@pytest.fixture
-def server() -> Iterator[viser.ViserServer]:
+@pytest.fixture(scope="module")
+def page_server() -> Iterator[viser.ViserServer]:
+    """One server for the tests of a module, and thereby for its tab."""
     server = open_server(port=0)
+    on_typed(Adapter(server), take_typed)
     yield server
     server.stop()
+
+
+@pytest.fixture
+def server(page_server: viser.ViserServer) -> Iterator[viser.ViserServer]:
+    """A server without a panel."""
+    yield page_server
+    remove_panel(page_server)
 
 
 @pytest.fixture
@@ -196,9 +209,8 @@ def open_tab(
     """Opens tabs, each in a browser session of its own; in the end none has seen an error."""
     tabs: list[Tab] = []
 
-    def open_tab(width: int = 700, height: int = 900, **options: Any) -> Tab:
-        context = browser.new_context(viewport={"width": width, "height": height}, **options)
-        tabs.append(Tab(context.new_page(), server, loop))
+    def open_tab(width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Tab:
+        tabs.append(Tab(open_page(browser, width, height, **options), server, loop))
         return tabs[-1]
 
     yield open_tab
@@ -208,9 +220,46 @@ def open_tab(
     assert errors == []
 
 
+@pytest.fixture(scope="module")
+def lasting_tabs() -> Iterator[list[Tab]]:
+    """The tab of a module once it is open: that takes two seconds of a processor."""
+    tabs: list[Tab] = []
+    yield tabs
+    for tab in tabs:
+        tab.page.context.close()
+
+
 @pytest.fixture
-def tab(open_tab: Callable[..., Tab]) -> Tab:
-    return open_tab()
+def tab(
+    browser: playwright.Browser, server: viser.ViserServer, loop: Loop, lasting_tabs: list[Tab]
+) -> Iterator[Tab]:
+    """A tab with a new panel; its errors, as those of `open_tab`, fail the test."""
+    tab = lasting_tabs.pop() if lasting_tabs else Tab(open_page(browser), server, loop)
+    tab.loop = loop
+    with contextlib.ExitStack() as unless_clean:
+        unless_clean.callback(tab.page.context.close)
+        label = tab.page.get_by_text("Fixed Frame", exact=True)
+        label.wait_for()
+        yield tab
+        assert tab.errors == []
+        remove_panel(server)
+        for rest in (label, tab.page.get_by_role("dialog")):
+            rest.wait_for(state="detached")
+        unless_clean.pop_all()
+        lasting_tabs.append(tab)
+
+
+def remove_panel(server: viser.ViserServer) -> None:
+    """Take away what every browser shows, and what only some of them do."""
+    for owner in (server, *server.get_clients().values()):
+        owner.gui.reset()
+
+
+def open_page(
+    browser: playwright.Browser, width: int = WIDTH, height: int = HEIGHT, **options: Any
+) -> playwright.Page:
+    """An empty page in a browser session of its own."""
+    return browser.new_context(viewport={"width": width, "height": height}, **options).new_page()
 
 
 @pytest.fixture
