@@ -32,10 +32,6 @@ def main() -> int:
         try:
             page = Page(browser, program.url(), WIDTH, HEIGHT)
             page.tab.wait_for_timeout(1000.0 * SECONDS)
-            # What a browser without a GPU says of itself is no part of the viewer.
-            for button in page.tab.locator(".mantine-Notification-closeButton").all():
-                button.click()
-            page.tab.wait_for_timeout(1000.0)
             picture = PIL.Image.open(io.BytesIO(page.tab.screenshot()))
             page.close()
         finally:
