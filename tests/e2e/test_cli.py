@@ -180,7 +180,7 @@ def test_installing_brings_what_pictures_need_and_says_if_a_browser_is_missing()
         check=True,
     )
     assert '--editable ".[pictures' in plan.stdout
-    (check,) = re.findall(r"python (-m webviz\.pictures\S+)", plan.stdout)
+    (check,) = re.findall(r"python (-m webviz\.shell\.pictures\S+)", plan.stdout)
     result = subprocess.run(
         [sys.executable, *check.split()],
         capture_output=True,
