@@ -22,7 +22,6 @@ from webviz.edges.scene.adapter import Adapter
 from webviz.engine.commands import Command, Refresh, SetProperty
 from webviz.engine.state import Row, State
 
-
 WIDTH, HEIGHT = 700, 900
 """Of a tab in pixels."""
 
