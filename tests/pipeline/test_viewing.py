@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import pytest
 from bench import Bench
@@ -18,6 +20,7 @@ from webviz.api.views import (
     target_group,
 )
 from webviz.engine.commands import (
+    PROGRAM,
     ChangeView,
     Command,
     FocusDisplay,
@@ -27,6 +30,7 @@ from webviz.engine.commands import (
     ResetView,
     SaveImage,
     SaveView,
+    Sender,
     ShowView,
     StartWithView,
 )
@@ -74,9 +78,9 @@ class Looking:
     def __init__(self, b: Bench, cameras: TwoBrowsers) -> None:
         self.bench, self.cameras = b, cameras
 
-    def do(self, command: Command) -> State:
+    def do(self, command: Command, sender: Sender = PROGRAM) -> State:
         """What the panel shows after a command."""
-        return self.bench.do(command)
+        return self.bench.do(command, sender)
 
     def refused(self, command: Command) -> str:
         """Why a command is refused."""
@@ -101,6 +105,45 @@ def test_a_view_is_shown_in_one_browser_or_in_all(looking: Looking) -> None:
     assert looking.cameras.shown == {ALICE: Orbit(), BOB: TopDownOrtho(scale=50.0)}
     state = looking.do(ShowView(XYOrbit()))
     assert looking.cameras.shown == state.views == {ALICE: XYOrbit(), BOB: XYOrbit()}
+
+
+ELSEWHERE = FPS(pitch=0.5)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ShowView(ELSEWHERE),
+        ChangeView("pitch", 0.2),
+        ResetView(),
+        FocusDisplay("display1"),
+        SaveImage(name="a.png"),
+        SaveView("Mine"),
+        StartWithView(),
+    ],
+    ids=lambda command: type(command).__name__,
+)
+def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_another(
+    looking: Looking, command: Any
+) -> None:
+    cameras = looking.cameras
+
+    def acted(command: Command, sender: Sender) -> tuple[object, ...]:
+        """What differs afterwards, for each browser."""
+        cameras.shown = {ALICE: Orbit(pitch=0.1), BOB: Orbit(pitch=0.3)}
+        before = dict(cameras.shown)
+        views = looking.do(command, sender).settings.views
+        images = [browser for _, browser in cameras.images]
+        kept = [id for id, view in before.items() if view in (cameras.start, views.get("Mine"))]
+        moved = [id for id in before if cameras.shown[id] != before[id]]
+        cameras.images.clear()
+        return moved, images, kept
+
+    alone = acted(command, Sender(ALICE))
+    assert [ALICE] in alone
+    assert not any(BOB in found for found in alone)
+    named = replace(command, browser=ALICE)
+    assert acted(named, Sender(BOB)) == acted(named, PROGRAM) == alone
 
 
 def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:

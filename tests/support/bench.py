@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from webviz.data.messages import encode
-from webviz.engine.commands import Command
+from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.loop import FrameLoop
+from webviz.engine.parts import Core, Part
 from webviz.engine.scene import Cameras, NoCameras
 from webviz.engine.state import State
 from webviz.files.config import Config, Item, Settings
@@ -30,6 +31,7 @@ class Bench:
         strict: bool = True,
         autosave: Path | None = None,
         cameras: Cameras | None = None,
+        parts: Sequence[Callable[[Core], Part]] = (),
     ) -> None:
         self.source = HandFedSource()
         self.scene = RecordingScene(cameras=cameras or NoCameras())
@@ -42,6 +44,7 @@ class Bench:
             self.scene,
             self.states.append,
             autosave=autosave,
+            parts=parts,
             strict=strict,
             clock=lambda: self.clock,
         )
@@ -70,9 +73,9 @@ class Bench:
     def turn(self) -> None:
         self.viewer.turn()
 
-    def do(self, command: Command) -> State:
+    def do(self, command: Command, sender: Sender = PROGRAM) -> State:
         """What the panel shows after a command."""
-        self.until_done(self.viewer.enqueue(command))
+        self.until_done(self.viewer.enqueue(command, sender))
         return self.states[-1]
 
     def until_done(self, answer: Future[str]) -> None:

@@ -10,7 +10,11 @@ from webviz.engine.commands.command import Command
 
 
 class ViewCommand(Command):
-    """What is about views."""
+    """What is about views.
+
+    It acts in the browser that sends it, and in every one if a program does. With an id as
+    `browser` it acts there, as a program may want.
+    """
 
 
 @dataclass(frozen=True)
@@ -19,7 +23,7 @@ class ShowView(ViewCommand):
 
     Args:
         view: or the name of a saved one.
-        browser: id of the browser whose camera moves, None for every one.
+        browser: see `ViewCommand`.
     """
 
     view: View | str
@@ -33,7 +37,7 @@ class ChangeView(ViewCommand):
     Args:
         key: of the view: "type", "target_frame", "distance" and so on.
         value: of the property; the name of a type for "type".
-        browser: id of the browser whose camera moves, None for every one.
+        browser: see `ViewCommand`.
     """
 
     key: str
@@ -54,7 +58,7 @@ class FocusDisplay(ViewCommand):
 
     Args:
         display: id of the display or group.
-        browser: id of the browser whose camera moves, None for every one.
+        browser: see `ViewCommand`.
     """
 
     display: str
@@ -67,7 +71,7 @@ class SaveView(ViewCommand):
 
     Args:
         name: of the view; one that has it is replaced.
-        browser: id of the browser, None for the one that came last.
+        browser: see `ViewCommand`; for a program without it, the one that came last.
         view: instead of what a browser shows.
     """
 
@@ -96,7 +100,7 @@ class StartWithView(ViewCommand):
     """Let browsers and screenshots begin with what a browser shows.
 
     Args:
-        browser: id of the browser, None for the one that came last.
+        browser: see `ViewCommand`; for a program without it, the one that came last.
         view: instead of what a browser shows, or the name of a saved one.
     """
 
@@ -109,7 +113,7 @@ class SaveImage(ViewCommand):
     """Let a browser download what it shows as a PNG.
 
     Args:
-        browser: id of the browser, None for every one.
+        browser: see `ViewCommand`.
         name: of the file; "" is made of the date and the time.
     """
 

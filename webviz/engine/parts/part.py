@@ -18,7 +18,7 @@ Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""
 
 Handler = Callable[[Any, Sender], str | Job[Any] | None]
-"""Does a command, and returns what there is to tell of it, or its slow part.
+"""Does a command, and returns what there is to tell of it; of a `FileCommand`, its slow part.
 
 It raises a `webviz.Error` to refuse it, with a sentence.
 """

@@ -8,7 +8,7 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Status
-from webviz.engine.commands import Command, Sender
+from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.parts.part import Batches, Handler, Part
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.requests import Job
@@ -48,7 +48,10 @@ class Parts:
         kind = type(command)
         if kind not in self._handlers:
             raise Error(f"No part of this viewer handles {kind.__name__}. Add one that does.")
-        return self._handlers[kind](command, sender) or ""
+        result = self._handlers[kind](command, sender) or ""
+        if isinstance(result, Job) and not isinstance(command, FileCommand):
+            raise TypeError(f"{kind.__name__} has a slow part but is no FileCommand")
+        return result
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """All that has to be heard, by topic."""

@@ -1,7 +1,8 @@
-"""The time that is shown."""
+"""The time that is shown: RViz's panel "Time"."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -9,7 +10,7 @@ from webviz.api.status import Status
 from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.ros_time import RosTime
-from webviz.engine.pipeline.stopwatch import Stopwatch
+from webviz.engine.state import Clock
 
 
 class TimePart(Part):
@@ -25,8 +26,8 @@ class TimePart(Part):
     def __init__(self, core: Core, reset: Callable[[], None]) -> None:
         super().__init__(core)
         self._reset_all = reset
-        self._stopwatch = Stopwatch()
         self._paused_ns: int | None = None
+        self._start()
         self.ros = RosTime(core.clock)
         """Whether it started over."""
 
@@ -46,17 +47,25 @@ class TimePart(Part):
         return self.core.now_ns if self._paused_ns is None else self._paused_ns
 
     def state(self) -> Mapping[str, Any]:
-        """The clocks."""
-        return {"clock": self._stopwatch.clock(self.core.frames.now_ns, self.is_paused)}
+        """Both clocks."""
+        ros_ns, wall_s = self.core.frames.now_ns, time.time()
+        self._began_ns = self._began_ns or ros_ns
+        elapsed = ros_ns - self._began_ns, wall_s - self._began_s
+        return {"clock": Clock(ros_ns, elapsed[0], wall_s, elapsed[1], self.is_paused)}
 
     def statuses(self) -> Mapping[str, Status]:
         """What is worth knowing of the time."""
         status = self.ros.status(self.core.offers)
         return {"Time": status} if status else {}
 
+    def _start(self) -> None:
+        """Count elapsed time from now on."""
+        self._began_ns = 0  # until ROS time is known
+        self._began_s = time.time()
+
     def _reset(self, command: Reset, sender: Sender) -> None:
         self._reset_all()
-        self._stopwatch.start()
+        self._start()
 
     def _pause(self, command: Pause, sender: Sender) -> None:
         self._paused_ns = self.core.frames.now_ns if command.paused else None

@@ -1,24 +1,34 @@
-"""The topics of the graph, and one that somebody looks into."""
+"""What arrives on topics: rates, and the last message of one that somebody looks into."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.api.declared import Topic
+from webviz.data.messages import MessageError, decode, to_text
 from webviz.engine.commands import Command, InspectTopic, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
-from webviz.engine.pipeline.topic_monitor import TopicMonitor
-from webviz.engine.sources import Subscription
+from webviz.engine.sources import Raw, Subscription
+from webviz.engine.state import Inspected, Traffic
+
+SPAN_S = 3.0
+"""Over how long a rate is measured."""
+MAX_LINES = 60
 
 
 class TopicsPart(Part):
-    """What is published, how fast, and the last message of one topic."""
+    """Who publishes what, how fast it arrives, and the last message of one topic."""
 
     name = "Topics"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._monitor = TopicMonitor(core.source.inbox, core.clock)
+        self._inspected = ""
+        self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
+        self._last: tuple[str, Raw, float] | None = None
+        self._text: tuple[Raw, str] | None = None
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -26,25 +36,69 @@ class TopicsPart(Part):
         return {InspectTopic: self._inspect}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """What somebody looks into, while a browser is open."""
-        return self._monitor.subscription(self.core.offers) if self.core.is_watched() else {}
+        """The topic that is looked into while a browser is open, as the first type it has."""
+        topic = self._inspected
+        offer = self.core.offers.get(topic)
+        if not offer or not offer.publishers or not self.core.is_watched():
+            return {}
+        return {topic: Subscription(offer.publishers[0].type, Topic(topic))}
 
     def take(self, batches: Batches) -> None:
-        """Keep the newest message of the topic that somebody looks into."""
-        self._monitor.take(batches)
+        """Keep the newest message of the topic that is looked into."""
+        for raw in batches.get(self._inspected, ()):
+            self._last = self._inspected, raw, self.core.clock()
 
     def state(self) -> Mapping[str, Any]:
         """All topics."""
         offers = self.core.offers
-        return {
-            "topics": {
-                topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
-                for topic, offer in offers.items()
-            },
-            "offers": offers,
-            "traffic": self._monitor.traffic(),
-            "inspected": self._monitor.look(offers),
+        types = {
+            topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
+            for topic, offer in offers.items()
         }
+        traffic, inspected = self._traffic(), self._look()
+        return {"topics": types, "offers": offers, "traffic": traffic, "inspected": inspected}
 
     def _inspect(self, command: InspectTopic, sender: Sender) -> None:
-        self._monitor.inspected = command.topic
+        self._inspected = command.topic
+
+    def _traffic(self) -> dict[str, Traffic]:
+        """Rates by topic, since some seconds ago; to be called some times a second."""
+        now, counts = self.core.clock(), self.core.source.inbox.received()
+        self._counts.append((now, counts))
+        while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
+            self._counts.popleft()
+        then, before = self._counts[0]
+        if now == then:
+            return {}
+        traffic = {}
+        for topic, (count, size) in counts.items():
+            old_count, old_size = before.get(topic, (0, 0))
+            if count < old_count:  # subscribed anew
+                old_count = old_size = 0
+            span = now - then
+            traffic[topic] = Traffic((count - old_count) / span, (size - old_size) / span)
+        return traffic
+
+    def _look(self) -> Inspected | None:
+        """The topic that is looked into, with its last message as text."""
+        topic = self._inspected
+        if not topic:
+            return None
+        offer = self.core.offers.get(topic)
+        if not offer or not offer.publishers:
+            return Inspected(topic, "Nobody publishes this topic.")
+        if offer.problem:
+            return Inspected(topic, f"This topic cannot be read: {offer.problem}.")
+        if self._last is None or self._last[0] != topic:
+            return Inspected(topic, "No message has come yet.")
+        _, raw, at = self._last
+        if self._text is None or self._text[0] is not raw:
+            self._text = raw, _as_text(offer.type or offer.publishers[0].type, raw)
+        return Inspected(topic, self._text[1], self.core.clock() - at)
+
+
+def _as_text(type_name: str, raw: Raw) -> str:
+    try:
+        return to_text(decode(type_name, raw.cdr), MAX_LINES)
+    except MessageError as error:
+        return f"The last message cannot be read: {error}"

@@ -1,0 +1,185 @@
+"""Parts of a viewer: each owns its commands and its fields of the state."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from webviz import Error, commands
+from webviz.api.status import Level, Status
+from webviz.engine.commands import Command, FileCommand, Pause, Refresh, Reset, Sender, ViewCommand
+from webviz.engine.parts import Batches, Core, Handler, Part
+from webviz.engine.requests import Job, Refused
+from webviz.engine.state import State
+from webviz.shell.testing.source import SECOND
+
+KINDS = (Command, FileCommand, ViewCommand)
+"""What commands are kinds of, and nobody sends."""
+
+
+class Boom(Exception):
+    """Of nobody's making."""
+
+
+@dataclass(frozen=True)
+class Count(Command):
+    """Count up."""
+
+    step: int = 1
+
+
+class Counter(Part):
+    """A part that is not webviz's own."""
+
+    name = "Counter"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self.count = 0
+        self.senders: list[Sender] = []
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        return {Count: self._count}
+
+    def reset(self) -> None:
+        self.count = 0
+
+    def state(self) -> Mapping[str, Any]:
+        return {"count": (self.count, tuple(self.senders))}
+
+    def statuses(self) -> Mapping[str, Status]:
+        return {"Counter": Status(Level.OK, f"{self.count} so far.")}
+
+    def _count(self, command: Count, sender: Sender) -> str:
+        if command.step < 0:
+            raise Error("A counter cannot go back. Reset it instead.")
+        self.count += command.step
+        self.senders.append(sender)
+        return f"Counted to {self.count}."
+
+
+class Ticker(Part):
+    """Counts turns."""
+
+    name = "Ticker"
+    turns = 0
+
+    def take(self, batches: Batches) -> None:
+        self.turns += 1
+
+    def state(self) -> Mapping[str, Any]:
+        return {"turns": self.turns}
+
+
+def test_a_part_that_is_added_does_its_commands_and_shows_its_state(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(parts=[Counter])
+    b.do(Count())
+    state = b.do(Count(2), Sender(browser=4))
+    assert state.more["count"] == (3, (Sender(None), Sender(4)))
+    assert (state.answer.level, state.answer.text) == (Level.OK, "Counted to 3.")
+    assert state.statuses["Counter"].text == "3 so far."
+    refused = b.do(Count(-1)).answer
+    assert (refused.level, refused.text) == (
+        Level.ERROR,
+        "A counter cannot go back. Reset it instead.",
+    )
+    assert b.do(Reset()).more["count"][0] == 0
+
+
+HOOKS = sorted(
+    {name for name, hook in vars(Part).items() if inspect.isfunction(hook)} - {"__init__"}
+)
+PARTS = ["Answers", "Autosave", "Counter", "Displays", "Files", "Plugins", "Settings"]
+PARTS += ["Time", "Topics", "Transforms", "Views"]
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
+    bench: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+    tmp_path: Path,
+    name: str,
+) -> None:
+    b = bench(parts=[Counter, Ticker], strict=False, autosave=tmp_path / "last.yaml")
+    parts = {part.name: part for part in b.viewer._parts._parts}
+    assert sorted(parts) == sorted([*PARTS, "Ticker"])
+    part, calls = parts[name], set[str]()
+
+    def boom(hook: str) -> Callable[..., None]:
+        def call(*args: Any) -> None:
+            calls.add(hook)
+            raise Boom
+
+        return call
+
+    before = parts["Ticker"].turns
+    with monkeypatch.context() as patch:
+        for hook in HOOKS:
+            patch.setattr(part, hook, boom(hook))
+        for kind in part.handles:
+            patch.setitem(b.viewer._parts._handlers, kind, boom("handles"))
+        for kind in part.handles:
+            b.viewer._next_panel = 0.0
+            answer = b.viewer.enqueue(kind.__new__(kind))  # never looked into
+            b.turn()
+            assert "Boom" in str(answer.exception(0))
+        b.source.now -= 10 * SECOND  # everything is reset
+        state = b.do(Count(0)) if name != "Counter" else b.do(Refresh())
+        assert state.statuses[name].text.startswith(f"{name} failed: Boom")
+        assert state.statuses[name].level is Level.ERROR
+        assert state.more["turns"] > before + len(part.handles)
+        b.viewer.close()
+    assert calls == {*HOOKS, *(["handles"] if part.handles else ())}
+    assert len([record for record in caplog.records if record.exc_info]) == 1
+
+
+def test_a_command_that_no_part_owns_is_refused(bench: Callable[..., Any]) -> None:
+    b = bench()
+    answer = b.viewer.enqueue(Count())
+    b.turn()
+    with pytest.raises(
+        Refused, match=r"No part of this viewer handles Count\. Add one that does\."
+    ):
+        answer.result(0)
+
+
+def test_only_commands_about_files_have_a_slow_part(bench: Callable[..., Any]) -> None:
+    class Slow(Part):
+        @property
+        def handles(self) -> Mapping[type[Command], Handler]:
+            return {Count: lambda command, sender: Job(lambda: 1, str)}
+
+    b = bench(parts=[Slow], strict=False)
+    assert "no FileCommand" in b.do(Count()).answer.text
+    assert b.do(Refresh())
+
+
+def test_two_parts_cannot_own_one_command(bench: Callable[..., Any]) -> None:
+    class Other(Part):
+        @property
+        def handles(self) -> Mapping[type[Command], Handler]:
+            return {Pause: lambda command, sender: None}
+
+    with pytest.raises(ValueError, match="two parts handle Pause"):
+        bench(parts=[Other])
+
+
+def test_every_command_and_every_field_of_the_state_has_one_owner(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench()
+    parts = b.viewer._parts._parts
+    owned = [name for part in parts for name in part.state()]
+    assert sorted([*owned, "statuses", "more"]) == sorted(field.name for field in fields(State))
+    public = [getattr(commands, name) for name in commands.__all__]
+    asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
+    assert {kind for part in parts for kind in part.handles} == asked - set(KINDS)
