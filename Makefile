@@ -51,12 +51,12 @@ $(VENV)/ready: pyproject.toml setup.py
 	@touch $@
 
 $(VENV)/ready-to-test: $(VENV)/ready
-	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
+	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@$(MAKE) --no-print-directory browser
 	@touch $@
 
 $(VENV)/ready-to-bench: $(VENV)/ready-to-test
-	@$(VENV)/bin/python -m pip install --editable ".[test,bench$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
+	@$(VENV)/bin/python -m pip install --editable ".[test,bench$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@touch $@

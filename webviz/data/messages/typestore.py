@@ -136,6 +136,25 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
         raise
 
 
+def declare(type_name: str, described: list[Any]) -> None:
+    """Learn a type that consists of others, such as a part of an action.
+
+    Args:
+        type_name: its full name.
+        described: name and kind of each field, as `rosbags.typesys` describes them.
+    """
+    _store().fielddefs[type_name] = ([], described)
+
+
+def described(type_name: str) -> list[Any]:
+    """Name and kind of each field of a type, with bounds, as `rosbags.typesys` describes them.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+    return _definition(type_name)[1]
+
+
 def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
     """Raise unless every type that `type_name` holds is known and none holds itself."""
     if type_name in inside:

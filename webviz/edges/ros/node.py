@@ -22,8 +22,9 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.edges.ros import qos
 from webviz.edges.ros.control import Control
+from webviz.edges.ros.graph import RosGraph
 from webviz.edges.ros.heap import Heap
-from webviz.edges.ros.types import message_class
+from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
 
 SPIN_S = 0.05
@@ -69,6 +70,8 @@ class RosSource:
         self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
         self._clock = self._node.get_clock()
         self.control = Control(self._node)
+        self._executor = _executor(self._context)
+        self.graph = RosGraph(self._node, self._executor.wake)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
@@ -110,7 +113,7 @@ class RosSource:
         self._thread.join()
 
     def _run(self) -> None:
-        executor = _executor(self._context)
+        executor = self._executor
         executor.add_node(self._node)
         next_wanted = next_graph = 0.0
         wanted: Mapping[str, Subscription] = {}
@@ -121,6 +124,7 @@ class RosSource:
                     next_graph = now + GRAPH_POLL_S
                     self._look([name for name, _ in self._node.get_topic_names_and_types()])
                     self._reconcile(self._wanted)
+                    self.graph.look()
                 elif now >= next_wanted or wanted is not self._wanted:
                     next_wanted = now + WANTED_POLL_S
                     wanted = self._wanted
@@ -128,9 +132,11 @@ class RosSource:
                     self._reconcile(wanted)
                 self._heap.turn()
                 self.control.turn()
+                self.graph.turn()
                 executor.spin_once(timeout_sec=SPIN_S)
         finally:
             self.control.close()
+            self.graph.close()
             executor.shutdown()
             self._node.destroy_node()
             self._context.try_shutdown()
@@ -179,6 +185,7 @@ class RosSource:
         if held.is_mixed:
             durabilities = ["transient_local", "volatile"]
         try:
+            learn(held.wish.type)
             held.subscriptions = [
                 self._node.create_subscription(
                     message_class(held.wish.type),

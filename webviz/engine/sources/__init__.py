@@ -1,6 +1,20 @@
 """Where messages come from: a live ROS graph or a bag, behind one interface."""
 
+from webviz.engine.sources.graph import Goal, Graph, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Offer, Publisher, Source, Subscription, merged
 
-__all__ = ["Inbox", "Offer", "Publisher", "Raw", "Source", "Subscription", "merged"]
+__all__ = [
+    "Goal",
+    "Graph",
+    "Inbox",
+    "NotConnected",
+    "Offer",
+    "Outlet",
+    "Publisher",
+    "Raw",
+    "ReadOnly",
+    "Source",
+    "Subscription",
+    "merged",
+]

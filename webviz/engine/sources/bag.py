@@ -11,6 +11,7 @@ from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagError, BagFile, Channel, Recorded
 from webviz.engine.sources.bag_time import CLOCK, BagTime
+from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
 
@@ -51,6 +52,7 @@ class BagSource:
         remappings: Mapping[str, str] | None = None,
     ) -> None:
         self.inbox = Inbox()
+        self.graph = ReadOnly("A bag can only be read. Watch a live ROS graph to publish.")
         self._file = BagFile(path)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})

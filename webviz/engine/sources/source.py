@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Protocol
 
 from webviz.api.declared import Topic
+from webviz.engine.sources.graph import Durability, Graph, Reliability
 from webviz.engine.sources.inbox import Inbox
-
-Reliability = Literal["reliable", "best_effort"]
-Durability = Literal["volatile", "transient_local"]
 
 
 @dataclass(frozen=True)
@@ -77,6 +75,11 @@ class Source(Protocol):
     """A live ROS graph or a bag."""
 
     inbox: Inbox
+
+    @property
+    def graph(self) -> Graph:
+        """What the source can do besides reading."""
+        ...
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these, by topic name."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
+from webviz.engine.sources import Graph, Inbox, Offer, Publisher, Raw, ReadOnly, Subscription
 
 SECOND = 1_000_000_000
 LIMIT = 1000
@@ -17,6 +17,7 @@ class HandFedSource:
     """What a viewer hears, as a test says."""
 
     inbox: Inbox = field(default_factory=Inbox)
+    graph: Graph = field(default_factory=lambda: ReadOnly("This source can only be read."))
     wanted: Mapping[str, Subscription] = field(default_factory=dict)
     known: dict[str, Offer] = field(default_factory=dict)
     now: int = 100 * SECOND

@@ -1,0 +1,228 @@
+"""What the ROS node sends: messages, service calls and goals, to real nodes over DDS."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+from webviz.data.messages import decode, encode, interfaces
+from webviz.edges.ros.node import RosSource
+from webviz.edges.ros.types import MessageTypeError, learn
+from webviz.engine.sources import NotConnected, Outlet, ReadOnly
+
+STRING = "std_msgs/msg/String"
+FIBONACCI = "test_msgs/action/Fibonacci"
+SUCCEEDED, CANCELED = 4, 5  # of action_msgs/msg/GoalStatus
+
+ACTION_SERVER = """
+import time
+import rclpy
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from test_msgs.action import Fibonacci
+
+def execute(handle):
+    sequence = [0, 1]
+    while len(sequence) < handle.request.order:
+        if handle.is_cancel_requested:
+            handle.canceled()
+            return Fibonacci.Result(sequence=sequence)
+        sequence.append(sequence[-1] + sequence[-2])
+        handle.publish_feedback(Fibonacci.Feedback(sequence=sequence))
+        time.sleep(0.05)
+    handle.succeed()
+    return Fibonacci.Result(sequence=sequence)
+
+def judge(request):
+    return GoalResponse.ACCEPT if request.order > 0 else GoalResponse.REJECT
+
+rclpy.init()
+node = rclpy.create_node("counter")
+server = ActionServer(
+    node, Fibonacci, "/count", execute, goal_callback=judge,
+    cancel_callback=lambda _: CancelResponse.ACCEPT, callback_group=ReentrantCallbackGroup(),
+)
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+print("ready", flush=True)
+executor.spin()
+"""
+
+
+class Peer:
+    """A node of somebody else, which the test spins."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self.node: Node = rclpy.create_node("peer", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def turn(self) -> None:
+        self._executor.spin_once(timeout_sec=0.02)
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+
+@pytest.fixture(scope="module")
+def peer(webviz_domain: int) -> Iterator[Peer]:
+    peer = Peer(webviz_domain)
+    yield peer
+    peer.close()
+
+
+@pytest.fixture(scope="module")
+def source(webviz_domain: int) -> Iterator[RosSource]:
+    source = RosSource(domain_id=webviz_domain)
+    yield source
+    source.close()
+
+
+@pytest.fixture(scope="module")
+def counter(webviz_domain: int) -> Iterator[None]:
+    pytest.importorskip("test_msgs", reason="needs test_msgs: install webviz[ros-test]")
+    env = os.environ | {"ROS_DOMAIN_ID": str(webviz_domain)}
+    process = subprocess.Popen(
+        [sys.executable, "-c", ACTION_SERVER], env=env, stdout=subprocess.PIPE
+    )
+    assert process.stdout is not None
+    process.stdout.readline()
+    yield
+    process.terminate()
+    process.communicate()
+
+
+def until(condition: Callable[[], Any], turn: Callable[[], None]) -> None:
+    deadline = time.monotonic() + 20.0
+    while not condition():
+        assert time.monotonic() < deadline
+        turn()
+
+
+def order(number: int) -> bytes:
+    learn(FIBONACCI)
+    return encode(f"{FIBONACCI}_Goal", {"order": number})
+
+
+def test_a_message_reaches_a_subscription_that_knew_the_publisher(
+    source: RosSource, peer: Peer
+) -> None:
+    heard: list[str] = []
+
+    def hear(message: String) -> None:
+        heard.append(message.data)
+
+    peer.node.create_subscription(String, "/said", hear, 10)
+    outlet = Outlet("/said", STRING)
+    source.graph.advertise(outlet).result(5.0)
+    until(lambda: peer.node.count_publishers("/said"), peer.turn)
+    hello = encode(STRING, {"data": "hello"})
+    until(lambda: source.graph.publish(outlet, hello).result(5.0) == 1, peer.turn)
+    until(lambda: "hello" in heard, peer.turn)
+
+
+def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:
+    assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(5.0) == 0
+
+
+def test_an_unknown_type_is_refused_and_the_node_goes_on(source: RosSource) -> None:
+    failed = source.graph.publish(Outlet("/unknown", "no_msgs/msg/No"), b"")
+    with pytest.raises(MessageTypeError, match="Install its package"):
+        failed.result(5.0)
+    assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(5.0) == 0
+
+
+def test_a_service_answers(source: RosSource, peer: Peer) -> None:
+    def answer(request: Any, response: Any) -> Any:
+        response.success, response.message = request.data, "as told"
+        return response
+
+    peer.node.create_service(SetBool, "/switch", answer)
+    interfaces.service("std_srvs/srv/SetBool")
+    request = encode("std_srvs/srv/SetBool_Request", {"data": True})
+    future: Future[bytes] = source.graph.call("/switch", "std_srvs/srv/SetBool", request, 10.0)
+    until(future.done, peer.turn)
+    response = decode("std_srvs/srv/SetBool_Response", future.result())
+    assert (response.success, response.message) == (True, "as told")
+
+
+def test_a_service_that_no_node_offers_is_named(source: RosSource) -> None:
+    interfaces.service("std_srvs/srv/Trigger")
+    request = encode("std_srvs/srv/Trigger_Request")
+    future = source.graph.call("/nowhere", "std_srvs/srv/Trigger", request, 10.0)
+    with pytest.raises(NotConnected, match="No node offers /nowhere"):
+        future.result(10.0)
+
+
+@pytest.mark.usefixtures("counter")
+def test_a_goal_gets_feedback_and_its_result(source: RosSource) -> None:
+    feedback: list[bytes] = []
+    goal = source.graph.send_goal("/count", FIBONACCI, order(6), feedback.append)
+    assert goal.accepted.result(20.0)
+    status, result = goal.result.result(20.0)
+    assert status == SUCCEEDED
+    sequence = decode(f"{FIBONACCI}_GetResult_Response", result).result.sequence
+    assert list(sequence) == [0, 1, 1, 2, 3, 5]
+    last = decode(f"{FIBONACCI}_FeedbackMessage", feedback[-1])
+    assert bytes(last.goal_id.uuid) == goal.id
+    assert list(last.feedback.sequence)[:3] == [0, 1, 1]
+
+
+@pytest.mark.usefixtures("counter")
+def test_a_goal_can_be_cancelled(source: RosSource) -> None:
+    goal = source.graph.send_goal("/count", FIBONACCI, order(40), lambda _: goal.cancel())
+    assert goal.result.result(20.0)[0] == CANCELED
+
+
+@pytest.mark.usefixtures("counter")
+def test_a_goal_that_is_rejected_says_so(source: RosSource) -> None:
+    goal = source.graph.send_goal("/count", FIBONACCI, order(-1), lambda _: None)
+    assert goal.accepted.result(20.0) is False
+    with pytest.raises(NotConnected, match="/count rejected the goal"):
+        goal.result.result(5.0)
+
+
+def test_a_graph_that_only_reads_refuses_in_one_sentence() -> None:
+    graph = ReadOnly("A bag can only be read.")
+    goal = graph.send_goal("/count", FIBONACCI, b"", lambda _: None)
+    futures: list[Future[Any]] = [
+        graph.publish(Outlet("/a", STRING), b""),
+        graph.call("/b", "", b"", 1.0),
+        goal.accepted,
+    ]
+    for future in futures:
+        with pytest.raises(NotConnected, match="A bag can only be read"):
+            future.result(1.0)
+
+
+def test_what_waits_is_refused_when_the_node_ends(webviz_domain: int) -> None:
+    source = RosSource(domain_id=webviz_domain)
+    interfaces.service("std_srvs/srv/Trigger")
+    request = encode("std_srvs/srv/Trigger_Request")
+    future = source.graph.call("/nowhere", "std_srvs/srv/Trigger", request, 60.0)
+    source.close()
+    with pytest.raises(NotConnected, match="has ended"):
+        future.result(5.0)
+    with pytest.raises(NotConnected, match="has ended"):
+        source.graph.publish(Outlet("/said", STRING), b"").result(5.0)

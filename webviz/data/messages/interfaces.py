@@ -1,0 +1,134 @@
+"""Services and actions as the messages they consist of.
+
+A service is a request and a response; an action is three services and two messages (REP 2016,
+https://design.ros2.org/articles/actions.html). Each part is a type of its own with a definition,
+named as rosidl names it: `std_srvs/srv/SetBool_Request`, `nav2_msgs/action/Spin_SendGoal_Request`.
+Once declared, the parts are encoded and decoded like any message.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import TypesysError, get_types_from_msg
+
+from webviz.data.messages import typestore
+from webviz.data.messages.errors import DefinitionError, UnknownTypeError
+from webviz.data.messages.service_definitions import ACTIONS, SERVICES
+
+_SEPARATOR = re.compile(r"^---\s*$", re.MULTILINE)
+
+# IDL has no empty struct, so rosidl gives a part without fields this one.
+_PLACEHOLDER = ("structure_needs_at_least_one_member", (Nodetype.BASE, ("uint8", 0)))
+
+
+class Service(NamedTuple):
+    """Type names of what a service exchanges."""
+
+    request: str
+    response: str
+
+
+class Action(NamedTuple):
+    """Type names of what an action exchanges."""
+
+    send_goal: str
+    """A service: `goal_id` and `goal`, answered by `accepted` and `stamp`."""
+    get_result: str
+    """A service: `goal_id`, answered by `status` and `result`."""
+    feedback: str
+    """A message: `goal_id` and `feedback`."""
+    goal: str
+
+
+def service(type_name: str, text: str = "") -> Service:
+    """The parts of a service type, declared if they are not yet.
+
+    Args:
+        type_name: such as "std_srvs/srv/SetBool".
+        text: the .srv definition, of a type that webviz does not know by itself.
+
+    Raises:
+        UnknownTypeError: no definition is known.
+        DefinitionError: the definition is invalid.
+    """
+    parts = Service(f"{type_name}_Request", f"{type_name}_Response")
+    if not typestore.type_exists(parts.request):
+        texts = _split(type_name, text or SERVICES.get(type_name, ""), 2)
+        for part, definition in zip(parts, texts, strict=True):
+            typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
+    return _with_event(type_name, parts)
+
+
+def action(type_name: str, text: str = "") -> Action:
+    """The parts of an action type, declared if they are not yet.
+
+    Args:
+        type_name: such as "nav2_msgs/action/NavigateToPose".
+        text: the .action definition, of a type that webviz does not know by itself.
+
+    Raises:
+        UnknownTypeError: no definition is known.
+        DefinitionError: the definition is invalid.
+    """
+    goal, result, feedback = (f"{type_name}_{part}" for part in ("Goal", "Result", "Feedback"))
+    parts = Action(
+        f"{type_name}_SendGoal", f"{type_name}_GetResult", f"{type_name}_FeedbackMessage", goal
+    )
+    if typestore.type_exists(goal):
+        return parts
+    texts = _split(type_name, text or ACTIONS.get(type_name, ""), 3)
+    for part, definition in zip((goal, result, feedback), texts, strict=True):
+        typestore.declare(part, _fields(part, definition) or [_PLACEHOLDER])
+    goal_id = ("goal_id", (Nodetype.NAME, "unique_identifier_msgs/msg/UUID"))
+    stamp = ("stamp", (Nodetype.NAME, "builtin_interfaces/msg/Time"))
+    accepted = ("accepted", (Nodetype.BASE, ("bool", 0)))
+    status = ("status", (Nodetype.BASE, ("int8", 0)))
+    typestore.declare(f"{parts.send_goal}_Request", [goal_id, ("goal", (Nodetype.NAME, goal))])
+    typestore.declare(f"{parts.send_goal}_Response", [accepted, stamp])
+    typestore.declare(f"{parts.get_result}_Request", [goal_id])
+    typestore.declare(f"{parts.get_result}_Response", [status, ("result", (Nodetype.NAME, result))])
+    typestore.declare(parts.feedback, [goal_id, ("feedback", (Nodetype.NAME, feedback))])
+    for each in (parts.send_goal, parts.get_result):
+        service(each)
+    return parts
+
+
+def _with_event(type_name: str, parts: Service) -> Service:
+    """Declares what a service is as a whole, of which its hash is made."""
+    event = f"{type_name}_Event"
+    if not typestore.type_exists(event):
+        info = ("info", (Nodetype.NAME, "service_msgs/msg/ServiceEventInfo"))
+        most_one = [
+            (name, (Nodetype.SEQUENCE, ((Nodetype.NAME, part), 1)))
+            for name, part in zip(("request", "response"), parts, strict=True)
+        ]
+        typestore.declare(event, [info, *most_one])
+        whole = zip(
+            ("request_message", "response_message", "event_message"), (*parts, event), strict=True
+        )
+        typestore.declare(type_name, [(name, (Nodetype.NAME, part)) for name, part in whole])
+    return parts
+
+
+def _split(type_name: str, text: str, count: int) -> list[str]:
+    if not text:
+        raise UnknownTypeError(f"No definition of {type_name} is known.")
+    texts = _SEPARATOR.split(text)
+    if len(texts) != count:
+        raise DefinitionError(
+            f"The definition of {type_name} has {len(texts)} parts separated by ---, "
+            f"expected {count}."
+        )
+    return texts
+
+
+def _fields(part: str, text: str) -> list[Any]:
+    package, _, name = part.split("/")
+    plain = f"{package}/msg/{name}"  # rosbags reads definitions of messages only
+    try:
+        return get_types_from_msg(text, plain)[plain][1]
+    except TypesysError as error:
+        raise DefinitionError(f"The definition of {part} is not valid .msg text.") from error

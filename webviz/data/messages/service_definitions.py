@@ -1,0 +1,47 @@
+"""Definitions of services and actions that tools and panels use, without their packages.
+
+Field names and types are the interfaces of navigation2 in ROS 2 Jazzy.
+"""
+
+SERVICES = {
+    "std_srvs/srv/Empty": "---",
+    "std_srvs/srv/SetBool": """bool data
+---
+bool success
+string message""",
+    "std_srvs/srv/Trigger": """---
+bool success
+string message""",
+    "action_msgs/srv/CancelGoal": """int8 ERROR_NONE=0
+int8 ERROR_REJECTED=1
+int8 ERROR_UNKNOWN_GOAL_ID=2
+int8 ERROR_GOAL_TERMINATED=3
+action_msgs/GoalInfo goal_info
+---
+int8 return_code
+action_msgs/GoalInfo[] goals_canceling""",
+    "nav2_msgs/srv/ManageLifecycleNodes": """uint8 STARTUP=0
+uint8 PAUSE=1
+uint8 RESUME=2
+uint8 RESET=3
+uint8 SHUTDOWN=4
+uint8 CONFIGURE=5
+uint8 CLEANUP=6
+uint8 command
+---
+bool success""",
+}
+
+ACTIONS = {
+    "nav2_msgs/action/NavigateToPose": """geometry_msgs/PoseStamped pose
+string behavior_tree
+---
+uint16 error_code
+string error_msg
+---
+geometry_msgs/PoseStamped current_pose
+builtin_interfaces/Duration navigation_time
+builtin_interfaces/Duration estimated_time_remaining
+int16 number_of_recoveries
+float32 distance_remaining""",
+}

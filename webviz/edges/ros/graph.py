@@ -1,0 +1,294 @@
+"""The ROS graph as a port for output: publishers, service clients and action clients of a node."""
+
+from __future__ import annotations
+
+import logging
+import time
+import uuid
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from typing import Any
+
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from rclpy.subscription import Subscription
+
+from webviz.data.messages import decode, encode, interfaces
+from webviz.edges.ros.jobs import Jobs
+from webviz.edges.ros.types import from_cdr, learn, message_class, service_class, to_cdr
+from webviz.engine.sources.graph import Goal, NotConnected, Outlet
+
+log = logging.getLogger("webviz")
+
+CANCEL = "action_msgs/srv/CancelGoal"
+MOST_PUBLISHERS = 100
+MOST_CLIENTS = 100
+MOST_CALLS = 100
+"""Calls without an answer at a time."""
+FEEDBACK_DEPTH = 10
+WAIT_S = 2.0
+"""How long a service or an action that is not there yet is waited for."""
+
+
+@dataclass(eq=False)
+class _Call:
+    """A request on its way.
+
+    Args:
+        client: to which service.
+        request: its message.
+        answer: gets the serialised response.
+        deadline: monotonic time until which the answer is waited for.
+        give_up: monotonic time until which the service may appear.
+        is_heard: whether what the service publishes besides its answer is heard already.
+        sent: rclpy's future, None before it was sent.
+    """
+
+    client: Client
+    request: Any
+    answer: Future[bytes]
+    deadline: float
+    give_up: float
+    is_heard: Callable[[], bool] = lambda: True
+    sent: Any = field(default=None)
+
+
+class RosGraph:
+    """Publishes, calls and sends goals through a node; see `webviz.engine.sources.Graph`.
+
+    Args:
+        node: whose thread calls `turn` often.
+        wake: makes that thread do so soon.
+    """
+
+    def __init__(self, node: Node, wake: Callable[[], None]) -> None:
+        self._node = node
+        self._jobs = Jobs(wake)
+        self._publishers: dict[Outlet, Publisher] = {}
+        self._clients: dict[tuple[str, str], Client] = {}
+        self._listening: dict[str, Subscription] = {}
+        self._feedback: dict[bytes, Callable[[bytes], None]] = {}
+        self._calls: list[_Call] = []
+        self._nodes: tuple[str, ...] = ()
+
+    # From any thread
+
+    def advertise(self, outlet: Outlet) -> Future[None]:
+        """Make a publisher, so that subscriptions know it before the first message."""
+
+        def do() -> None:
+            self._publisher(outlet)
+
+        return self._jobs.put(do)
+
+    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+        """Publish a message; how many subscriptions the publisher is matched with."""
+
+        def do() -> int:
+            publisher = self._publisher(outlet)
+            publisher.publish(cdr)
+            return publisher.get_subscription_count()
+
+        return self._jobs.put(do)
+
+    def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service; the serialised response."""
+        answer: Future[bytes] = Future()
+        self._start(answer, lambda: self._send(service, type, request, timeout_s, answer))
+        return answer
+
+    def send_goal(
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], None]
+    ) -> Goal:
+        """Send a goal to an action."""
+        goal_id = uuid.uuid4().bytes
+        accepted: Future[bool] = Future()
+        result: Future[tuple[int, bytes]] = Future()
+
+        def cancel() -> None:
+            request = encode(interfaces.service(CANCEL).request, _cancels(goal_id))
+            self.call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
+
+        sent = Goal(goal_id, accepted, result, cancel)
+        self._start(accepted, lambda: self._offer(action, type, goal, sent, feedback))
+        return sent
+
+    def nodes(self) -> tuple[str, ...]:
+        """Full names of the nodes of the graph, sorted."""
+        return self._nodes
+
+    # In the thread of the node
+
+    def turn(self) -> None:
+        """Do what was asked for, and look after calls."""
+        self._jobs.run()
+        now = time.monotonic()
+        self._calls = [call for call in self._calls if not self._advance(call, now)]
+
+    def look(self) -> None:
+        """Refresh what is known of nodes."""
+        names = self._node.get_node_names_and_namespaces()
+        self._nodes = tuple(sorted({f"{space.rstrip('/')}/{name}" for name, space in names}))
+
+    def close(self) -> None:
+        """Refuse what waits."""
+        self._jobs.end()
+        for call in self._calls:
+            call.answer.set_exception(NotConnected("The connection to ROS has ended."))
+        self._calls = []
+
+    def _start(self, answer: Future, do: Callable[[], None]) -> None:
+        """Do something in the thread of the node; what it raises goes to the answer."""
+
+        def pass_on(started: Future[None]) -> None:
+            if (error := started.exception()) and not answer.done():
+                answer.set_exception(error)
+
+        self._jobs.put(do).add_done_callback(pass_on)
+
+    def _publisher(self, outlet: Outlet) -> Publisher:
+        if outlet not in self._publishers:
+            for _ in range(len(self._publishers) - MOST_PUBLISHERS + 1):
+                self._node.destroy_publisher(self._publishers.pop(next(iter(self._publishers))))
+            profile = QoSProfile(
+                depth=outlet.depth,
+                reliability=ReliabilityPolicy[outlet.reliability.upper()],
+                durability=DurabilityPolicy[outlet.durability.upper()],
+            )
+            self._publishers[outlet] = self._node.create_publisher(
+                message_class(outlet.type), outlet.topic, profile
+            )
+        return self._publishers[outlet]
+
+    def _client(self, service: str, type: str) -> Client:
+        if (service, type) not in self._clients:
+            for _ in range(len(self._clients) - MOST_CLIENTS + 1):
+                self._node.destroy_client(self._clients.pop(next(iter(self._clients))))
+            self._clients[service, type] = self._node.create_client(service_class(type), service)
+        return self._clients[service, type]
+
+    def _send(
+        self,
+        service: str,
+        type: str,
+        request: bytes,
+        timeout_s: float,
+        answer: Future[bytes],
+        is_heard: Callable[[], bool] = lambda: True,
+    ) -> None:
+        if len(self._calls) >= MOST_CALLS:
+            raise NotConnected(f"{MOST_CALLS} service calls wait for an answer. Try again later.")
+        client = self._client(service, type)
+        message = from_cdr(request, service_class(type).Request)
+        now = time.monotonic()
+        self._calls.append(_Call(client, message, answer, now + timeout_s, now + WAIT_S, is_heard))
+
+    def _advance(self, call: _Call, now: float) -> bool:
+        """Take a call one step on; whether it is over."""
+        name = call.client.service_name
+        if call.sent is None and call.client.service_is_ready() and call.is_heard():
+            call.sent = call.client.call_async(call.request)
+        elif call.sent is None and now > call.give_up:
+            call.answer.set_exception(
+                NotConnected(f"No node offers {name}. Start it, or choose another name.")
+            )
+            return True
+        elif call.sent is not None and call.sent.done():
+            call.answer.set_result(to_cdr(call.sent.result()))
+            return True
+        elif now > call.deadline:
+            if call.sent is not None:
+                call.client.remove_pending_request(call.sent)
+            call.answer.set_exception(NotConnected(f"{name} did not answer in time."))
+            return True
+        return False
+
+    def _offer(
+        self,
+        action: str,
+        type: str,
+        goal: bytes,
+        sent: Goal,
+        feedback: Callable[[bytes], None],
+    ) -> None:
+        """Send the request of a goal, and follow it if it is accepted."""
+        learn(type)
+        parts = interfaces.action(type)
+        values = {"goal_id": _id(sent.id), "goal": decode(parts.goal, goal)}
+        request = encode(f"{parts.send_goal}_Request", values)
+        feedbacks = self._hear(action, parts.feedback)
+        self._feedback[sent.id] = feedback
+        answer: Future[bytes] = Future()
+
+        def on_answer(answered: Future[bytes]) -> None:
+            if error := answered.exception():
+                self._feedback.pop(sent.id, None)
+                sent.result.set_exception(error)
+                sent.accepted.set_exception(error)
+                return
+            is_accepted = decode(f"{parts.send_goal}_Response", answered.result()).accepted
+            if is_accepted:
+                self._await(action, parts, sent)
+            else:
+                self._feedback.pop(sent.id, None)
+                sent.result.set_exception(NotConnected(f"{action} rejected the goal."))
+            sent.accepted.set_result(bool(is_accepted))
+
+        answer.add_done_callback(on_answer)
+        self._send(
+            f"{action}/_action/send_goal",
+            parts.send_goal,
+            request,
+            WAIT_S * 5,
+            answer,
+            lambda: feedbacks.get_publisher_count() > 0,
+        )
+
+    def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
+        request = encode(f"{parts.get_result}_Request", {"goal_id": _id(sent.id)})
+
+        def on_result(answered: Future[bytes]) -> None:
+            self._feedback.pop(sent.id, None)
+            if error := answered.exception():
+                sent.result.set_exception(error)
+            else:
+                status = decode(f"{parts.get_result}_Response", answered.result()).status
+                sent.result.set_result((int(status), answered.result()))
+
+        forever = float("inf")
+        done = self.call(f"{action}/_action/get_result", parts.get_result, request, forever)
+        done.add_done_callback(on_result)
+
+    def _hear(self, action: str, type: str) -> Subscription:
+        """The subscription to the feedback of an action; each goal gets its own."""
+        topic = f"{action}/_action/feedback"
+        if topic in self._listening:
+            return self._listening[topic]
+
+        def arrive(cdr: bytes) -> None:
+            listener = self._feedback.get(bytes(decode(type, cdr).goal_id.uuid))
+            if listener is not None:
+                try:
+                    listener(cdr)
+                except Exception:  # of whoever sent the goal; the node goes on
+                    log.exception("Feedback of %s could not be used", action)
+
+        self._listening[topic] = self._node.create_subscription(
+            message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
+        )
+        return self._listening[topic]
+
+
+def _id(goal_id: bytes) -> dict[str, Any]:
+    return {"uuid": list(goal_id)}
+
+
+def _cancels(goal_id: bytes) -> dict[str, Any]:
+    return {"goal_info": {"goal_id": _id(goal_id)}}

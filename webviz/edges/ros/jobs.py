@@ -1,0 +1,60 @@
+"""Work for the thread that owns a ROS node, asked for by any other thread."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
+
+from webviz.engine.sources.graph import NotConnected
+
+T = TypeVar("T")
+
+MOST = 1000
+
+
+class Jobs:
+    """A bounded queue.
+
+    Args:
+        wake: makes the thread call `run` soon.
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._queue: queue.Queue[tuple[Callable[[], object], Future]] = queue.Queue(MOST)
+        self._has_ended = False
+
+    def put(self, do: Callable[[], T]) -> Future[T]:
+        """Let the thread call `do`, and pass on what it returns or raises."""
+        future: Future[T] = Future()
+        try:
+            self._queue.put_nowait((do, future))
+        except queue.Full:
+            future.set_exception(NotConnected("Too many requests at once. Try again later."))
+        if self._has_ended:
+            self.end()
+        self._wake()
+        return future
+
+    def run(self) -> None:
+        """Do what was asked for; to be called by the thread."""
+        for _ in range(self._queue.qsize()):
+            do, future = self._queue.get_nowait()
+            if not future.set_running_or_notify_cancel():
+                continue
+            try:
+                future.set_result(do())
+            except Exception as error:
+                future.set_exception(error)
+
+    def end(self) -> None:
+        """Refuse what still waits, and what comes from now on."""
+        self._has_ended = True
+        while True:
+            try:
+                _, future = self._queue.get_nowait()
+            except queue.Empty:
+                return
+            future.set_exception(NotConnected("The connection to ROS has ended."))

@@ -1,0 +1,128 @@
+"""The class of a type for rclpy: the installed one, else one composed from the definition."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from typing import Any
+
+from rclpy.serialization import deserialize_message, serialize_message
+from rclpy.utilities import get_rmw_implementation_identifier
+
+from webviz.data.messages import MessageError, UnknownTypeError, interfaces
+from webviz.edges.ros.types.composing import composed_message, composed_service
+from webviz.edges.ros.types.descriptions import describe
+from webviz.edges.ros.types.wire import Raw
+
+_FEEDBACK = "_FeedbackMessage"
+
+
+class MessageTypeError(Exception):
+    """A type cannot be provided; the text says why and what to do."""
+
+
+def message_class(type_name: str) -> type:
+    """The message class to create publishers and subscriptions with.
+
+    The real class if its package is importable, else one composed at run time, which works with
+    `create_subscription(..., raw=True)` and `publisher.publish(bytes)` only. The same call returns
+    the same class.
+
+    Args:
+        type_name: full name, such as "tf2_msgs/msg/TFMessage". Types that neither an installed
+            package nor webviz knows are made known by `webviz.data.messages.register`.
+
+    Raises:
+        MessageTypeError: the name is malformed or unknown, or the package is missing under another
+            RMW implementation than rmw_fastrtps_cpp.
+    """
+    match type_name.split("/"):
+        case [package, "msg", name] if package.isidentifier() and name.isidentifier():
+            installed = _installed(package, "msg", name)
+        case [package, "action", name] if name.endswith(_FEEDBACK):
+            found = _installed(package, "action", name.removesuffix(_FEEDBACK))
+            installed = found.Impl.FeedbackMessage if found else None
+        case _:
+            raise MessageTypeError(
+                f"{type_name!r} is not a message type name. Write package/msg/Name."
+            )
+    return installed or _composed(type_name)
+
+
+def service_class(type_name: str) -> Any:
+    """The service class to create clients with; also of the services that an action consists of.
+
+    Its requests and responses go through `to_cdr` and `from_cdr`, installed or not.
+
+    Args:
+        type_name: such as "std_srvs/srv/Trigger" or "nav2_msgs/action/Spin_SendGoal".
+
+    Raises:
+        MessageTypeError: as `message_class`.
+    """
+    match type_name.split("/"):
+        case [package, "srv", name] if package.isidentifier() and name.isidentifier():
+            installed = _installed(package, "srv", name)
+        case [package, "action", name] if package.isidentifier() and name.isidentifier():
+            action, _, part = name.rpartition("_")
+            found = _installed(package, "action", action)
+            installed = getattr(found.Impl, f"{part}Service") if found else None
+        case _:
+            raise MessageTypeError(
+                f"{type_name!r} is not a service type name. Write package/srv/Name."
+            )
+    return installed or _composed_service(type_name)
+
+
+def from_cdr(cdr: bytes, cls: Any) -> Any:
+    """A request or response of a class from its serialised bytes."""
+    return cls(cdr) if issubclass(cls, Raw) else deserialize_message(cdr, cls)
+
+
+def to_cdr(message: Any) -> bytes:
+    """The serialised bytes of a request or response."""
+    return message.cdr if isinstance(message, Raw) else serialize_message(message)
+
+
+def _installed(package: str, kind: str, name: str) -> Any:
+    """The generated class; a source folder that merely bears the package's name has none."""
+    try:
+        return getattr(importlib.import_module(f"{package}.{kind}"), name, None)
+    except ModuleNotFoundError as error:
+        if error.name in (package, f"{package}.{kind}"):
+            return None
+        raise
+
+
+@functools.cache
+def _composed(type_name: str) -> type:
+    try:
+        describe(type_name)
+    except MessageError as error:
+        raise _refusal(error) from error
+    _need_fastrtps(type_name)
+    return composed_message(type_name)
+
+
+def _composed_service(type_name: str) -> type:
+    try:
+        interfaces.service(type_name)
+    except MessageError as error:
+        raise _refusal(error) from error
+    _need_fastrtps(type_name)
+    return composed_service(type_name)
+
+
+def _refusal(error: MessageError) -> MessageTypeError:
+    remedy = " Install its package, or source the workspace that contains it."
+    return MessageTypeError(f"{error}{remedy if isinstance(error, UnknownTypeError) else ''}")
+
+
+def _need_fastrtps(type_name: str) -> None:
+    rmw = get_rmw_implementation_identifier()
+    if rmw != "rmw_fastrtps_cpp":
+        package = type_name.partition("/")[0].replace("_", "-")
+        raise MessageTypeError(
+            f"{type_name} needs its package with {rmw}: install ros-jazzy-{package} with apt, or "
+            "set RMW_IMPLEMENTATION=rmw_fastrtps_cpp."
+        )

@@ -1,0 +1,97 @@
+"""Definitions of installed types that webviz does not know by itself, read from their classes."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from typing import Any
+
+from webviz.data.messages import interfaces, register, type_exists
+
+_SEPARATOR = "=" * 80
+_PRIMITIVES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+_REPEATED = re.compile(
+    r"sequence<(?P<inner>[^,]+)(?:, (?P<bound>\d+))?>|(?P<item>.+)\[(?P<size>\d+)\]"
+)
+
+
+def learn(type_name: str) -> None:
+    """Make the decoder and the encoder know a message, service or action type that is installed.
+
+    Args:
+        type_name: such as "my_msgs/msg/Wheel" or "my_msgs/action/Dock". Nothing happens if it is
+            known already or not installed.
+
+    Raises:
+        DefinitionError: the type holds something that webviz cannot decode, such as a wstring.
+    """
+    package, kind, name = type_name.split("/")
+    try:
+        cls = getattr(importlib.import_module(f"{package}.{kind}"), name, None)
+    except ModuleNotFoundError:
+        return
+    if cls is None:
+        return
+    if kind == "msg" and not type_exists(type_name):
+        register(type_name, _with_nested(cls))
+    elif kind == "srv" and not type_exists(f"{type_name}_Request"):
+        interfaces.service(type_name, _joined(cls.Request, cls.Response))
+    elif kind == "action" and not type_exists(f"{type_name}_Goal"):
+        interfaces.action(type_name, _joined(cls.Goal, cls.Result, cls.Feedback))
+
+
+def _joined(*parts: Any) -> str:
+    """The definition of a service or an action; the messages in it are learnt."""
+    for part in parts:
+        for nested in _nested(part):
+            learn(nested)
+    return "---\n".join(map(_text, parts))
+
+
+def _with_nested(cls: Any) -> str:
+    """A message's definition, and those of all that it holds, as bags store it."""
+    texts = {"": _text(cls)}
+    waiting = _nested(cls)
+    while waiting:
+        name = waiting.pop()
+        if name not in texts:
+            package, _, short = name.split("/")
+            inner = getattr(importlib.import_module(f"{package}.msg"), short)
+            texts[name] = f"{_SEPARATOR}\nMSG: {package}/{short}\n{_text(inner)}"
+            waiting += _nested(inner)
+    return "".join(texts.values())
+
+
+def _text(cls: Any) -> str:
+    return "".join(f"{_type(kind)} {name}\n" for name, kind in _members(cls))
+
+
+def _members(cls: Any) -> list[tuple[str, str]]:
+    return [
+        (name, kind)
+        for name, kind in cls.get_fields_and_field_types().items()
+        if name != "structure_needs_at_least_one_member"
+    ]
+
+
+def _nested(cls: Any) -> list[str]:
+    """Full names of the message types that a class holds."""
+    kinds = [_item(kind) for _, kind in _members(cls)]
+    return [kind.replace("/", "/msg/") for kind in kinds if "/" in kind]
+
+
+def _item(kind: str) -> str:
+    found = _REPEATED.fullmatch(kind)
+    return (found["inner"] or found["item"]) if found else kind
+
+
+def _type(kind: str) -> str:
+    """A type as rosidl's Python names it, as a .msg file does."""
+    if found := _REPEATED.fullmatch(kind):
+        if found["item"]:
+            return f"{_type(found['item'])}[{found['size']}]"
+        bound = f"<={found['bound']}" if found["bound"] else ""
+        return f"{_type(found['inner'])}[{bound}]"
+    if bounded := re.fullmatch(r"(w?string)<(\d+)>", kind):
+        return f"{bounded[1]}<={bounded[2]}"
+    return _PRIMITIVES.get(kind, kind)
