@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from webviz.api.context import Context, Group, Placement
     from webviz.api.declared import Color, Prop, Topic
-    from webviz.api.display import Display, Input, Keep
+    from webviz.api.display import Display, Input, Keep, Sync
     from webviz.api.errors import Error
     from webviz.api.frames import FramePoses, Frames, compose
     from webviz.api.nodes import (
@@ -62,6 +62,7 @@ __all__ = [
     "Sample",
     "Solid",
     "Status",
+    "Sync",
     "Topic",
     "Viewer",
     "capture",
@@ -72,7 +73,7 @@ _HOMES = {
     "webviz.shell.app.viewer": ("Viewer",),
     "webviz.api.context": ("Context", "Group", "Placement"),
     "webviz.api.declared": ("Color", "Prop", "Topic"),
-    "webviz.api.display": ("Display", "Input", "Keep"),
+    "webviz.api.display": ("Display", "Input", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),
     "webviz.api.frames": ("FramePoses", "Frames", "compose"),
     "webviz.api.nodes": (

@@ -17,10 +17,11 @@ is the framework's.
 from __future__ import annotations
 
 import functools
+import math
 import typing
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import msgspec
 
@@ -49,9 +50,41 @@ class Input:
     optional: bool = False
 
 
+@dataclass(frozen=True, init=False)
+class Sync:
+    """Inputs whose messages are drawn together, matched by stamp.
+
+        sync = Sync("image", "info")
+
+    A set is one sample: that of the first input, with the others in `Sample.synced`. It is placed
+    where the first input's message is. Each message waits for its own transform first, unless
+    `Display.waits` says otherwise. Inputs that the display does not listen to are left out, and
+    optional ones until a message arrives on them.
+
+    Args:
+        inputs: at least two; their message types have a header.
+        slop: seconds by which the stamps of a set may differ; 0 is equal stamps. These are
+            message_filters' ExactTime and the Python version of its ApproximateTime.
+        queue_size: messages per input that may wait for the others.
+    """
+
+    inputs: tuple[str, ...]
+    slop: float
+    queue_size: int
+
+    def __init__(self, *inputs: str, slop: float = 0.0, queue_size: int = 10) -> None:
+        if len(set(inputs)) < 2 or len(set(inputs)) < len(inputs):
+            raise ValueError("a Sync needs at least two different inputs")
+        if not 0 <= slop < math.inf or queue_size < 1:
+            raise ValueError("a Sync needs a slop of at least 0 s and a queue_size of at least 1")
+        object.__setattr__(self, "inputs", inputs)
+        object.__setattr__(self, "slop", slop)
+        object.__setattr__(self, "queue_size", queue_size)
+
+
 @dataclass(frozen=True)
 class Keep:
-    """How much history the framework holds for a display.
+    """How much history the framework holds for each input of a display.
 
     Args:
         count: the newest samples to hold; 0 is without limit of number.
@@ -66,6 +99,9 @@ class Display(Declared, kw_only=True):
     """Base of all displays. A subclass declares properties and overrides the hooks it needs."""
 
     kind = "display"
+
+    sync: ClassVar[Sync | None] = None
+    """Inputs that are drawn together; the others are drawn as they come."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
@@ -97,11 +133,14 @@ class Display(Declared, kw_only=True):
         return 0
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether a new sample joins the kept ones (oldest first); text: what is wrong with it."""
+        """Whether a new sample joins those kept of its input (oldest first).
+
+        A text says what is wrong with it.
+        """
         return True
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
-        """Merge a sample of the input `name` into `state` (None at first) and return it.
+        """Return `state`, None at first, with a sample of the input `name` merged into it.
 
         The result becomes the message of the one sample that `draw` gets. Overriding this hook
         makes every message count: none is skipped for a newer one.
@@ -118,10 +157,16 @@ class Display(Declared, kw_only=True):
         return None
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        """Draw one sample in its own frame; called once per sample and property change."""
+        """Draw one sample in its own frame; called once per sample and property change.
+
+        A display with several inputs gets the newest sample of each; `sample.input` names it.
+        """
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
-        """Draw all kept samples at once in the fixed frame (`sample.pose` tells where each is)."""
+        """Draw all kept samples of all inputs at once, oldest first, in the fixed frame.
+
+        `sample.pose` is where each is.
+        """
 
     def tick(self, ctx: Context) -> None:
         """Draw what follows transforms or time; called on every frame of the loop."""
@@ -137,12 +182,19 @@ def overrides(display: Display, hook: str) -> bool:
 
 @functools.cache
 def inputs_of(cls: type[Display]) -> dict[str, Input]:
-    """The inputs of a display class by property name, in the order of declaration."""
+    """The inputs of a display class by property name, in the order of declaration.
+
+    Raises:
+        TypeError: its `sync` names something else.
+    """
     found = {}
     for name, hint in typing.get_type_hints(cls, include_extras=True).items():
         for item in getattr(hint, "__metadata__", ()):
             if isinstance(item, Input):
                 found[name] = item
+    for name in cls.sync.inputs if cls.sync else ():
+        if name not in found:
+            raise TypeError(f"{cls.__name__}.sync: '{name}' is not an input of the display")
     return found
 
 

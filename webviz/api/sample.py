@@ -1,8 +1,9 @@
-"""One message as a display gets it."""
+"""One message, or one set of synchronized messages, as a display gets it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.api.nodes import Pose
@@ -19,6 +20,8 @@ class Sample:
         received_ns: ROS time of arrival.
         number: counts the messages of the input from 0.
         pose: of `frame` in the fixed frame at the stamp.
+        input: name of the input, that is of the property with its topic.
+        synced: the samples of the other inputs of its `Sync`, by input.
     """
 
     message: Any
@@ -27,3 +30,5 @@ class Sample:
     received_ns: int
     number: int
     pose: Pose
+    input: str
+    synced: Mapping[str, Sample] = field(default_factory=dict)

@@ -1,9 +1,10 @@
-"""The samples a display holds, and the slot in which each is drawn."""
+"""The samples a display holds of each input, and the slot in which each is drawn."""
 
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+import itertools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from webviz.api.display import Keep
@@ -36,9 +37,15 @@ class Held:
 
 
 class History:
-    """Holds samples in order of arrival, as many as a display wants."""
+    """Holds samples of one input in order of arrival, as many as a display wants.
 
-    def __init__(self) -> None:
+    Args:
+        inputs: how many inputs the display has; they share its limits.
+    """
+
+    def __init__(self, inputs: int = 1) -> None:
+        self._max_samples = MAX_SAMPLES // inputs
+        self._max_bytes = MAX_BYTES // inputs
         self.held: list[Held] = []
         self.version = 0
         """Another one whenever there is something else to draw."""
@@ -60,9 +67,9 @@ class History:
 
         What `keep.count` then excludes goes first, so that its slot is free, and what is too large.
         """
-        self._let_go(len(self.held) - _most(keep) + 1)
+        self._let_go(len(self.held) - self._most(keep) + 1)
         rest, too_large = self._bytes + size, 0
-        while rest > MAX_BYTES and too_large < len(self.held):
+        while rest > self._max_bytes and too_large < len(self.held):
             rest -= self.held[too_large].size
             too_large += 1
         if too_large:
@@ -76,11 +83,11 @@ class History:
 
     def shortage(self, keep: Keep, now_ns: int) -> str:
         """A sentence if samples that `keep` wants had to go for their size, else nothing."""
-        if self._missed_ns is None or not self.held or len(self.held) >= _most(keep):
+        if self._missed_ns is None or not self.held or len(self.held) >= self._most(keep):
             return ""
-        limit = f"limit of {MAX_BYTES // 1_000_000} MB"
+        limit = f"limit of {self._max_bytes // 1_000_000} MB"
         if not keep.seconds:
-            return f"Keeps {len(self.held)} of {_most(keep)} messages: {limit}."
+            return f"Keeps {len(self.held)} of {self._most(keep)} messages: {limit}."
         if self._missed_ns < now_ns - keep.seconds * 1e9:
             return ""
         span_s = (now_ns - self.held[0].sample.received_ns) / 1e9
@@ -88,7 +95,7 @@ class History:
 
     def trim(self, keep: Keep, now_ns: int) -> None:
         """Let go of what is too much or too old."""
-        self._let_go(len(self.held) - _most(keep))
+        self._let_go(len(self.held) - self._most(keep))
         if keep.seconds:
             oldest = now_ns - round(keep.seconds * 1e9)
             is_young = (held.sample.received_ns >= oldest for held in self.held)
@@ -105,7 +112,7 @@ class History:
             del self.held[:count]
             self.version += 1
 
-    def move(self, frames: Frames, former_fixed_frame: str, timed: bool) -> None:
+    def move(self, frames: Frames, former_fixed_frame: str, timed: Callable[[str], bool]) -> None:
         """Place all samples in a new fixed frame.
 
         Each at its own stamp; one older than the transforms goes along with the former fixed frame.
@@ -113,23 +120,41 @@ class History:
         Args:
             frames: know the new fixed frame.
             former_fixed_frame: frame id.
-            timed: False if the samples' display follows their frame instead.
+            timed: False for inputs whose samples follow their frame instead.
         """
         shift = frames.latest(former_fixed_frame)
-        for held in self.held:
-            sample = held.sample
-            if not timed:
+
+        def moved(sample: Sample) -> Sample | None:
+            if not timed(sample.input):
                 pose = frames.now(sample.frame) or Pose()
             else:
                 pose = frames.at(sample.frame, sample.stamp_ns) if sample.frame else sample.pose
             if pose is None and shift is not None and held.has_pose:
                 pose = compose(shift, sample.pose)
-            held.has_pose = pose is not None
-            if pose is not None:
-                held.sample = replace(sample, pose=pose)
+            synced = {name: moved(other) for name, other in sample.synced.items()}
+            known = {name: other for name, other in synced.items() if other is not None}
+            if pose is None or len(known) < len(synced):
+                return None
+            return replace(sample, pose=pose, synced=known)
+
+        for held in self.held:
+            sample = moved(held.sample)
+            held.has_pose = sample is not None
+            held.sample = sample or held.sample
         self._samples = None
         self.version += 1
 
+    def _most(self, keep: Keep) -> int:
+        return min(keep.count or self._max_samples, self._max_samples)
 
-def _most(keep: Keep) -> int:
-    return min(keep.count or MAX_SAMPLES, MAX_SAMPLES)
+
+Histories = dict[str, History]
+"""What a display holds of each input, by its name."""
+
+
+def held_samples(histories: Histories) -> Sequence[Sample]:
+    """What can be drawn of all inputs, oldest first."""
+    if len(histories) == 1:
+        return next(iter(histories.values())).samples()
+    every = (history.samples() for history in histories.values())
+    return sorted(itertools.chain(*every), key=lambda sample: sample.received_ns)

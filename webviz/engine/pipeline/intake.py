@@ -63,6 +63,11 @@ class Intake:
         self._newest = self._newest_placed = -1
 
     @property
+    def has_received(self) -> bool:
+        """Whether any message has arrived."""
+        return self._received > 0
+
+    @property
     def is_waiting(self) -> bool:
         """Whether the newest message waits for its transform."""
         return len(self._filter) > 0 and self._newest > self._newest_placed

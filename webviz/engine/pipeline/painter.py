@@ -13,7 +13,7 @@ from webviz.api.status import Status
 from webviz.engine.pipeline.background import Tasks, Workers
 from webviz.engine.pipeline.drawing import Drawing, Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
-from webviz.engine.pipeline.history import Held, History
+from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 
 
 class Painter:
@@ -34,24 +34,26 @@ class Painter:
         self._tasks = Tasks(workers)
         self._state: dict[str, Any] = {}
         self._statuses: dict[str, dict[str, Status]] = {}
-        self._drawn: dict[int, Sample] = {}
-        self._seen: tuple[History, int] | None = None
+        self._drawn: dict[str, dict[int, Sample]] = {}
+        self._seen: list[tuple[History, int]] | None = None
         self._depended: object = None
 
-    def draw(self, display: Display, guard: Guard, history: History, frames: Frames) -> None:
+    def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
         """Call the hooks that have something new to draw, and move what follows frames."""
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
-        changed = self.is_stale or self._seen != (history, history.version)
+        held = [(history, history.version) for history in histories.values()]
+        changed = self.is_stale or self._seen != held
         if changed and overrides(display, "draw"):
-            self._draw_samples(display, guard, history, frames)
+            for name, history in histories.items():
+                self._draw_samples(name, display, guard, history, frames)
         if changed and overrides(display, "draw_all"):
-            self._call("all", guard, display.draw_all, frames, history.samples())
+            self._call("all", guard, display.draw_all, frames, held_samples(histories))
         if overrides(display, "tick"):
             self._call("tick", guard, display.tick, frames)
         if changed:
             self._tasks.forget_unasked()
-        self._seen = (history, history.version)
+        self._seen = held
         self.is_stale = False
         self._drawing.move(frames)
 
@@ -77,7 +79,7 @@ class Painter:
         self._tasks = Tasks(self._workers)
         self._state.clear()
         self._statuses.clear()
-        samples = [_scope(slot) for slot in self._drawn]
+        samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
                 self._drawing.remove(scope)
@@ -100,8 +102,13 @@ class Painter:
         return self._drawing.is_empty()
 
     def statuses(self) -> dict[str, Status]:
-        """What the hooks said when they were last called."""
-        return {key: status for said in self._statuses.values() for key, status in said.items()}
+        """What the hooks said when they were last called; of several with one key the worst."""
+        result: dict[str, Status] = {}
+        for said in self._statuses.values():
+            for key, status in said.items():
+                before = result.setdefault(key, status)
+                result[key] = status if status.level >= before.level else before
+        return result
 
     def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
         if not overrides(display, "depends"):
@@ -111,21 +118,33 @@ class Painter:
         return self._depended != before
 
     def _draw_samples(
-        self, display: Display, guard: Guard, history: History, frames: Frames
+        self, name: str, display: Display, guard: Guard, history: History, frames: Frames
     ) -> None:
+        """Draw what is new of one input."""
+        drawn = self._drawn.get(name, {})
         samples = {held.slot: held for held in history.held if held.has_pose}
-        for slot in self._drawn.keys() - samples.keys():
-            self._drawing.remove(_scope(slot))
+        for slot in drawn.keys() - samples.keys():
+            self._drawing.remove(_scope(name, slot))
         for slot, held in samples.items():
-            if self.is_stale or self._drawn.get(slot) is not held.sample:
-                self._draw_sample(display, guard, held, frames)
+            if self.is_stale or drawn.get(slot) is not held.sample:
+                self._draw_sample(name, display, guard, held, frames)
         if not samples:
-            self._statuses.pop("sample", None)
-        self._drawn = {slot: held.sample for slot, held in samples.items()}
+            self._statuses.pop(_voice(name), None)
+        self._drawn[name] = {slot: held.sample for slot, held in samples.items()}
 
-    def _draw_sample(self, display: Display, guard: Guard, held: Held, frames: Frames) -> None:
+    def _draw_sample(
+        self, name: str, display: Display, guard: Guard, held: Held, frames: Frames
+    ) -> None:
         placement = Placement(offset=held.sample.pose)
-        self._call(_scope(held.slot), guard, display.draw, frames, held.sample, placement=placement)
+        self._call(
+            _scope(name, held.slot),
+            guard,
+            display.draw,
+            frames,
+            held.sample,
+            placement=placement,
+            voice=_voice(name),
+        )
 
     def _call(
         self,
@@ -135,15 +154,22 @@ class Painter:
         frames: Frames,
         *args: Any,
         placement: Placement = Placement(),
+        voice: str = "",
     ) -> None:
-        """Call a hook that draws and make the scene follow; after a crash the old picture stays."""
+        """Call a hook that draws and make the scene follow; after a crash the old picture stays.
+
+        Of all calls with one voice, the statuses of the last one hold.
+        """
         context = Context(frames, self._tasks, self._state, placement, self.order)
         if guard(scope, hook, *args, context) is CRASHED:
             return
         self._drawing.replace(scope, context)
-        # All samples speak with one voice, the newest one's.
-        self._statuses["sample" if scope.startswith("sample") else scope] = context.statuses
+        self._statuses[voice or scope] = context.statuses
 
 
-def _scope(slot: int) -> str:
-    return f"sample{slot}"
+def _voice(name: str) -> str:
+    return f"sample of {name}"
+
+
+def _scope(name: str, slot: int) -> str:
+    return f"{name}.{slot}"

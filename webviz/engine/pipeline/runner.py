@@ -17,8 +17,9 @@ from webviz.data.messages import MessageError, decode
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
-from webviz.engine.pipeline.history import History
-from webviz.engine.pipeline.intake import Arrival, Intake, intakes_of
+from webviz.engine.pipeline.history import Histories, History
+from webviz.engine.pipeline.inputs import Inputs, Set
+from webviz.engine.pipeline.intake import Arrival
 from webviz.engine.pipeline.painter import Painter
 from webviz.engine.sources import Offer, Raw, Subscription
 
@@ -62,12 +63,11 @@ class Runner:
         self._services = services
         self._painter = Painter(id, services.scene, services.workers)
         self._guard = self._new_guard()
-        self._history = History()
-        self._newest: Arrival | None = None
+        self._inputs = self._new_inputs()
+        self._histories = self._no_histories()
+        self._newest: dict[str, Set] = {}
         self._folded: Any = None
         self._fixed_frame = ""
-        self._intakes = intakes_of(self.display, self._services.resolve)
-        self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
 
     # Configuration
 
@@ -82,7 +82,7 @@ class Runner:
         set_property(self.display, path, value)
         if topics != {name: topic for name, _, topic in inputs(self.display)}:
             self.reset()
-            self._intakes = intakes_of(self.display, self._services.resolve)
+            self._inputs = self._new_inputs()
         if not self.display.enabled:
             self.hide()
         self._painter.is_stale = True
@@ -93,11 +93,12 @@ class Runner:
         The messages are forgotten if the new class hears others or folds them.
         """
         old, self.display = self.display, display
-        if inputs(old) != inputs(display) or overrides(old, "fold") != overrides(display, "fold"):
-            self.reset()
-            self._intakes = intakes_of(self.display, self._services.resolve)
-        self._every_message_counts = overrides(display, "fold") or overrides(display, "accept")
         self._guard = self._new_guard()
+        if _what_arrives(old) != _what_arrives(display):
+            self.reset()
+            self._inputs = self._new_inputs()
+        else:
+            self._inputs.replace(display, self._guard)
         self._painter.replace(display)
 
     @property
@@ -118,14 +119,14 @@ class Runner:
         """What the display needs to hear by topic, nothing while it is disabled."""
         if not self.display.enabled:
             return {}
-        return {i.name: i.subscription() for i in self._heard().values() if i.name}
+        return self._inputs.subscriptions()
 
     def reset(self) -> None:
         """Forget all messages, as after a jump of time."""
-        for intake in self._intakes.values():
-            intake.reset()
-        self._history = History()
-        self._newest = self._folded = None
+        self._inputs.reset()
+        self._histories = self._no_histories()
+        self._newest.clear()
+        self._folded = None
         self._painter.forget()
 
     def close(self) -> None:
@@ -148,7 +149,7 @@ class Runner:
 
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""
-        return self.display.enabled and any(i.is_waiting for i in self._heard().values())
+        return self.display.enabled and self._inputs.is_waiting()
 
     def is_busy(self) -> bool:
         """Whether slow work of the display is still to be drawn."""
@@ -182,105 +183,119 @@ class Runner:
         who = type(self.display).__name__
         return Guard(who, self._services.strict, name=lambda: self.display.name)
 
+    def _new_inputs(self) -> Inputs:
+        return Inputs(self.display, self._guard, self._services.resolve)
+
+    def _no_histories(self) -> Histories:
+        names = list(self._inputs.intakes)
+        if overrides(self.display, "fold"):
+            names = names[:1]  # all inputs are folded into one sample
+        return {name: History(len(names)) for name in names}
+
     def _take(
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
     ) -> None:
-        clock = self._services.clock()
-        primary = next(iter(self._intakes), "")
-        counting: list[tuple[str, Intake, Arrival]] = []
-        for name, intake in self._heard().items():
-            raws = batches.get(intake.name, ())
-            waits = self._waits(name)
-            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, waits)
-            if not arrivals:
-                continue
+        display, keep = self.display, self._keep()
+        every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
+        for found in self._inputs.take(batches, frames, offers, self._services.clock()):
+            name = next(iter(found))
             # How long messages go on shows once one is decoded, and the next ones wait for that.
-            is_unknown = overrides(self.display, "duration_ns") and not intake.duration_ns
-            if self._every_message_counts or is_unknown or self._keep() != Keep():
-                counting += [(name, intake, arrival) for arrival in arrivals]
-            elif name == primary:
-                self._newest = arrivals[-1]
-        for name, intake, arrival in sorted(counting, key=lambda item: item[2].raw.received_ns):
-            self._let_in(name, intake, arrival, frames)
-        if counting:
-            self._history.trim(self._keep(), frames.now_ns)  # also while nobody watches
+            is_unknown = (
+                overrides(display, "duration_ns") and not self._inputs.intakes[name].duration_ns
+            )
+            if every_one or is_unknown:
+                self._let_in(found, frames)
+            else:
+                self._newest[name] = found
+        self._trim(keep, frames)  # also while nobody watches
+
+    def _trim(self, keep: Keep, frames: Frames) -> None:
+        for history in self._histories.values():
+            history.trim(keep, frames.now_ns)
 
     def _draw(self, frames: Frames) -> None:
-        if self._newest is not None:
-            name, intake = next(iter(self._intakes.items()))
-            arrival, self._newest = self._newest, None
-            self._let_in(name, intake, arrival, frames)
+        newest, self._newest = self._newest, {}
+        for found in newest.values():
+            self._let_in(found, frames)
         if frames.fixed_frame != self._fixed_frame:
             if self._fixed_frame:
-                timed = self._waits(next(iter(self._intakes), ""))
-                self._history.move(frames, self._fixed_frame, timed)
+                for history in self._histories.values():
+                    history.move(frames, self._fixed_frame, self._inputs.waits)
             self._fixed_frame = frames.fixed_frame
             self._painter.is_stale = True
-        self._history.trim(self._keep(), frames.now_ns)
-        self._painter.draw(self.display, self._guard, self._history, frames)
+        self._trim(self._keep(), frames)
+        self._painter.draw(self.display, self._guard, self._histories, frames)
 
     def _statuses(
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
-        result: dict[str, Status] = {}
-        clock = self._services.clock()
-        for name, intake in self._heard().items():
-            said = intake.statuses(offers, dropped(intake.name), frames, clock)
-            title = "" if name == "topic" else f" ({name})"
-            result |= {f"{key}{title}": status for key, status in said.items()}
+        result = self._inputs.statuses(offers, frames, dropped, self._services.clock())
         if lost := self._painter.lost(frames):
             result["Transform"] = Status(Level.ERROR, frames.why_not(lost[0]))
-        if shortage := self._history.shortage(self._keep(), frames.now_ns):
-            result["History"] = Status(Level.WARN, shortage)
+        for history in self._histories.values():
+            if shortage := history.shortage(self._keep(), frames.now_ns):
+                result["History"] = Status(Level.WARN, shortage)
         return result | self._painter.statuses()
 
     def _keep(self) -> Keep:
         keep = self._guard("history", self.display.history)
         return keep if isinstance(keep, Keep) else Keep()
 
-    def _heard(self) -> dict[str, Intake]:
-        if not overrides(self.display, "listens"):
-            return self._intakes
-        listens = self.display.listens
-        heard = {name: self._guard("listens", listens, name) for name in self._intakes}
-        return {name: i for name, i in self._intakes.items() if heard[name] is not False}
+    def _let_in(self, found: Set, frames: Frames) -> None:
+        """Decode the messages of a set and hold it, if the display wants it."""
+        samples: dict[str, Sample] = {}
+        for name, arrival in found.items():
+            if (sample := self._sample(name, arrival, frames)) is None:
+                return
+            samples[name] = sample
+        name, *others = samples
+        sample = samples[name]
+        if others:
+            sample = replace(sample, synced={other: samples[other] for other in others})
+        size = sum(len(arrival.raw.cdr) for arrival in found.values())
+        if overrides(self.display, "fold"):
+            self._fold(name, sample, size)
+            return
+        history = self._histories[name]
+        verdict = self._guard("accept", self.display.accept, sample, history.samples())
+        if isinstance(verdict, str):
+            self._inputs.intakes[name].refuse(verdict)
+        elif verdict is True:
+            history.add(sample, size, self._keep())
 
-    def _waits(self, name: str) -> bool:
-        return self._guard("waits", self.display.waits, name) is not False
-
-    def _let_in(self, name: str, intake: Intake, arrival: Arrival, frames: Frames) -> None:
-        """Decode a message and hold it, if the display wants it."""
+    def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
+        """A decoded message, None if it cannot be shown."""
+        intake = self._inputs.intakes[name]
         if not arrival.frame:
             pose = Pose()
-        elif self._waits(name):
+        elif self._inputs.waits(name):
             pose = frames.at(arrival.frame, arrival.stamp_ns)
         else:
             pose = frames.now(arrival.frame) or Pose()
         if pose is None:
-            return  # the buffer was cleared since; newer messages will tell
+            return None  # the buffer was cleared since; newer messages will tell
+        raw = arrival.raw
         try:
-            message = decode(intake.spec.type, arrival.raw.cdr)
+            message = decode(intake.spec.type, raw.cdr)
         except MessageError as error:
             intake.refuse(str(error))
-            return
+            return None
         intake.accepted()
         duration_ns = self._guard("duration", self.display.duration_ns, message)
         intake.measure(duration_ns if isinstance(duration_ns, int) else 0)
-        sample = Sample(
-            message, arrival.frame, arrival.stamp_ns, arrival.raw.received_ns, arrival.number, pose
+        return Sample(
+            message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
         )
-        if overrides(self.display, "fold"):
-            self._fold(name, sample, len(arrival.raw.cdr))
-            return
-        verdict = self._guard("accept", self.display.accept, sample, self._history.samples())
-        if isinstance(verdict, str):
-            intake.refuse(verdict)
-        elif verdict is True:
-            self._history.add(sample, len(arrival.raw.cdr), self._keep())
 
     def _fold(self, name: str, sample: Sample, size: int) -> None:
         folded = self._guard("fold", self.display.fold, name, sample, self._folded)
         if folded is None or folded is CRASHED:
             return
         self._folded = folded
-        self._history.add(replace(sample, message=folded), size, self._keep())
+        history = next(iter(self._histories.values()))
+        history.add(replace(sample, message=folded), size, self._keep())
+
+
+def _what_arrives(display: Display) -> tuple[object, ...]:
+    """What has to be the same for samples of one class to serve another."""
+    return inputs(display), type(display).sync, overrides(display, "fold")

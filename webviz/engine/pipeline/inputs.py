@@ -1,0 +1,163 @@
+"""The inputs of one display: messages that can be placed, matched by stamp where it asks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from webviz.api.display import Display, Sync, inputs_of, overrides
+from webviz.api.frames import Frames
+from webviz.api.status import Level, Status
+from webviz.data.transforms.reasons import in_words
+from webviz.engine.pipeline.guard import Guard
+from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
+from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
+from webviz.engine.sources import Offer, Raw, Subscription
+
+Set = Mapping[str, Arrival]
+"""Messages that are drawn together, by input; the first one places them. Most often just one."""
+
+
+class Inputs:
+    """Lets the messages of all inputs of a display in.
+
+    Args:
+        display: its properties choose the topics.
+        guard: for its hooks.
+        resolve: the full name of a topic; raises ValueError.
+    """
+
+    def __init__(self, display: Display, guard: Guard, resolve: Callable[[str], str]) -> None:
+        self.intakes = intakes_of(display, resolve)
+        self._synchronizer: Synchronizer[Arrival] | None = None
+        self._waiting_since: float | None = None
+        self.replace(display, guard)
+
+    def replace(self, display: Display, guard: Guard) -> None:
+        """Continue with another instance that has the same inputs."""
+        self._display = display
+        self._guard = guard
+
+    def subscriptions(self) -> dict[str, Subscription]:
+        """What to ask the source for, by topic."""
+        return {i.name: i.subscription() for i in self._heard().values() if i.name}
+
+    def is_waiting(self) -> bool:
+        """Whether the newest message of an input waits for its transform."""
+        return any(intake.is_waiting for intake in self._heard().values())
+
+    def waits(self, name: str) -> bool:
+        """Whether messages of an input wait for the transform at their stamp."""
+        return self._guard("waits", self._display.waits, name) is not False
+
+    def reset(self) -> None:
+        """Forget what waits."""
+        for intake in self.intakes.values():
+            intake.reset()
+        self._synchronizer = self._waiting_since = None
+
+    def take(
+        self,
+        batches: Mapping[str, Iterable[Raw]],
+        frames: Frames,
+        offers: Mapping[str, Offer],
+        clock: float,
+    ) -> list[Set]:
+        """Let the messages of this tick in; what can be drawn now, in order of arrival."""
+        heard = self._heard()
+        arrived: list[tuple[str, Arrival]] = []
+        for name, intake in heard.items():
+            raws = batches.get(intake.name, ())
+            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, self.waits(name))
+            arrived += [(name, arrival) for arrival in arrivals]
+        arrived.sort(key=lambda item: item[1].raw.received_ns)
+        synchronizer = self._synchronizer = self._renewed(heard)
+        if synchronizer is None:
+            return [{name: arrival} for name, arrival in arrived]
+        found: list[Set] = []
+        for name, arrival in arrived:
+            if name not in synchronizer.inputs:
+                found.append({name: arrival})
+            elif matched := synchronizer.add(name, arrival.stamp_ns, arrival):
+                found.append(matched)
+                self._waiting_since = None
+            elif self._waiting_since is None:
+                self._waiting_since = clock
+        return found
+
+    def statuses(
+        self,
+        offers: Mapping[str, Offer],
+        frames: Frames,
+        dropped: Callable[[str], int],
+        clock: float,
+    ) -> dict[str, Status]:
+        """What there is to say about topics, messages, transforms and stamps."""
+        result: dict[str, Status] = {}
+        heard = self._heard()
+        for name, intake in heard.items():
+            said = intake.statuses(offers, dropped(intake.name), frames, clock)
+            title = "" if name == "topic" else f" ({name})"
+            result |= {f"{key}{title}": status for key, status in said.items()}
+        if status := self._sync_status(clock):
+            result["Sync"] = status
+        return result
+
+    def _heard(self) -> dict[str, Intake]:
+        if not overrides(self._display, "listens"):
+            return self.intakes
+        listens = self._display.listens
+        heard = {name: self._guard("listens", listens, name) for name in self.intakes}
+        return {name: i for name, i in self.intakes.items() if heard[name] is not False}
+
+    def _renewed(self, heard: Mapping[str, Intake]) -> Synchronizer[Arrival] | None:
+        """The synchronizer of the inputs that take part now."""
+        sync = type(self._display).sync
+        if sync is None:
+            return None
+        part = [
+            name
+            for name in sync.inputs
+            if name in heard and (heard[name].has_received or not heard[name].spec.optional)
+        ]
+        if len(part) < 2:
+            return None
+        if self._synchronizer is not None and self._synchronizer.inputs == tuple(part):
+            return self._synchronizer
+        return Synchronizer(part, round(sync.slop * 1e9), sync.queue_size)
+
+    def _sync_status(self, clock: float) -> Status | None:
+        """Which input the others wait for, unless its own messages wait for transforms."""
+        synchronizer, sync = self._synchronizer, type(self._display).sync
+        if synchronizer is None or sync is None:
+            return None
+        gap, since = synchronizer.gap(), self._waiting_since
+        is_late = since is not None and clock - since > PATIENCE_S
+        if gap and is_late and not self.intakes[gap.missing].is_waiting:
+            return Status(Level.WARN, self._waiting_for(gap, sync))
+        if not synchronizer.sets:
+            return None
+        stamps = f"stamps within {sync.slop:g} s" if sync.slop else "equal stamps"
+        sets = f"{synchronizer.sets} set{'s' if synchronizer.sets > 1 else ''}"
+        text = f"{sets} of {len(synchronizer.inputs)} messages with {stamps}"
+        lost = synchronizer.dropped
+        return Status(
+            Level.OK, f"{text}; {lost} unmatched messages dropped." if lost else f"{text}."
+        )
+
+    def _waiting_for(self, gap: Gap, sync: Sync) -> str:
+        wanted, given = self._title(gap.missing), self._title(gap.present)
+        article = "an" if wanted[0] in "AEIOU" else "a"
+        when = f"within {sync.slop:g} s of" if sync.slop else "with the stamp of"
+        text = f"Waiting for {article} {wanted} {when} the {given}, {gap.stamp_ns / 1e9:.3f} s."
+        if gap.off_ns is None:
+            return f"{text} None has arrived. Start its publisher or choose another topic."
+        size = abs(gap.off_ns)
+        distance = in_words(size) if size >= 100_000 else f"{size} ns"
+        side = "later" if gap.off_ns > 0 else "earlier"
+        remedy = "Synchronize the clocks of" if sync.slop else "Use equal stamps in"
+        return f"{text} The nearest is {distance} {side}. {remedy} their publishers."
+
+    def _title(self, name: str) -> str:
+        """Type and topic of an input."""
+        type_name = inputs_of(type(self._display))[name].type.rpartition("/")[2]
+        return f"{type_name} on {self.intakes[name].name or 'no topic'}"

@@ -1,0 +1,123 @@
+"""Messages of several inputs that meet by stamp, as message_filters' synchronizers let them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+P = TypeVar("P")
+
+
+@dataclass(frozen=True)
+class Gap:
+    """What keeps the newest message of one input out of a set.
+
+    Args:
+        present: input that has the message.
+        stamp_ns: of that message.
+        missing: input that has none to go with it.
+        off_ns: by how much the nearest message of `missing` is later, negative if it is earlier;
+            None if none has arrived.
+    """
+
+    present: str
+    stamp_ns: int
+    missing: str
+    off_ns: int | None
+
+
+class Synchronizer(Generic[P]):
+    """Forms sets of one message per input whose stamps differ by at most the slop.
+
+    A message that arrives completes the set in which the others are nearest to it; of sets equally
+    near, the earlier one. A set removes its messages and all older ones, so sets never go back in
+    time. Each queue is bounded; the oldest message gives way.
+
+    Args:
+        inputs: names, at least two.
+        slop_ns: 0 is equal stamps.
+        queue_size: messages per input that may wait for the others.
+    """
+
+    def __init__(self, inputs: Sequence[str], slop_ns: int = 0, queue_size: int = 10) -> None:
+        self.inputs = tuple(inputs)
+        self.sets = 0
+        """How many sets were formed since the start."""
+        self.dropped = 0
+        """How many messages were in no set."""
+        self._slop_ns = slop_ns
+        self._queue_size = queue_size
+        self._queues: dict[str, dict[int, P]] = {name: {} for name in self.inputs}
+        self._last: dict[str, int] = {}
+
+    def add(self, name: str, stamp_ns: int, payload: P) -> dict[str, P] | None:
+        """Let a message in; the set that it completes, by input in their order."""
+        queue = self._queues[name]
+        if stamp_ns < self._last.get(name, stamp_ns):
+            self.dropped += 1
+            return None
+        self.dropped += stamp_ns in queue
+        queue[stamp_ns] = payload
+        stamps = self._nearest(name, stamp_ns)
+        if stamps is None:
+            if len(queue) > self._queue_size:
+                del queue[min(queue)]
+                self.dropped += 1
+            return None
+        self._last = stamps
+        self.sets += 1
+        return {each: self._take(self._queues[each], stamp) for each, stamp in stamps.items()}
+
+    def gap(self) -> Gap | None:
+        """Why the newest waiting message is in no set; None if nothing waits."""
+        waiting = {name: max(queue) for name, queue in self._queues.items() if queue}
+        if not waiting:
+            return None
+        present = max(waiting, key=lambda name: waiting[name])
+        stamp_ns = waiting[present]
+        offs: dict[str, int | None] = {}
+        for name in self.inputs:
+            known = [*self._queues[name], *([self._last[name]] if name in self._last else [])]
+            if name != present:
+                offs[name] = min((s - stamp_ns for s in known), key=abs, default=None)
+        missing = max(offs, key=lambda name: _distance(offs[name]))
+        return Gap(present, stamp_ns, missing, offs[missing])
+
+    def _nearest(self, name: str, stamp_ns: int) -> dict[str, int] | None:
+        """The stamps of the set that a message completes.
+
+        Every set lies in a window of the slop that begins with its earliest stamp, and in a window
+        each input is chosen on its own. So trying each window costs little, unlike trying each
+        combination.
+        """
+        best: tuple[int, tuple[int, ...]] | None = None
+        begins = {s for queue in self._queues.values() for s in queue}
+        for begin in begins if self._slop_ns else {stamp_ns}:
+            if not begin <= stamp_ns <= begin + self._slop_ns:
+                continue
+            picked = [
+                stamp_ns if each == name else self._pick(queue, begin, stamp_ns)
+                for each, queue in self._queues.items()
+            ]
+            stamps = tuple(stamp for stamp in picked if stamp is not None)
+            if len(stamps) == len(picked):
+                found = (sum(abs(stamp - stamp_ns) for stamp in stamps), stamps)
+                best = found if best is None else min(best, found)
+        return dict(zip(self.inputs, best[1], strict=True)) if best else None
+
+    def _pick(self, queue: Mapping[int, P], begin: int, stamp_ns: int) -> int | None:
+        inside = (s for s in queue if begin <= s <= begin + self._slop_ns)
+        return min(inside, key=lambda s: (abs(s - stamp_ns), s), default=None)
+
+    def _take(self, queue: dict[int, P], stamp_ns: int) -> P:
+        """Remove a message and return it; older ones are in no set any more."""
+        payload = queue.pop(stamp_ns)
+        for older in [s for s in queue if s < stamp_ns]:
+            del queue[older]
+            self.dropped += 1
+        return payload
+
+
+def _distance(off_ns: int | None) -> float:
+    return float("inf") if off_ns is None else abs(off_ns)
