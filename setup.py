@@ -21,6 +21,9 @@ setup(
             "RobotModel = webviz_displays.robot_model:RobotModel",
             "TF = webviz_displays.tf:TF",
         ],
+        "webviz.tools": [
+            "GoalPose = webviz.tools.goal_pose:GoalPose",
+        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/webviz"]),

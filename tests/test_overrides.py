@@ -30,6 +30,9 @@ displays:
 - {type: Sonar, name: Strange}
 - {type: Grid, name: 0}
 - {type: Grid, name: enabled}
+tools:
+- {type: GoalPose}
+- {type: GoalPose, name: Bad, topic: 5}
 """
 
 
@@ -56,6 +59,9 @@ def changed(config: Config, *assignments: str) -> Any:
         ("view.distance=5", ("view", "distance"), 5.0),
         ("view={distance: 5}", ("view", "yaw"), 0.5),
         ("displays.Scan.size=0.1", ("displays", 1, "size"), 0.1),
+        ('tools."2D Goal Pose".topic=/go', ("tools", 0, "topic"), "/go"),
+        ("tools[0].topic.depth=1", ("tools", 0, "topic", "depth"), 1),
+        ("tools.Bad.topic=/go", ("tools", 1, "topic"), "/go"),
         ("displays.1.size=0.1", ("displays", 1, "size"), 0.1),
         ("displays[1].size=1e-1", ("displays", 1, "size"), 0.1),
         ("displays.Scan.color=[255, 0, 0]", ("displays", 1, "color"), (255, 0, 0)),

@@ -15,7 +15,8 @@ from rviz_files import FILES
 
 from webviz.api import registry
 from webviz.api.declared import make
-from webviz.api.registry import display_types
+from webviz.api.registry import display_types, plugin_types
+from webviz.api.tool import Tool
 from webviz.files import rviz
 from webviz.files.config import Config, ConfigError, Unreadable, dump, standard
 from webviz.files.config.schema import schema
@@ -25,7 +26,8 @@ from webviz.shell.cli.schema import COMMAND, SHIPPED, text
 from webviz.shell.cli.serving import DEMO
 
 INSTALLED = display_types()
-CHECK = Draft7Validator(schema(INSTALLED))
+SCHEMA = schema(INSTALLED, plugin_types(Tool))
+CHECK = Draft7Validator(SCHEMA)
 
 
 def faults(written: str) -> list[str]:
@@ -37,18 +39,18 @@ def faults(written: str) -> list[str]:
 def accepts(written: str) -> bool:
     """Whether webviz has nothing against the text of a config."""
     try:
-        items = parse(written, "x.yaml").displays
+        config = parse(written, "x.yaml")
     except ConfigError:
         return False
-    return not any(isinstance(item, Unreadable) for item in items)
+    return not any(isinstance(item, Unreadable) for item in [*config.displays, *config.tools])
 
 
 def test_the_shipped_schema_is_that_of_the_declarations() -> None:
-    assert SHIPPED.read_text(encoding="utf-8") == text(INSTALLED), f"run {COMMAND}"
+    assert SHIPPED.read_text(encoding="utf-8") == text(), f"run {COMMAND}"
 
 
 def test_it_is_a_schema() -> None:
-    Draft7Validator.check_schema(schema(INSTALLED))
+    Draft7Validator.check_schema(SCHEMA)
 
 
 def test_the_configs_that_come_with_webviz_are_valid() -> None:
@@ -68,6 +70,19 @@ def test_every_display_is_valid_with_its_defaults_written_out(name: str) -> None
     values = {"type": name, **msgspec.to_builtins(display)}
     assert faults(json.dumps({"displays": [values]})) == []
     assert faults(dump(Config(displays=[display]))) == []
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "tools:",
+        "tools: [{type: GoalPose}]",
+        "tools: [{type: GoalPose, name: Go, topic: {name: /goal, reliability: best_effort}}]",
+    ],
+)
+def test_tools_that_webviz_accepts_are_valid(written: str) -> None:
+    assert accepts(written)
+    assert faults(written) == []
 
 
 @pytest.mark.parametrize(
@@ -111,6 +126,9 @@ def test_what_webviz_accepts_is_valid(entry: str) -> None:
         "displays: [{type: Grid, plane_cell_count: 2.5}]",
         "displays: [{type: Group, colour: 1}]",
         "displays: [{type: RobotModel, links: {base: {alpha: 2}}}]",
+        "tools: 5",
+        "tools: [GoalPose]",
+        "tools: [{type: GoalPose, enabled: true}]",
     ],
 )
 def test_what_webviz_refuses_is_not_valid(written: str) -> None:
@@ -129,7 +147,7 @@ def test_displays_of_others_are_no_error() -> None:
 
 
 def test_properties_are_described_with_unit_and_default() -> None:
-    properties: Any = schema(INSTALLED)["definitions"]["LaserScan"]["properties"]
+    properties: Any = SCHEMA["definitions"]["LaserScan"]["properties"]
     assert properties["size"]["description"].endswith("In m.")
     assert properties["size"]["default"] == 0.01
     assert properties["size_pixels"]["description"].endswith('Where style is "Points".')
@@ -152,6 +170,6 @@ def test_the_command_writes_it_with_displays_of_a_plugin(
     finally:
         registry.register(str(plugin), {})
     assert cli(["schema"]) == 0
-    assert capsys.readouterr().out == text(INSTALLED)
+    assert capsys.readouterr().out == text()
     assert cli(["schema", "-o", str(tmp_path / "no folder" / "x")]) == 1
     assert "Cannot write" in capsys.readouterr().err

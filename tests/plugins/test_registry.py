@@ -19,9 +19,9 @@ class Gadget(Declared):
 
 
 class Bell(Gadget):
-    """A plug-in of that kind, with a name that is not that of its class."""
+    """A plug-in of that kind, with another title than its name."""
 
-    name: str = "Old Bell"
+    title = "Old Bell"
 
 
 class BellDisplay(Display):
@@ -49,7 +49,7 @@ def test_plugins_of_two_kinds_may_have_one_name() -> None:
         registry.register("c", {"Bell": Bell})
 
 
-def test_a_class_may_declare_the_name_that_its_instances_have_by_default() -> None:
+def test_a_title_is_the_name_of_instances_that_have_none() -> None:
     bell = make(Bell, {"name": ""})
     assert bell.name == "Old Bell"
     assert to_values(bell) == {}

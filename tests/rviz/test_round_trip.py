@@ -166,7 +166,14 @@ def test_a_new_file_hears_the_usual_publishers_and_has_panels_and_tools() -> Non
     robot = by_name["RobotModel"]["Description Topic"]
     assert (robot["Value"], robot["Durability Policy"]) == ("/robot_description", "Transient Local")
     assert {panel["Class"] for panel in tree["Panels"]} >= {"rviz_common/Displays"}
-    assert {"Class": "rviz_default_plugins/SetGoal"} in manager["Tools"]
+    (goal,) = [tool for tool in manager["Tools"] if tool["Class"].endswith("/SetGoal")]
+    assert goal["Topic"] == {
+        "Value": "/goal_pose",
+        "Depth": 5,
+        "History Policy": "Keep Last",
+        "Reliability Policy": "Reliable",
+        "Durability Policy": "Volatile",
+    }
     assert manager["Displays"][0]["Line Style"] == {"Line Width": 0.03, "Value": "Lines"}
 
 

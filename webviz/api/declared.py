@@ -63,6 +63,8 @@ class Declared(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=Fals
 
     kind: ClassVar[str] = ""
     """The kind of plug-in: "display", "tool" or "panel"; packages name theirs by it."""
+    title: ClassVar[str] = ""
+    """Its name when nobody gave it one; "" is that of its class."""
     rviz: ClassVar[str] = ""
     """The class of the counterpart in a .rviz file."""
 
@@ -74,7 +76,7 @@ P = TypeVar("P", bound=Declared)
 
 def default_name(cls: type[Declared]) -> str:
     """The name it has when nobody gave it one."""
-    return cls().name or cls.__name__
+    return cls.title or cls.__name__
 
 
 def make(cls: type[P], values: dict[str, Any]) -> P:

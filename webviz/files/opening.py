@@ -45,10 +45,10 @@ def parse(text: str, where: str) -> Config:
     if is_rviz(Path(where)):
         return rviz.read(text, where)[0]
     config = read(text, where)
-    if not any(map(_is_kept, config.displays)):
-        return config
-    items, settings, report = rviz.revive(config.displays, config.settings)
-    return Config(settings, items, report.sentences())
+    if any(map(_is_kept, config.displays)):
+        config.displays, config.settings, report = rviz.revive(config.displays, config.settings)
+        config.report = report.sentences()
+    return config
 
 
 def text_of(config: Config, name: str) -> str:

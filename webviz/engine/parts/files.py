@@ -75,7 +75,7 @@ class FilesPart(Part):
 
     def config(self) -> Config:
         """What to save to come back to this: a snapshot, for any thread."""
-        return Config(self._settings.settings, self._displays.list.items())
+        return Config(self._settings.settings, self._displays.list.items(), list(self._tools))
 
     def keep_up(self, commanded: bool) -> None:
         """Find out whether something was changed since it was saved, and what the folder has."""
@@ -154,6 +154,7 @@ class FilesPart(Part):
         for item in config.displays:
             self._displays.list.add(item)
         self._settings.settings = config.settings
+        self._tools = config.tools
         self._report = config.report
         self._saved = config_file.document(self.config())
         self._is_changed = False

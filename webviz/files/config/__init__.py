@@ -1,4 +1,4 @@
-"""The saved state of a viewer as YAML: fixed frame, background, view, and the list of displays."""
+"""The saved state of a viewer as YAML: settings, and the lists of displays and tools."""
 
 from webviz.files.config.atomic import write_text
 from webviz.files.config.errors import ConfigError, nearest
@@ -11,10 +11,12 @@ from webviz.files.config.model import (
     Config,
     Item,
     Settings,
+    ToolItem,
     Unreadable,
+    all_tools,
     standard,
 )
-from webviz.files.config.reading import read, read_display
+from webviz.files.config.reading import read, read_display, read_tool
 from webviz.files.config.source import MAX_VALUES, Place, Source
 from webviz.files.config.writing import document, dump
 
@@ -29,7 +31,9 @@ __all__ = [
     "Place",
     "Settings",
     "Source",
+    "ToolItem",
     "Unreadable",
+    "all_tools",
     "document",
     "dump",
     "explain",
@@ -39,6 +43,7 @@ __all__ = [
     "read",
     "read_display",
     "read_text",
+    "read_tool",
     "sentences",
     "standard",
     "write_text",

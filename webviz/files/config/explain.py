@@ -11,8 +11,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from webviz.api.declared import Topic, make
-from webviz.api.display import Display
+from webviz.api.declared import Declared, Topic, make
 from webviz.files.config.errors import nearest
 from webviz.files.config.source import Path, Place
 
@@ -68,17 +67,17 @@ def unknown_key(key: str, valid: Iterable[str]) -> str:
 
 
 def mistakes(
-    cls: type[Display],
+    cls: type[Declared],
     values: Mapping[str, Any],
     error: msgspec.ValidationError,
     others: Iterable[str] = (),
 ) -> list[tuple[Path, str]]:
-    """All that is wrong with the properties of a display, each with its path and a clause.
+    """All that is wrong with the properties of a display or tool, each with its path and a clause.
 
     Args:
-        cls: of the display.
+        cls: of the display or tool.
         values: plain values, as in a config file.
-        error: of making the display; it names only the first mistake.
+        error: of making it; it names only the first mistake.
         others: keys that are valid without being properties.
     """
     fields = [*cls.__struct_fields__, *others]

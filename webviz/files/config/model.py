@@ -1,4 +1,4 @@
-"""What a config holds: settings, and the list of displays."""
+"""What a config holds: settings, and the lists of displays and tools."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import msgspec
 from webviz.api.declared import Color, Prop, make
 from webviz.api.display import Display
 from webviz.api.group import Group
-from webviz.api.registry import display_types
+from webviz.api.registry import display_types, plugin_types
+from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
 
 VERSION = 1
@@ -40,7 +41,7 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass
 class Unreadable:
-    """A display that cannot be shown: kept as it was written, and saved again so.
+    """A display or tool that cannot be used: kept and saved again as it was written.
 
     Args:
         values: the entry of the file.
@@ -52,7 +53,7 @@ class Unreadable:
 
     @property
     def name(self) -> str:
-        """What the list of displays calls it."""
+        """What lists call it."""
         if isinstance(self.values, Mapping):
             return str(self.values.get("name") or self.values.get("type") or "?")
         return "?"
@@ -84,6 +85,13 @@ class Branch:
 
 Item = Display | Unreadable | Branch
 """What a list of displays consists of."""
+ToolItem = Tool | Unreadable
+"""What a list of tools consists of."""
+
+
+def all_tools() -> list[ToolItem]:
+    """What is in the toolbar without a list of tools: every tool that is installed."""
+    return [make(cls, {}) for cls in plugin_types(Tool).values()]
 
 
 @dataclass
@@ -91,13 +99,15 @@ class Config:
     """A whole config.
 
     Args:
-        settings: all but the displays.
+        settings: all but the displays and tools.
         displays: in order.
+        tools: in the order of the toolbar.
         report: sentences on what could not be read from RViz's config file.
     """
 
     settings: Settings = field(default_factory=Settings)
     displays: list[Item] = field(default_factory=list)
+    tools: list[ToolItem] = field(default_factory=all_tools)
     report: list[str] = field(default_factory=list)
 
     def set_fixed_frame(self, frame: str) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NoReturn
 
 import msgspec
 
-from webviz.api.declared import make, set_property
-from webviz.api.display import D
+from webviz.api.declared import P, make, set_property
 from webviz.api.group import Group
 from webviz.files.config import (
     Branch,
@@ -19,12 +19,17 @@ from webviz.files.config import (
     Place,
     Settings,
     Source,
+    ToolItem,
     Unreadable,
     explain,
     nearest,
     read_display,
+    read_tool,
 )
 from webviz.files.config.source import Path
+
+Entry = Item | ToolItem
+"""What the lists of a config consist of."""
 
 FORM = "write it as displays.Scan.size=0.1 or view.distance=5"
 _SETTINGS = tuple(key for key in Settings.__struct_fields__ if key not in ("version", "rviz"))
@@ -40,7 +45,7 @@ def override(config: Config, assignments: Sequence[str]) -> Config:
         config: stays as it is.
         assignments: each a path, "=", and a value as YAML has it. Displays have their name or
             their place in the list: `displays.Sensors.Front.size=0.1`, `displays[2].color[0]=255`;
-            a name with dots is quoted.
+            a name with dots is quoted. So do tools: `tools."2D Goal Pose".topic=/goal`.
 
     Raises:
         ConfigError: there is no such value, or several displays of that name, or it does not fit.
@@ -61,21 +66,22 @@ class _Assignment:
         if not path or text[end : end + 1] != "=":
             self._refuse(FORM)
         self._path: Path = tuple(path)
+        self._kind = str(path[0]).removesuffix("s")
         value = text[end + 1 :]
         self._value = Source(value, f"--set {text}").values() if value.strip() else ""
 
     def applied(self, config: Config) -> Config:
-        settings, displays = config.settings, config.displays
+        steps = self._path[1:]
         if self._path[0] == "displays":
-            displays = self._in_list(displays, self._path[1:])
-        else:
-            settings = self._in_settings(settings)
-        return Config(settings, displays, config.report)
+            return dataclasses.replace(config, displays=self._in_list(config.displays, steps))
+        if self._path[0] == "tools":
+            return dataclasses.replace(config, tools=self._in_list(config.tools, steps))
+        return dataclasses.replace(config, settings=self._in_settings(config.settings))
 
     def _in_settings(self, settings: Settings) -> Settings:
         key = str(self._path[0])
         if key not in _SETTINGS:
-            self._refuse(f"unknown key, {nearest(key, ['displays', *_SETTINGS])}")
+            self._refuse(f"unknown key, {nearest(key, ['displays', 'tools', *_SETTINGS])}")
         values = msgspec.to_builtins(settings)
         if self._path == ("view", "type"):  # each type has keys of its own
             values[key] = {"type": self._value}
@@ -86,13 +92,13 @@ class _Assignment:
         except msgspec.ValidationError as error:
             self._refuse_value(*explain(error, Settings, values))
 
-    def _in_list(self, items: Sequence[Item], steps: Path) -> list[Item]:
+    def _in_list(self, items: Sequence[Entry], steps: Path) -> list[Any]:
         if not steps:
             self._refuse(FORM)
         index = self._found(items, steps[0])
         return [*items[:index], self._in_item(items[index], steps[1:]), *items[index + 1 :]]
 
-    def _in_item(self, item: Item, steps: Path) -> Item:
+    def _in_item(self, item: Entry, steps: Path) -> Entry:
         if isinstance(item, Branch):
             if len(steps) < 2 and (not steps or steps[0] in Group.__struct_fields__):
                 return Branch(self._in_display(item.group, steps), item.displays)
@@ -102,7 +108,7 @@ class _Assignment:
             return self._in_unreadable(item, steps)
         return self._in_display(item, steps)
 
-    def _in_display(self, display: D, steps: Path) -> D:
+    def _in_display(self, display: P, steps: Path) -> P:
         fields = type(display).__struct_fields__
         key = str(steps[0]) if steps else ""
         if key not in fields:
@@ -117,17 +123,18 @@ class _Assignment:
             self._refuse_value((*self._path[: -len(steps)], *path), clause)
         return changed
 
-    def _in_unreadable(self, item: Unreadable, steps: Path) -> Item:
+    def _in_unreadable(self, item: Unreadable, steps: Path) -> Entry:
         """An entry that cannot be shown as it is, but perhaps with this value."""
         if item.is_from_rviz or not isinstance(item.values, Mapping) or not steps:
-            self._refuse(f"this display is not shown: {item.reason}")
-        read = read_display(_patched(dict(item.values), steps, self._value), Place())
+            self._refuse(f"this {self._kind} is not shown: {item.reason}")
+        read_again = read_tool if self._kind == "tool" else read_display
+        read = read_again(_patched(dict(item.values), steps, self._value), Place())
         if isinstance(read, Unreadable):
             self._refuse(read.reason)
         return read
 
-    def _found(self, items: Sequence[Item], step: str | int) -> int:
-        """The place in a list of the display with a name, or with this place."""
+    def _found(self, items: Sequence[Entry], step: str | int) -> int:
+        """The place in a list of what has a name, or this place."""
         named = [index for index, item in enumerate(items) if _name(item) == step]
         if len(named) == 1:
             return named[0]
@@ -140,10 +147,10 @@ class _Assignment:
         deeper = [path for path, name in _tree(items) if name == step]
         if len(deeper) == 1:
             names = ".".join(map(str, (*above, *deeper[0])))
-            self._refuse(f"no display `{step}` here, did you mean {names}?")
+            self._refuse(f"no {self._kind} `{step}` here, did you mean {names}?")
         names = [_name(item) for item in items]
         hint = nearest(str(step), names)
-        self._refuse(f"no display `{step}`, {hint}")
+        self._refuse(f"no {self._kind} `{step}`, {hint}")
 
     def _refuse_value(self, path: Path, clause: str) -> NoReturn:
         """Refuse the value; its place is told where it is deeper than what was given."""
@@ -166,11 +173,11 @@ def _patched(plain: Any, path: Path, value: Any) -> Any:
     return {**inner, str(step): _patched(inner.get(str(step)), rest, value)}
 
 
-def _name(item: Item) -> str:
+def _name(item: Entry) -> str:
     return item.group.name if isinstance(item, Branch) else item.name
 
 
-def _tree(items: Sequence[Item], above: tuple[str, ...] = ()) -> Iterator[tuple[Any, str]]:
+def _tree(items: Sequence[Entry], above: tuple[str, ...] = ()) -> Iterator[tuple[Any, str]]:
     """Every display in groups with the names that lead to it."""
     for item in items:
         path = (*above, _name(item))

@@ -8,21 +8,25 @@ from typing import Any
 
 import msgspec
 
-from webviz.api.declared import make
+from webviz.api.declared import P, make
 from webviz.api.display import Display
 from webviz.api.group import Group
-from webviz.api.registry import broken_types, display_types
+from webviz.api.registry import broken_types, plugin_types
+from webviz.api.tool import Tool
 from webviz.api.views import with_type
 from webviz.files.config.errors import ConfigError, nearest
 from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
-from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
+from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, ToolItem, Unreadable
 from webviz.files.config.source import Place, Source
 
-NO_TYPE = "a display needs a `type`, such as `type: Grid`."
+NO_TYPE = "a {} needs a `type`, such as `type: {}`."
+EXAMPLES = {"display": "Grid", "tool": "GoalPose"}
 NO_LIST = "expected a list, each entry with a `type`."
 MAX_DISPLAYS = 500
 """In one config, groups counted. Real ones have fewer than 100, and with 1000 the page hangs."""
-_KEYS = (*Settings.__struct_fields__, "displays")
+MAX_TOOLS = 100
+_LISTS = ("displays", "tools")
+_KEYS = (*Settings.__struct_fields__, *_LISTS)
 _TELLING = frozenset(_KEYS) - {"version", "rviz"}
 """Keys that other kinds of files do not have."""
 
@@ -36,7 +40,7 @@ def read(text: str, where: str) -> Config:
 
     Raises:
         ConfigError: the text is no YAML or not a config; the sentence shows nothing of what it
-            contains. A single display that does not fit is no error: it becomes an `Unreadable`.
+            contains. A display or tool that does not fit is no error: it becomes an `Unreadable`.
     """
     source = Source(text, where)
     document, top = source.values(), Place(source=source)
@@ -52,7 +56,7 @@ def read(text: str, where: str) -> Config:
         raise ConfigError(
             f"{where} has version {version}, this webviz reads up to {VERSION}: update webviz."
         )
-    rest = {str(key): value for key, value in document.items() if key != "displays"}
+    rest = {str(key): value for key, value in document.items() if key not in _LISTS}
     _refuse_unknown(rest, _KEYS, top)
     rest = _typed(rest)
     try:
@@ -60,12 +64,23 @@ def read(text: str, where: str) -> Config:
     except msgspec.ValidationError as error:
         path, clause = explain(error, Settings, rest)
         raise ConfigError(top.at(*path).says(clause)) from error
-    entries = document.get("displays") or []
-    if not isinstance(entries, list):
-        raise ConfigError(top.at("displays").says(NO_LIST))
+    entries = _list(document, "displays", top)
     refuse_too_many(entries, "displays", where)
     items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
-    return Config(settings, items)
+    if "tools" not in document:
+        return Config(settings, items)
+    entries = _list(document, "tools", top)
+    if len(entries) > MAX_TOOLS:
+        raise ConfigError(f"{where} has {len(entries)} tools; the limit is {MAX_TOOLS}.")
+    tools = [read_tool(entry, top.at("tools", i)) for i, entry in enumerate(entries)]
+    return Config(settings, items, tools)
+
+
+def _list(document: Mapping[Any, Any], key: str, top: Place) -> list[Any]:
+    entries = document.get(key) or []
+    if not isinstance(entries, list):
+        raise ConfigError(top.at(key).says(NO_LIST))
+    return entries
 
 
 def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
@@ -114,36 +129,44 @@ def _typed(settings: dict[str, Any]) -> dict[str, Any]:
 
 def read_display(entry: Any, place: Place) -> Item:
     """A display or group from an entry of a list in a config file, which is at `place`."""
-    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
-        return Unreadable(entry, place.says(NO_TYPE))
-    if "rviz" in entry:
-        reason = f"Unsupported display class {entry['type']}."
-        return Unreadable(entry, place.says(reason))
-    types, broken = display_types(), broken_types(Display)
-    cls = types.get(entry["type"])
-    if cls is Group:
-        return _read_group(entry, place)
-    if cls is None:
-        reason = f"no display type `{entry['type']}` here, {nearest(entry['type'], types)}"
-        return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
-    return _read(cls, entry, (), place)
-
-
-def _read_group(entry: Mapping[str, Any], place: Place) -> Item:
-    inner = entry.get("displays") or []
+    is_group = isinstance(entry, Mapping) and entry.get("type") == "Group"
+    inner = (entry.get("displays") or []) if is_group else []
     if not isinstance(inner, list):
         return Unreadable(entry, place.at("displays").says(NO_LIST))
-    group = _read(Group, entry, ("displays",), place)
-    if not isinstance(group, Group):
-        return group
+    display = _read_plugin(Display, entry, place, ("displays",) if is_group else ())
+    if not isinstance(display, Group):
+        return display
     places = (place.at("displays", index) for index in range(len(inner)))
-    return Branch(group, [read_display(e, at) for e, at in zip(inner, places, strict=True)])
+    return Branch(display, [read_display(e, at) for e, at in zip(inner, places, strict=True)])
+
+
+def read_tool(entry: Any, place: Place) -> ToolItem:
+    """A tool from an entry of a list in a config file, which is at `place`."""
+    return _read_plugin(Tool, entry, place)
+
+
+def _read_plugin(
+    base: type[P], entry: Any, place: Place, others: tuple[str, ...] = ()
+) -> P | Unreadable:
+    """A display or tool from an entry of a list, without what is in it, which is under `others`."""
+    kind = base.kind
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
+        return Unreadable(entry, place.says(NO_TYPE.format(kind, EXAMPLES[kind])))
+    if "rviz" in entry:
+        reason = f"Unsupported {kind} class {entry['type']}."
+        return Unreadable(entry, place.says(reason))
+    types, broken = plugin_types(base), broken_types(base)
+    cls = types.get(entry["type"])
+    if cls is None:
+        reason = f"no {kind} type `{entry['type']}` here, {nearest(entry['type'], types)}"
+        return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
+    return _read(cls, entry, others, place)
 
 
 def _read(
-    cls: type[Display], entry: Mapping[str, Any], others: tuple[str, ...], place: Place
-) -> Display | Unreadable:
-    """A display without what is in it, which has other keys than its properties."""
+    cls: type[P], entry: Mapping[str, Any], others: tuple[str, ...], place: Place
+) -> P | Unreadable:
+    """A display or tool without what is in it, which has other keys than its properties."""
     values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
     try:
         return make(cls, values)

@@ -1,7 +1,8 @@
 """The JSON Schema of config files, with which editors complete and check them.
 
-It is of draft 7, which the YAML language servers of editors know best. A display of a type that is
-not installed is no error to it, since plug-ins bring their own; webviz itself says so on opening.
+It is of draft 7, which the YAML language servers of editors know best. A display or tool of a type
+that is not installed is no error to it, since plug-ins bring their own; webviz itself says so on
+opening.
 """
 
 from __future__ import annotations
@@ -13,16 +14,16 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
-from webviz.api.declared import Topic
+from webviz.api.declared import Declared, Topic
 from webviz.api.display import Display
 from webviz.api.group import Group
+from webviz.api.tool import Tool
 from webviz.files.config.model import VERSION, Settings
 
 Schema = dict[str, Any]
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
 DEFINITION = "#/definitions/"
-DISPLAY = "display"
 _BOUNDS = {
     "ge": "minimum",
     "gt": "exclusiveMinimum",
@@ -33,19 +34,20 @@ _BOUNDS = {
 }
 
 
-def schema(types: Mapping[str, type[Display]]) -> Schema:
+def schema(displays: Mapping[str, type[Display]], tools: Mapping[str, type[Tool]]) -> Schema:
     """The JSON Schema of a config file.
 
     Args:
-        types: display classes by the name each has in config files.
+        displays: display classes by the name each has in config files.
+        tools: tool classes in the same way.
     """
     made = _Schemas()
     top = made.properties(Settings)
     top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
-    top["displays"] = _displays("What is shown, in the order of the list.")
-    for name, cls in types.items():
-        made.definitions[name] = made.display(name, cls)
-    made.definitions[DISPLAY] = _any_display(types)
+    top["displays"] = _list_of(Display, "What is shown, in the order of the list.")
+    top["tools"] = _list_of(Tool, "The toolbar; without this key, all tools that are installed.")
+    made.add(Display, displays)
+    made.add(Tool, tools)
     return {
         "$schema": DRAFT,
         "title": "webviz",
@@ -57,12 +59,12 @@ def schema(types: Mapping[str, type[Display]]) -> Schema:
     }
 
 
-def _displays(description: str) -> Schema:
-    items = {"$ref": DEFINITION + DISPLAY}
+def _list_of(base: type[Declared], description: str) -> Schema:
+    items = {"$ref": DEFINITION + base.kind}
     return {"description": description, "type": ["array", "null"], "items": items}
 
 
-def _any_display(types: Mapping[str, type[Display]]) -> Schema:
+def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema) -> Schema:
     """An entry of a list; only what its type says is checked, so that errors are about that."""
     known = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
     return {
@@ -70,10 +72,10 @@ def _any_display(types: Mapping[str, type[Display]]) -> Schema:
         "required": ["type"],
         "properties": {
             "type": {
-                "description": "What kind of display this is.",
+                "description": f"What kind of {base.kind} this is.",
                 "anyOf": [*known, {"type": "string"}],
             },
-            "name": {"type": "string", "description": "Shown in the list of displays."},
+            "name": name,
         },
         "allOf": [
             {
@@ -83,11 +85,16 @@ def _any_display(types: Mapping[str, type[Display]]) -> Schema:
                     "properties": {"type": {"const": name}},
                     "not": {"required": ["rviz"]},
                 },
-                "then": {"$ref": DEFINITION + name},
+                "then": {"$ref": DEFINITION + _definition(base, name)},
             }
             for name in types
         ],
     }
+
+
+def _definition(base: type[Declared], name: str) -> str:
+    """A display and a tool may have one name; those of displays stand alone."""
+    return name if base is Display else f"{base.kind}.{name}"
 
 
 class _Schemas:
@@ -96,11 +103,15 @@ class _Schemas:
     def __init__(self) -> None:
         self.definitions: dict[str, Schema] = {}
 
-    def display(self, name: str, cls: type[Display]) -> Schema:
-        properties = {"type": {"const": name}, **self.properties(cls)}
-        if cls is Group:
-            properties["displays"] = _displays("What is in the group, in the order of the list.")
-        return _object(properties, _words(cls))
+    def add(self, base: type[Declared], types: Mapping[str, type[Declared]]) -> None:
+        """Define the entries of a list of displays or tools."""
+        for name, cls in types.items():
+            properties = {"type": {"const": name}, **self.properties(cls)}
+            if cls is Group:
+                inner = _list_of(Display, "What is in the group, in the order of the list.")
+                properties["displays"] = inner
+            self.definitions[_definition(base, name)] = _object(properties, _words(cls))
+        self.definitions[base.kind] = _any(base, types, self.properties(base)["name"])
 
     def properties(self, cls: type[msgspec.Struct]) -> dict[str, Schema]:
         info = inspect.type_info(cls)

@@ -10,9 +10,17 @@ import msgspec
 from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from webviz.api.declared import to_values
+from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
-from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable
+from webviz.files.config.model import (
+    VERSION,
+    Branch,
+    Config,
+    Item,
+    Settings,
+    Unreadable,
+    all_tools,
+)
 from webviz.files.config.representer import Representer
 
 LINE = 88
@@ -27,6 +35,9 @@ def document(config: Config) -> dict[str, Any]:
     values |= {key: value for key, value in settings.items() if value != basis[key]}
     kept = values.pop("rviz", None)
     values["displays"] = [_entry(display) for display in config.displays]
+    tools = [_entry(tool) for tool in config.tools]
+    if tools != [_entry(tool) for tool in all_tools()]:
+        values["tools"] = tools
     if kept:
         values["rviz"] = kept  # last, as nobody wants to read it
     return values
@@ -64,10 +75,10 @@ def _fits(nodes: Sequence[Node]) -> bool:
     return is_short and not any(mark in node.value for node in nodes for mark in ":?")
 
 
-def _entry(display: Item) -> Any:
-    if isinstance(display, Unreadable):
-        return display.values
-    if isinstance(display, Branch):
-        inner = [_entry(each) for each in display.displays]
-        return _entry(display.group) | ({"displays": inner} if inner else {})
-    return {"type": type_name(type(display)), **to_values(display)}
+def _entry(item: Item | Declared) -> Any:
+    if isinstance(item, Unreadable):
+        return item.values
+    if isinstance(item, Branch):
+        inner = [_entry(each) for each in item.displays]
+        return _entry(item.group) | ({"displays": inner} if inner else {})
+    return {"type": type_name(type(item)), **to_values(item)}

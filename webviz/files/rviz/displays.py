@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import msgspec
 
-from webviz.api.declared import make, to_values
+from webviz.api.declared import Declared, make, to_values
 from webviz.api.display import Display
 from webviz.api.group import Group
-from webviz.api.registry import display_types, type_name
+from webviz.api.registry import type_name
 from webviz.files.config import Branch, Item, Place, Unreadable, read_display
 from webviz.files.rviz import values
+from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.quiet import is_without_effect
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import KEPT, SELECTS
@@ -56,7 +56,7 @@ def read_items(entries: list[Any], report: Report, kept: Kept, place: Place) -> 
 def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
-    found = display_class(cls)
+    found = counterpart(Display, cls)
     report.count("displays", found is not None, 1)
     if found is None:
         report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
@@ -74,32 +74,28 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     return Branch(display, read_items(entries, report, kept, place.at("Displays")))
 
 
-def display_class(cls: str) -> type[Display] | None:
-    """The display type for RViz's class, also by its name in ROS 1."""
-    return _classes(tuple(display_types().values())).get(cls)
-
-
-@functools.lru_cache(maxsize=4)
-def _classes(types: tuple[type[Display], ...]) -> dict[str, type[Display]]:
-    found = {cls.rviz: cls for cls in types if cls.rviz}
-    return {f"rviz/{name.partition('/')[2]}": cls for name, cls in found.items()} | found
-
-
 def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Place) -> Display:
     reading = Reading()
     display = display_from(cls, tree, reading)
+    note_properties(display, tree, reading, report, place)
+    return display
+
+
+def note_properties(
+    declared: Declared, tree: Tree, reading: Reading, report: Report, place: Place
+) -> None:
+    """Report the properties of a display or tool that were not read, or not as they are."""
     for path, reason in reading.faults:
-        report.note(_at_line(display.name, place.at(*path)), "/".join(path), reason)
+        report.note(_at_line(declared.name, place.at(*path)), "/".join(path), reason)
     told = [path for path, _ in reading.faults]
     for path in _effective(tree):
         report.count("properties", path in reading.used, 1)
         if path not in reading.used and not any(path[: len(each)] == each for each in told):
-            report.note(display.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
-    return display
+            report.note(declared.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
 
 
 def _at_line(name: str, place: Place) -> str:
-    """A display's name with the line where there is something to put right."""
+    """A name with the line where there is something to put right."""
     return f"{name} (line {place.line})" if place.line else name
 
 

@@ -10,6 +10,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from webviz.api.registry import plugin_types
+from webviz.api.tool import Tool
 from webviz.files.config import read_text
 from webviz.files.rviz.displays import NO_DISPLAY
 from webviz.files.rviz.document import read
@@ -41,8 +43,8 @@ WHY = """\
 ## What is not carried over
 
 Displays that are not here yet are rows of the list that say so. Properties count where they have an
-effect: how RViz's panel looks does not. Tools and panels stay in the file as they are, since most
-of them need what a page does not have yet:
+effect: how RViz's panel looks does not. Tools without a counterpart, and panels, stay in the file
+as they are:
 """
 
 
@@ -62,7 +64,9 @@ def page(paths: Iterable[Path]) -> str:
     lines += ["", WHY]
     here = [f"`{name}`" for names in SAME_HERE.values() for name in names]
     reasons = [(f"`{name}`", reason.partition(";")[0]) for name, reason in WHY_NOT.items()]
-    rows = [(", ".join(here), "carried over: tabs of the page, and what the mouse does"), *reasons]
+    here += [f"`{cls.rviz.partition('/')[2]}`" for cls in plugin_types(Tool).values()]
+    told = "carried over: tabs and tools of the page, and what the mouse does"
+    rows = [(", ".join(here), told), *reasons]
     lines += [*_table(("tool or panel", "why"), rows), ""]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:

@@ -15,6 +15,7 @@ from webviz.files.rviz import values, views
 from webviz.files.rviz.displays import Kept, read_items, write_items
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import note_rest
+from webviz.files.rviz.tools import NEW_TOOLS, read_tools, write_tools
 from webviz.files.rviz.tree import Tree, child, difference, parse, restored
 from webviz.files.rviz.tree import write as write_tree
 from webviz.files.rviz.values import Unfit
@@ -29,19 +30,7 @@ NEW_FILE: Tree = {
         for name in ("Displays", "Selection", "Tool Properties", "Views", "Time")
     ],
     MANAGER: {
-        "Tools": [
-            {"Class": f"rviz_default_plugins/{name}"}
-            for name in (
-                "Interact",
-                "MoveCamera",
-                "Select",
-                "FocusCamera",
-                "Measure",
-                "SetInitialPose",
-                "SetGoal",
-                "PublishPoint",
-            )
-        ],
+        "Tools": NEW_TOOLS,
         "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
     },
 }
@@ -77,6 +66,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         entries = []
     refuse_too_many(entries, "Displays", where)
     items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
+    tools = read_tools(manager.get("Tools"), report, Place((MANAGER, "Tools"), source))
     note_rest(document, report)
     basis = _bare(settings)
     if views.kind_of(child(manager, "Views", "Current")) is None:
@@ -87,7 +77,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
-    return Config(settings, items, report.sentences()), report
+    return Config(settings, items, tools, report.sentences()), report
 
 
 def write(config: Config) -> tuple[str, Report]:
@@ -110,9 +100,12 @@ def write(config: Config) -> tuple[str, Report]:
     if saved or isinstance(manager.get("Views"), Mapping):
         manager["Views"] = kept_views
     rest = {**rest, MANAGER: manager} if rest else NEW_FILE
+    tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), report)
     own = msgspec.structs.replace(config.settings, rviz={}, views={})
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
+    if tools is not None:
+        tree[MANAGER]["Tools"] = tools
     return write_tree(tree), report
 
 

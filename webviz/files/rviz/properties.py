@@ -1,4 +1,4 @@
-"""Where each property of a display stands in RViz's tree of properties."""
+"""Where each property of a display or tool stands in RViz's tree of properties."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import Annotated, Any
 
 import msgspec
 
-from webviz.api.display import Display, Input
+from webviz.api.declared import Declared
+from webviz.api.display import Input
+from webviz.api.tool import Output
 from webviz.files.rviz.tree import Path
 from webviz.files.rviz.values import LEAST
 
 COMMON = ("name", "enabled")
-"""Properties of every display; RViz keeps them apart from the others."""
+"""Properties of every display or tool; RViz keeps them apart from the others."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,7 @@ class Property:
         default: here and in RViz, except for the names of topics.
         low: least number allowed.
         high: greatest number allowed.
-        input: of a topic.
+        port: of a topic, whether it is subscribed to or published.
     """
 
     name: str
@@ -37,14 +39,14 @@ class Property:
     default: Any
     low: float | None = None
     high: float | None = None
-    input: Input | None = None
+    port: Input | Output | None = None
 
 
 @functools.lru_cache(maxsize=256)
 def properties(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
-    """The properties of a display, or of a nested setting, besides the common ones."""
+    """The properties of a display or tool, or of a nested setting, besides the common ones."""
     hints = typing.get_type_hints(cls, include_extras=True)
-    left_out = COMMON if issubclass(cls, Display) else ()
+    left_out = COMMON if issubclass(cls, Declared) else ()
     return tuple(
         _property(field, hints[field.name])
         for field in msgspec.structs.fields(cls)
@@ -73,7 +75,7 @@ def _property(field: msgspec.structs.FieldInfo, hint: Any) -> Property:
         default,
         max(lows, default=None),
         min(highs, default=None),
-        next((mark for mark in marks if isinstance(mark, Input)), None),
+        next((mark for mark in marks if isinstance(mark, Input | Output)), None),
     )
 
 

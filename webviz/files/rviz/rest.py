@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.api.tool import Tool
 from webviz.files.rviz import values
+from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.tree import Tree, child
 
@@ -25,7 +27,6 @@ WHY_NOT = {
     "FocusCamera": SELECTS,
     "Measure": SELECTS,
     "SetInitialPose": PUBLISHES,
-    "SetGoal": PUBLISHES,
     "PublishPoint": PUBLISHES,
     "Tool Properties": f"there are no tools with properties yet; {KEPT}",
 }
@@ -55,6 +56,8 @@ def note_rest(document: Tree, report: Report) -> None:
 
 def why_not(kind: str, cls: str) -> str | None:
     """Why a class of "Panels" or "Tools" has no counterpart; None if it has one."""
+    if kind == "Tools" and counterpart(Tool, cls):
+        return None
     package, _, name = cls.partition("/")
     if package not in (_PACKAGES[kind], _ROS_1):
         return FOREIGN

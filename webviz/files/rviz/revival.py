@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
+from webviz.api.display import Display
 from webviz.files.config import Branch, Item, Place, Settings, Unreadable
 from webviz.files.rviz import values
-from webviz.files.rviz.displays import Kept, display_class, read_items
+from webviz.files.rviz.classes import counterpart
+from webviz.files.rviz.displays import Kept, read_items
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.tree import Tree, child
 
@@ -41,7 +43,8 @@ def _revived(item: Item, report: Report, kept: Kept) -> Item:
     if not isinstance(item, Unreadable) or not item.is_from_rviz:
         return item
     entry = item.values["rviz"]
-    if not isinstance(entry, Mapping) or not display_class(values.text(entry.get("Class", ""))):
+    cls = values.text(entry.get("Class", "")) if isinstance(entry, Mapping) else ""
+    if counterpart(Display, cls) is None:
         return item
     (made,) = read_items([_plain(entry)], report, kept, Place())
     return made

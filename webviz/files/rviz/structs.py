@@ -1,4 +1,4 @@
-"""The properties of displays and nested settings, from RViz's tree and back into one."""
+"""The properties of displays, tools and nested settings, from RViz's tree and back into one."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any, Literal
 import msgspec
 
 from webviz.api.declared import Topic
+from webviz.api.tool import Output
 from webviz.files.rviz import topics, values
 from webviz.files.rviz.properties import Property, properties
 from webviz.files.rviz.tree import Path, Tree, leaves, put
@@ -35,13 +36,13 @@ class Reading:
         """Plain values for `cls` from a tree; `above` is where that is in the display's."""
         result = {}
         found = properties(cls)
-        own = [place for place in found if place.input]
+        own = [place for place in found if _is_said(place, tree)]
         for place in own:
             result[place.name], used = topics.read(tree, place, self.faults)
             self.used |= {(*above, *path) for path in used}
         topics.complete(result, own)
         for place in found:
-            if not place.input and (raw := _at(tree, place.path)) is not None:
+            if not place.port and (raw := _at(tree, place.path)) is not None:
                 path = (*above, *place.path)
                 try:
                     result[place.name] = self._value(place, raw, path, found)
@@ -99,19 +100,25 @@ class Reading:
         return place.kind(bounded)
 
 
+def _is_said(place: Property, tree: Tree) -> bool:
+    """Whether a tree says what a topic is; that of a display without one is "" in RViz."""
+    is_output = isinstance(place.port, Output)
+    return place.path[0] in tree if is_output else place.port is not None
+
+
 def struct_tree(value: msgspec.Struct) -> Tree:
-    """The properties of a display or nested setting as RViz's tree."""
+    """The properties of a display, tool or nested setting as RViz's tree."""
     tree: Tree = {}
     places = properties(type(value))
-    first = next((getattr(value, p.name) for p in places if p.input), Topic())
+    first = next((getattr(value, p.name) for p in places if p.port), Topic())
     for place in places:
         put(tree, place.path, _written(getattr(value, place.name), place, first))
     return tree
 
 
 def _written(value: Any, place: Property, first: Topic) -> Any:
-    if place.input:
-        return topics.write(value, place.input, first)
+    if place.port:
+        return topics.write(value, place.port, first)
     if isinstance(value, msgspec.Struct):
         return struct_tree(value)
     if isinstance(value, dict):

@@ -13,6 +13,7 @@ from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.display import Input
+from webviz.api.tool import Output
 from webviz.files.rviz import values
 from webviz.files.rviz.properties import Property
 from webviz.files.rviz.tree import Path, Tree
@@ -35,7 +36,7 @@ def read(tree: Tree, place: Property, faults: list[tuple[Path, str]]) -> tuple[d
         place: the property.
         faults: gets what cannot be used, with the reason.
     """
-    assert place.input is not None
+    assert place.port is not None
     key = next((k for k in (place.path[0], *OLD_KEYS) if k in tree), place.path[0])
     raw = tree.get(key)
     result: dict[str, Any] = {"name": ""}
@@ -47,7 +48,7 @@ def read(tree: Tree, place: Property, faults: list[tuple[Path, str]]) -> tuple[d
     for field, path, value in _policies(tree, key, raw):
         used.add(path)
         try:
-            result |= _policy(field, value, place.input)
+            result |= _policy(field, value, place.port)
         except Unfit as error:
             faults.append((path, str(error)))
     return result, used
@@ -58,33 +59,42 @@ def complete(display: dict[str, Any], topics: list[Property]) -> None:
     first = display.get(topics[0].name, {}).get("name") if topics else ""
     for each in topics:
         topic = display.get(each.name, {})
-        if each.input and each.input.suffix and topic.get("name") == f"{first}{each.input.suffix}":
+        suffix = each.port.suffix if isinstance(each.port, Input) else ""
+        if suffix and topic.get("name") == f"{first}{suffix}":
             topic["name"] = ""
 
 
-def write(topic: Topic, input: Input, first: Topic) -> Tree:
+def write(topic: Topic, port: Input | Output, first: Topic) -> Tree:
     """A topic as RViz has it; `first` is the first topic of the display."""
+    if isinstance(port, Output):
+        return _written(topic, "Reliable", "Volatile")
+    return _write_input(topic, port, first)
+
+
+def _write_input(topic: Topic, input: Input, first: Topic) -> Tree:
     # Where RViz's defaults would not hear the usual publishers, `auto` becomes what does.
     reliability = "Best Effort" if input.type.startswith("sensor_msgs/") else "Reliable"
     is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
     durability = "Transient Local" if is_latched else "Volatile"
-    if topic.reliability != "auto":
-        reliability = RELIABILITY[topic.reliability]
-    if topic.durability != "auto" and not input.latched:
-        durability = DURABILITY[topic.durability]
-    name = topic.name
-    if not name and input.suffix and first.name:
-        name = first.name + input.suffix
-    tree = {
-        "Value": name,
-        "Depth": topic.depth or DEPTH,
-        "History Policy": "Keep Last",
-        "Reliability Policy": reliability,
-        "Durability Policy": durability,
-    }
+    tree = _written(topic, reliability, durability)
+    if input.latched:
+        tree["Durability Policy"] = durability
+    if not topic.name and input.suffix and first.name:
+        tree["Value"] = first.name + input.suffix
     if not input.latched and not input.suffix:
         tree["Filter size"] = topic.filter_size
     return tree
+
+
+def _written(topic: Topic, reliability: str, durability: str) -> Tree:
+    """A topic as RViz has it, with what `auto` stands for."""
+    return {
+        "Value": topic.name,
+        "Depth": topic.depth or DEPTH,
+        "History Policy": "Keep Last",
+        "Reliability Policy": RELIABILITY.get(topic.reliability, reliability),
+        "Durability Policy": DURABILITY.get(topic.durability, durability),
+    }
 
 
 def _policies(tree: Tree, key: str, raw: Any) -> Iterator[tuple[str, Path, Any]]:
@@ -99,7 +109,7 @@ def _policies(tree: Tree, key: str, raw: Any) -> Iterator[tuple[str, Path, Any]]
         yield "Unreliable", ("Unreliable",), tree["Unreliable"]
 
 
-def _policy(word: str, raw: Any, input: Input) -> dict[str, Any]:
+def _policy(word: str, raw: Any, port: Input | Output) -> dict[str, Any]:
     match word:
         case "Depth":
             depth = max(values.read(raw, int), 1)
@@ -116,7 +126,8 @@ def _policy(word: str, raw: Any, input: Input) -> dict[str, Any]:
             return {"reliability": "best_effort"} if label == "Best Effort" else {}
         case "Durability Policy":
             label = _label(raw, ("Volatile", "Transient Local", "System Default"))
-            is_chosen = label == "Transient Local" and not input.latched
+            is_latched = isinstance(port, Input) and port.latched
+            is_chosen = label == "Transient Local" and not is_latched
             return {"durability": "transient_local"} if is_chosen else {}
         case _:
             _label(raw, ("Keep Last", "System Default"))

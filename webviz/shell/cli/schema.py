@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from webviz.api.display import Display
-from webviz.api.registry import display_types
+from webviz.api.registry import display_types, plugin_types
+from webviz.api.tool import Tool
 from webviz.engine import plugins
 from webviz.files.config import write_text
 from webviz.files.config.schema import schema as json_schema
 from webviz.shell.cli.options import File, Plugins
 
 SHIPPED = Path(__file__).parents[2] / "files" / "config" / "webviz.schema.json"
-"""That of the displays that come with webviz."""
+"""That of the displays and tools that come with webviz."""
 COMMAND = "`webviz schema -o webviz/files/config/webviz.schema.json`"
 
 EXAMPLES = """\
 Examples:
-  webviz schema -o webviz.schema.json           all displays that are installed
+  webviz schema -o webviz.schema.json           all displays and tools installed
   webviz schema --plugin my_display.py -o ...   and those of a file
 
 An editor with a YAML language server uses it for a file that begins with
@@ -51,7 +50,7 @@ def schema(
     """
     for path in plugin:
         plugins.load(path)
-    written = text(display_types())
+    written = text()
     if output is None:
         print(written, end="")
     else:
@@ -59,6 +58,7 @@ def schema(
         print(f"webviz: wrote {output}")
 
 
-def text(types: Mapping[str, type[Display]]) -> str:
-    """The schema as a file has it."""
-    return json.dumps(json_schema(types), indent=1, ensure_ascii=False) + "\n"
+def text() -> str:
+    """The schema as a file has it, of all that is installed."""
+    schema = json_schema(display_types(), plugin_types(Tool))
+    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"

@@ -1,0 +1,110 @@
+"""The toolbar of a .rviz file, both ways."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from ruamel.yaml import YAML
+
+from webviz.api.declared import set_property, to_values
+from webviz.api.tool import Tool
+from webviz.files import rviz
+from webviz.files.config import Config, dump
+from webviz.files.opening import parse
+from webviz.tools.goal_pose import GoalPose
+
+TOOLS = """\
+Visualization Manager:
+  Tools:
+    - {Class: rviz_default_plugins/MoveCamera}
+    - Class: rviz_default_plugins/SetGoal
+      Odd: 007
+      Topic: {Value: /go, Depth: 9, Reliability Policy: Best Effort, History Policy: Keep Last}
+    - {Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}
+    - {Class: rviz_default_plugins/SetGoal, Topic: /second}
+"""
+
+
+def opened(tools: str) -> tuple[Config, rviz.Report]:
+    return rviz.read(f"Visualization Manager:\n  Tools: {tools}\n", "x.rviz")
+
+
+def written(config: Config) -> Any:
+    """The list of tools in the file, after a save as YAML."""
+    text, _ = rviz.write(parse(dump(config), "x.yaml"))
+    return YAML(typ="safe", pure=True).load(text)["Visualization Manager"].get("Tools")
+
+
+def goals(config: Config) -> list[Tool]:
+    tools = [tool for tool in config.tools if isinstance(tool, GoalPose)]
+    assert len(tools) == len(config.tools)
+    return list(tools)
+
+
+def test_tools_with_a_counterpart_are_imported_with_their_properties() -> None:
+    first, second = goals(rviz.read(TOOLS, "x.rviz")[0])
+    topic = {"name": "/go", "reliability": "best_effort", "depth": 9}
+    assert to_values(first) == {"topic": topic}
+    assert to_values(second) == {"topic": "/second"}
+
+
+def test_the_toolbar_comes_back_in_its_order_with_every_key() -> None:
+    camera, goal, foreign, second = written(rviz.read(TOOLS, "x.rviz")[0])
+    assert (camera["Class"], foreign["Class"]) == (
+        "rviz_default_plugins/MoveCamera",
+        "nav2_rviz_plugins/GoalTool",
+    )
+    assert foreign["Own"] == [1, 2]
+    assert str(goal["Odd"]) == "007"
+    assert goal["Topic"]["Value"] == "/go"
+    assert goal["Topic"]["Depth"] == 9
+    assert goal["Topic"]["Reliability Policy"] == "Best Effort"
+    assert second["Topic"] == "/second"
+
+
+def test_a_changed_tool_is_written_in_its_place() -> None:
+    config, _ = rviz.read(TOOLS, "x.rviz")
+    set_property(goals(config)[1], "topic.name", "/third")
+    _, goal, _, second = written(config)
+    assert (goal["Topic"]["Value"], second["Topic"]["Value"]) == ("/go", "/third")
+
+
+def test_a_removed_tool_is_not_written_again() -> None:
+    config, _ = rviz.read(TOOLS, "x.rviz")
+    del config.tools[0]
+    assert [tool["Class"].rpartition("/")[2] for tool in written(config)] == [
+        "MoveCamera",
+        "SetGoal",
+        "GoalTool",
+    ]
+
+
+@pytest.mark.parametrize(("key", "kept"), [("Odd: 1", None), ("Tools: 5", 5)])
+def test_a_file_without_a_list_has_the_default_tools_and_gets_none(key: str, kept: Any) -> None:
+    config, _ = rviz.read(f"Visualization Manager:\n  {key}\n", "x.rviz")
+    assert [to_values(tool) for tool in goals(config)] == [{}]
+    assert written(config) == kept
+    set_property(goals(config)[0], "topic.name", "/go")
+    assert len(written(config)) > 5
+
+
+def test_a_toolbar_without_a_counterpart_stays_empty() -> None:
+    config, _ = opened("[{Class: rviz_default_plugins/Measure}]")
+    assert config.tools == []
+    assert written(config) == [{"Class": "rviz_default_plugins/Measure"}]
+
+
+def test_a_tool_without_its_topic_has_the_default_one() -> None:
+    config, report = opened("[{Class: rviz_default_plugins/SetGoal}]")
+    assert to_values(goals(config)[0]) == {}
+    assert report.sentences() == []
+    assert report.carried["tools"] == 1
+
+
+def test_a_fault_of_a_tool_is_reported_with_its_line() -> None:
+    _, report = opened("[{Class: rviz/SetGoal, Topic: {Value: /a, Depth: deep}, Glow: 1}]")
+    assert report.sentences() == [
+        "2D Goal Pose (line 2): Topic/Depth: `deep` is no number.",
+        "2D Goal Pose: Glow: unsupported; kept for export.",
+    ]

@@ -1,0 +1,167 @@
+"""What a tool is: properties declared once, and what happens when its gesture is finished.
+
+    class GoalPose(Tool):
+        \"\"\"Send the robot to a pose: press at the position, drag towards the heading.\"\"\"
+
+        shortcut, gesture = "g", "pose"
+
+        topic: Annotated[Topic, Output("geometry_msgs/msg/PoseStamped")] = Topic("/goal_pose")
+
+        def done(self, stroke, ctx):
+            ctx.publish("topic", {"header": ctx.header, ...})
+
+The page follows the gesture and draws its preview without asking the server; the tool gets the
+finished `Stroke`.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import typing
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Literal
+
+import msgspec
+
+from webviz.api.declared import Declared, Topic
+from webviz.api.frames import Frames
+from webviz.api.status import Level, Status
+from webviz.data.messages import encode
+
+Gesture = Literal["point", "pose"]
+"""A click on the ground, or a press that is dragged towards a heading."""
+
+Position = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Output:
+    """Marks a `Topic` property as an output of a tool.
+
+    Where the topic says `auto`, it is published as RViz does: reliable, volatile, depth 5.
+
+    Args:
+        type: the message type, such as "geometry_msgs/msg/PoseStamped".
+    """
+
+    type: str
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A finished gesture.
+
+    Args:
+        points: where it went on the ground, x, y and z = 0 in metres in the fixed frame; the first
+            is where it began. At least one.
+        yaw: the heading in radians, of a pose; a click keeps that of the stroke before.
+        keys: the modifier keys that were held: "shift", "ctrl", "alt", "meta".
+        browser: id of the browser; None for a program.
+    """
+
+    points: tuple[Position, ...]
+    yaw: float = 0.0
+    keys: frozenset[str] = frozenset()
+    browser: int | None = None
+
+    @property
+    def position(self) -> Position:
+        """Where the gesture began, in metres in the fixed frame."""
+        return self.points[0]
+
+    @property
+    def orientation(self) -> dict[str, float]:
+        """The heading as the values of a geometry_msgs/Quaternion."""
+        return {"z": math.sin(self.yaw / 2.0), "w": math.cos(self.yaw / 2.0)}
+
+
+class ToolContext:
+    """What a tool acts with; made for one stroke.
+
+    Args:
+        frames: the transforms of this moment.
+        now_ns: ROS time, which goes on while the page is paused.
+        publish: sends an encoded message from an output of the tool; returns what to report.
+    """
+
+    def __init__(
+        self,
+        tool: Tool,
+        frames: Frames,
+        now_ns: int,
+        publish: Callable[[str, bytes], Status],
+    ) -> None:
+        self.frames = frames
+        self.now_ns = now_ns
+        self.statuses: list[Status] = []
+        """What the browser is told, in order."""
+        self._tool = tool
+        self._publish = publish
+
+    @property
+    def fixed_frame(self) -> str:
+        """The frame of the points of a stroke."""
+        return self.frames.fixed_frame
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """The values of a std_msgs/Header in the fixed frame, now."""
+        sec, nanosec = divmod(self.now_ns, 1_000_000_000)
+        return {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": self.fixed_frame}
+
+    def publish(self, output: str, values: Mapping[str, Any]) -> None:
+        """Publish a message, and report how many subscriptions there are.
+
+        Args:
+            output: the property that declares the topic.
+            values: of the message, by field; what is left out has its default.
+
+        Raises:
+            EncodeError: a value does not fit the definition of the message.
+        """
+        payload = encode(outputs_of(type(self._tool))[output].type, values)
+        self.statuses.append(self._publish(output, payload))
+
+    def ok(self, text: str) -> None:
+        """Report a result to the browser that made the stroke."""
+        self.statuses.append(Status(Level.OK, text))
+
+    def warn(self, text: str) -> None:
+        """Report what is doubtful, and what to do about it."""
+        self.statuses.append(Status(Level.WARN, text))
+
+    def error(self, text: str) -> None:
+        """Report what is wrong, and what to do about it."""
+        self.statuses.append(Status(Level.ERROR, text))
+
+
+class Tool(Declared, kw_only=True):
+    """Base of all tools. The first line of the docstring is the tooltip of its button."""
+
+    kind = "tool"
+    shortcut: ClassVar[str] = ""
+    """The key that selects it, a lower-case letter; "" is none."""
+    gesture: ClassVar[Gesture] = "point"
+
+    name: Annotated[str, msgspec.Meta(description="Shown in the toolbar.")] = ""
+
+    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+        """Act on a finished gesture; called by the frame loop."""
+
+
+@functools.cache
+def outputs_of(cls: type[Tool]) -> dict[str, Output]:
+    """The outputs of a tool class by property name, in the order of declaration."""
+    found = {}
+    for name, hint in typing.get_type_hints(cls, include_extras=True).items():
+        for item in getattr(hint, "__metadata__", ()):
+            if isinstance(item, Output):
+                found[name] = item
+    return found
+
+
+def outputs(tool: Tool) -> list[tuple[str, Output, Topic]]:
+    """Each output of a tool: property name, declaration, and the topic chosen for it."""
+    return [(name, spec, getattr(tool, name)) for name, spec in outputs_of(type(tool)).items()]

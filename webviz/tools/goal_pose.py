@@ -1,0 +1,27 @@
+"""Sends a robot somewhere."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from webviz.api.declared import Prop, Topic
+from webviz.api.tool import Output, Stroke, Tool, ToolContext
+
+
+class GoalPose(Tool):
+    """Send the robot to a pose: press at the position, drag towards the heading."""
+
+    title = "2D Goal Pose"
+    rviz = "rviz_default_plugins/SetGoal"
+    shortcut = "g"
+    gesture = "pose"
+
+    topic: Annotated[
+        Topic, Output("geometry_msgs/msg/PoseStamped"), Prop(help="Where goals are published.")
+    ] = Topic("/goal_pose")
+
+    def done(self, stroke: Stroke, ctx: ToolContext) -> None:
+        """Publish the pose at z = 0 of the fixed frame, stamped now, as RViz does."""
+        x, y, _ = stroke.position
+        pose = {"position": {"x": x, "y": y}, "orientation": stroke.orientation}
+        ctx.publish("topic", {"header": ctx.header, "pose": pose})
