@@ -128,7 +128,7 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
 ) -> None:
     cameras = looking.cameras
 
-    def acted(command: Command, sender: Sender) -> tuple[object, ...]:
+    def acted(command: Command, sender: Sender) -> tuple[list[Any], ...]:
         """What differs afterwards, for each browser."""
         cameras.shown = {ALICE: Orbit(pitch=0.1), BOB: Orbit(pitch=0.3)}
         before = dict(cameras.shown)
