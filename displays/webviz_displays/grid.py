@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Context, Display, Prop, Sample
-from webviz.data.transforms.geometry import REACH_M
+from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 

@@ -387,3 +387,30 @@ def test_a_display_that_follows_a_frame_needs_no_transform_at_the_stamp(
     b.viewer.enqueue(SetFixedFrame("odom"))
     b.turn()
     assert at(b) == [3.0]
+
+
+class Counting(Display):
+    """Counts how often it was drawn."""
+
+    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
+
+    def new_state(self) -> list[int]:
+        return []
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.state.append(sample.number)
+        ctx.ok("Drawn", f"{len(ctx.state)} times")
+
+
+def test_state_lasts_from_call_to_call_until_a_reset(bench: Callable[..., Any]) -> None:
+    b = bench(Counting(name="Counting"))
+    b.transform("map", "base", T, static=True)
+    for _ in range(2):
+        b.pose("/pose", "base", T)
+        b.turn()
+    assert b.statuses()["Drawn"] == ("OK", "2 times")
+    b.do(Reset())
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T)
+    b.turn()
+    assert b.statuses()["Drawn"] == ("OK", "1 times")

@@ -187,7 +187,7 @@ class Context(Group):
     Args:
         frames: the transforms of this moment; knows the fixed frame and the time.
         background: see `Background`.
-        state: belongs to the display, for what it must remember between calls.
+        state: what the display remembers between calls; see `Display.new_state`.
         placement: of the context's own nodes.
         order: place of the display in the list of displays; later ones lie on top.
     """
@@ -196,7 +196,7 @@ class Context(Group):
         self,
         frames: Frames,
         background: Background,
-        state: dict[str, Any],
+        state: Any,
         placement: Placement = Placement(),
         order: int = 0,
     ) -> None:

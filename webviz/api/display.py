@@ -106,6 +106,13 @@ class Display(Declared, kw_only=True):
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
 
+    def new_state(self) -> Any:
+        """What the display remembers between calls: an object of its own, `ctx.state`.
+
+        Called before the first hook that gets a context, and again after a reset.
+        """
+        return None
+
     def history(self) -> Keep:
         """How much history to hold; every held sample stays drawn."""
         return Keep()

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import Pose
+from webviz.data.rotations import w_first
 from webviz.data.transforms import (
     Explanation,
     FramesIn,
+    Link,
     Transform,
     TransformBuffer,
     TransformException,
@@ -60,6 +62,11 @@ class Frames:
         self._all: FramePoses | None = None
         self._is_all_wanted = False
 
+    @property
+    def structure(self) -> object:
+        """Another value whenever frames, their parents or static transforms changed."""
+        return self.buffer.structure_version
+
     def next(self, fixed_frame: str, now_ns: int) -> Frames:
         """The frames of the next tick; what no transform changed is not computed again."""
         frames = Frames(self.buffer, fixed_frame, now_ns)
@@ -106,6 +113,26 @@ class Frames:
     def now(self, frame: str) -> Pose | None:
         """Pose of a frame now, or at the latest common time if now is not known yet."""
         return self.at(frame, self.now_ns) or self.at(frame, 0)
+
+    def link(self, frame: str) -> Link | None:
+        """What places a frame in its parent; None for roots and frames without data."""
+        return self.buffer.link(frame)
+
+    def along(
+        self, frame: str, stamps_ns: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """Poses of a frame at many stamps at once.
+
+        Args:
+            frame: frame id.
+            stamps_ns: int64 (N,), in any order.
+
+        Returns:
+            Positions float64 (N, 3) in metres, unit quaternions float64 (N, 4) as (w, x, y, z),
+            and bool (N,): where there is a pose; the other rows are NaN.
+        """
+        positions, rotations, ok = self.buffer.lookup_many(self.fixed_frame, frame, stamps_ns)
+        return positions, w_first(rotations), ok
 
     def why_not(self, frame: str, stamp_ns: int = 0) -> str:
         """Why a frame has no pose, and what to do; a sentence."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Frames, Sample
 from webviz.data import messages
-from webviz.data.rotations import matrices, w_first
+from webviz.data.rotations import matrices
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.geometry import FARTHEST, is_drawable
 
@@ -112,9 +112,7 @@ def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
         without a transform of their own.
     """
     ahead_ns = np.round(hits.beams * (sample.message.time_increment * 1e9)).astype(np.int64)
-    positions, rotations, known = frames.buffer.lookup_many(
-        frames.fixed_frame, sample.frame, sample.stamp_ns + ahead_ns
-    )
+    positions, wxyzs, known = frames.along(sample.frame, sample.stamp_ns + ahead_ns)
     known &= is_drawable(positions)
     missing = int(len(known) - known.sum())
     if missing == len(known):
@@ -123,6 +121,6 @@ def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
         has = np.flatnonzero(known)
         middles = (has[1:] + has[:-1] + 1) // 2
         nearest = has[np.searchsorted(middles, np.arange(len(known)), side="right")]
-        positions, rotations = positions[nearest], rotations[nearest]
-    fixed = np.einsum("nij,nj->ni", matrices(w_first(rotations)), hits.xyz) + positions
+        positions, wxyzs = positions[nearest], wxyzs[nearest]
+    fixed = np.einsum("nij,nj->ni", matrices(wxyzs), hits.xyz) + positions
     return (fixed - sample.pose.position) @ matrices(sample.pose.wxyz), missing

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Annotated, Any, Literal
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,25 @@ class Folded:
     update_fault: str = ""
 
 
+Tile = tuple[NDArray[np.int8], Image]
+"""The cells of a tile, and how they were drawn."""
+
+
+@dataclass
+class _State:
+    """What was drawn last.
+
+    Args:
+        look: of all tiles.
+        tiles: by corner.
+        at_stamp: fixed frame, frame and stamp of the map, and the pose that it had.
+    """
+
+    look: Look | None = None
+    tiles: dict[Corner, Tile] = field(default_factory=dict)
+    at_stamp: tuple[tuple[str, str, int], Pose] | None = None
+
+
 class Map(Display):
     """An occupancy grid as a flat picture: free, occupied and unknown cells.
 
@@ -111,6 +130,10 @@ class Map(Display):
             help="Cells of this value and above count as occupied.",
         ),
     ] = 100
+
+    def new_state(self) -> _State:
+        """Nothing drawn."""
+        return _State()
 
     def waits(self, name: str) -> bool:
         """A map that follows its frame needs no transform at its stamp, often long ago."""
@@ -167,8 +190,8 @@ class Map(Display):
         """Where the frame was at the stamp; kept, because transforms expire after seconds."""
         key = (ctx.frames.fixed_frame, frame, stamp_ns)
         if pose := ctx.frames.at(frame, stamp_ns):
-            ctx.state["pose at stamp"] = (key, pose)
-        known, pose = ctx.state.get("pose at stamp", (None, None))
+            ctx.state.at_stamp = (key, pose)
+        known, pose = ctx.state.at_stamp or (None, None)
         return pose if known == key else None
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
@@ -186,12 +209,10 @@ class Map(Display):
             ctx.ok("Update", f"{count} since the last whole map.")
 
 
-def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, Image]:
+def _images(grid: TiledGrid, look: Look, state: _State) -> dict[Corner, Image]:
     """A node for each tile; unchanged tiles keep the node of the previous call."""
-    before: dict[Corner, tuple[NDArray[np.int8], Image]] = {}
-    if look.is_like(state.get("look")):
-        before = state["tiles"]
-    tiles = {}
+    before = state.tiles if look.is_like(state.look) else {}
+    tiles: dict[Corner, Tile] = {}
     for corner, cells in grid.tiles.items():
         old = before.get(corner)
         if old is None or old[0] is not cells:
@@ -200,5 +221,5 @@ def _images(grid: TiledGrid, look: Look, state: dict[str, Any]) -> dict[Corner, 
             image = Image(cells.view(np.uint8), width, height, look.layer, look.table)
             old = (cells, image)
         tiles[corner] = old
-    state["look"], state["tiles"] = look, tiles
+    state.look, state.tiles = look, tiles
     return {corner: image for corner, (_, image) in tiles.items()}

@@ -40,6 +40,10 @@ class Odometry(Display):
     shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
     covariance: Annotated[Covariance, Prop(help="How to draw the covariances.")] = Covariance()
 
+    def new_state(self) -> Trails:
+        """No poses."""
+        return Trails()
+
     def history(self) -> Keep:
         """The newest poses that were accepted."""
         return Keep(count=self.keep)
@@ -63,7 +67,7 @@ class Odometry(Display):
         if not samples:
             return
         ctx.ok("Pose", f"Showing {len(samples)} pose{'s' if len(samples) != 1 else ''}.")
-        poses = ctx.state.setdefault("trails", Trails()).of(samples)
+        poses = ctx.state.of(samples)
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))
         poses = replace(poses, positions=poses.positions - origin)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -26,6 +27,19 @@ DOTS_LIMIT = 50_000
 """The browser draws the style Points as lines, and slows down with more of them."""
 
 WHITE = (255, 255, 255)
+
+
+@dataclass
+class _State:
+    """The clouds that are drawn.
+
+    Args:
+        clouds: when each arrived, ROS time in nanoseconds, by number.
+        shares: how many clouds share `max_points`.
+    """
+
+    clouds: dict[int, int] = field(default_factory=dict)
+    shares: int = 1
 
 
 class PointCloud2(PointsDisplay):
@@ -63,22 +77,26 @@ class PointCloud2(PointsDisplay):
         Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all."),
     ] = 0.0
 
+    def new_state(self) -> _State:
+        """No clouds."""
+        return _State()
+
     def depends(self, ctx: Context) -> int:
         """How many clouds share max_points: a power of two, so that it seldom changes."""
-        clouds: dict[int, int] = ctx.state.setdefault("clouds", {})
+        state: _State = ctx.state
         oldest = ctx.frames.now_ns - round(self.decay_time * 1e9)
-        for number in [number for number, received_ns in clouds.items() if received_ns < oldest]:
-            del clouds[number]
-        shares = ctx.state.get("shares", 1) if self.decay_time else 1
-        count = len(clouds) + 1 if self.decay_time else 1  # including the next one
+        for number in [n for n, received_ns in state.clouds.items() if received_ns < oldest]:
+            del state.clouds[number]
+        shares = state.shares if self.decay_time else 1
+        count = len(state.clouds) + 1 if self.decay_time else 1  # including the next one
         if count > shares or count < shares // 4:
             shares = 1 << (count - 1).bit_length()
-        ctx.state["shares"] = shares
+        state.shares = shares
         return shares
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame of the sensor at the stamp."""
-        ctx.state["clouds"][sample.number] = sample.received_ns
+        ctx.state.clouds[sample.number] = sample.received_ns
         try:
             cloud = Cloud(sample.message)
             xyz, origin = cloud.positions()
@@ -87,7 +105,7 @@ class PointCloud2(PointsDisplay):
             return
         if cloud.remark:
             ctx.warn("Data", cloud.remark)
-        rows, sentence = self._select(xyz, ctx.state["shares"])
+        rows, sentence = self._select(xyz, ctx.state.shares)
         xyz = picked(xyz, rows)
         own = Pose(origin)
         fixed = compose(sample.pose, own) if any(origin) else sample.pose

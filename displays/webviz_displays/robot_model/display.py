@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
 import msgspec
 
 from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
-from webviz.data.transforms.reasons import distinct
-from webviz_displays.robot_model.loading import load, progress, request_file
+from webviz.data.transforms import distinct
+from webviz_displays.robot_model.loading import Loadings, load, progress, request_file
 from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_displays.robot_model.statuses import (
     NAMED,
@@ -60,6 +60,31 @@ class _Model:
         """Enabled links without a transform."""
         latest, prefix = frames.latest, self.prefix
         return [link for link in self.shown if latest(prefix + link) is None]
+
+
+@dataclass
+class _State:
+    """The robot that is shown, and what follows from it.
+
+    Args:
+        loading: what is being loaded.
+        model: the robot, None until one is loaded.
+        grey: links that were drawn without a transform, None before anything was drawn.
+        paint: the colours of parts.
+        reasons: why links are lost.
+        reasons_of: which links, and at which second that was asked.
+        trails: of links, in `trails_frame`.
+        trails_frame: fixed frame.
+    """
+
+    loading: Loadings = field(default_factory=dict)
+    model: _Model | None = None
+    grey: set[str] | None = None
+    paint: Paint = field(default_factory=Paint)
+    reasons: dict[str, str] = field(default_factory=dict)
+    reasons_of: tuple[list[str], int] | None = None
+    trails: Trails = field(default_factory=Trails)
+    trails_frame: str = ""
 
 
 class RobotModel(Display):
@@ -117,6 +142,10 @@ class RobotModel(Display):
         msgspec.field(default_factory=dict)
     )
 
+    def new_state(self) -> _State:
+        """No robot."""
+        return _State()
+
     def listens(self, name: str) -> bool:
         """A description from a file needs no topic."""
         return self.description_source == "Topic"
@@ -126,13 +155,14 @@ class RobotModel(Display):
 
         Links lost when it was drawn count too: a robot just loaded has no earlier state.
         """
-        model: _Model | None = ctx.state.get("model")
-        loading = [progress(loading) for loading in ctx.state.get("loading", {}).values()]
-        return loading, model.lost(ctx.frames) if model else [], ctx.state.get("grey")
+        state: _State = ctx.state
+        loading = [progress(loading) for loading in state.loading.values()]
+        return loading, state.model.lost(ctx.frames) if state.model else [], state.grey
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the current robot; each link moves with its frame."""
-        model = ctx.state["model"] = self._model(samples, ctx)
+        state: _State = ctx.state
+        model = state.model = self._model(samples, ctx)
         if model is None:
             return
         report_robot(model.robot, model.full, ctx)
@@ -144,9 +174,9 @@ class RobotModel(Display):
         report_strangers("Joint", list(self.joints), list(model.robot.joints), ctx)
         for name in [joint for joint in self.joints if joint in model.robot.joints][:NAMED]:
             report_joint(model.robot.joints[name], ctx)
-        paint: Paint = ctx.state.setdefault("paint", Paint())
+        paint = state.paint
         paint.begin()
-        lost = ctx.state["grey"] = set(model.lost(ctx.frames))
+        lost = state.grey = set(model.lost(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
             group = ctx.follow(
                 model.frame(part.link), keep_last=True, interval_s=self.update_interval
@@ -155,7 +185,7 @@ class RobotModel(Display):
 
     def tick(self, ctx: Context) -> None:
         """Report where links are, and draw their trails."""
-        model: _Model | None = ctx.state.get("model")
+        model: _Model | None = ctx.state.model
         if model is None:
             return
         lost = model.lost(ctx.frames)
@@ -168,25 +198,24 @@ class RobotModel(Display):
 
     def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
         """Why the first links are lost; the texts contain times and are renewed every second."""
+        state: _State = ctx.state
         moment = (lost, ctx.frames.now_ns // SECOND)
-        known, reasons = ctx.state.get("reasons", (None, {}))
-        if known != moment:
-            reasons = distinct(
+        if state.reasons_of != moment:
+            state.reasons_of = moment
+            state.reasons = distinct(
                 lost,
                 lambda link: why_lost(model.robot, link, ctx.frames.explain(model.frame(link))),
                 NAMED,
             )
-            ctx.state["reasons"] = (moment, reasons)
-        return reasons
+        return state.reasons
 
     def _draw_trails(self, model: _Model, links: list[str], ctx: Context) -> None:
-        fixed, trails = ctx.state.get("trails", ("", None))
-        if fixed != ctx.frames.fixed_frame or trails is None:
-            trails = Trails()
-            ctx.state["trails"] = (ctx.frames.fixed_frame, trails)
+        state: _State = ctx.state
+        if state.trails_frame != ctx.frames.fixed_frame:
+            state.trails, state.trails_frame = Trails(), ctx.frames.fixed_frame
         poses = {link: ctx.frames.latest(model.frame(link)) for link in links}
-        trails.update({link: pose and pose.position for link, pose in poses.items()})
-        trails.draw(ctx)
+        state.trails.update({link: pose and pose.position for link, pose in poses.items()})
+        state.trails.draw(ctx)
 
     def _choices(self) -> Choices:
         return Choices(
@@ -202,7 +231,8 @@ class RobotModel(Display):
 
     def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
         """The described robot; the previous one until it is loaded."""
-        before, ctx.state["loading"] = ctx.state.get("loading", {}), {}
+        state: _State = ctx.state
+        before, state.loading = state.loading, {}
         request = self._request(samples, ctx)
         if request is None:
             return None
@@ -214,11 +244,10 @@ class RobotModel(Display):
         except RobotDescriptionError as error:
             ctx.error("URDF", str(error))
             return None
-        old: _Model | None = ctx.state.get("model")
         if robot is None:
-            if old is None:
+            if state.model is None:
                 return None
-            robot, full = old.robot, old.full
+            robot, full = state.model.robot, state.model.full
         prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
         choices = self._choices()
         shown = tuple(link for link in robot.links if choices.of(link).enabled)

@@ -29,7 +29,7 @@ def load(request: Request, before: Loadings, ctx: Context) -> Robot | None:
     loading = before.get(request) or Loading(request)
     robot = ctx.background(request, loading.run, stop=loading.stop)
     if robot is None:
-        ctx.state["loading"][request] = loading
+        ctx.state.loading[request] = loading
         ctx.warn("Loading", progress(loading))
     return robot
 

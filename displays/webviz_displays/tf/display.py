@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Display, FramePoses, Pose, Prop, Sample
-from webviz.data.transforms.reasons import distinct
+from webviz import Context, Display, FramePoses, Group, Pose, Prop, Sample, Status
+from webviz.data.transforms import distinct
 from webviz_displays.tf.fading import Ages, fade
 from webviz_displays.tf.frame_filter import FrameFilter, compiled, parent_indices
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
@@ -32,10 +32,42 @@ READ_OUT = 20
 class _Known:
     """State derived from the names and the shape of the tree."""
 
-    version: tuple[int, int]
+    version: tuple[object, int]
     selected: NDArray[np.bool_]
     parents: NDArray[np.int64]
     tree: str
+
+
+@dataclass(frozen=True)
+class _Tick:
+    """What one tick drew and said, for those that draw nothing new."""
+
+    now_ns: int
+    groups: dict[str, Group]
+    statuses: dict[str, Status]
+
+
+@dataclass
+class _State:
+    """What is derived from properties, names and time.
+
+    Args:
+        fixed_frame: in which `ages` were measured.
+        ages: of frames.
+        filter: by the properties.
+        known: by names and the shape of the tree.
+        last: the tick that was drawn last.
+        reasons: why frames are lost.
+        reasons_of: which frames, and at which second that was asked.
+    """
+
+    fixed_frame: str = ""
+    ages: Ages = field(default_factory=Ages)
+    filter: FrameFilter = field(default_factory=lambda: FrameFilter(None, None, {}, True))
+    known: _Known | None = None
+    last: _Tick | None = None
+    reasons: dict[str, str] = field(default_factory=dict)
+    reasons_of: tuple[bytes, int] | None = None
 
 
 class TF(Display):
@@ -83,23 +115,27 @@ class TF(Display):
         Prop(help="Switches of single frames by name; frames switched on report their pose."),
     ] = msgspec.field(default_factory=dict)
 
+    def new_state(self) -> _State:
+        """Nothing known."""
+        return _State()
+
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Properties or the fixed frame changed: derive everything anew."""
         whitelist = _pattern("Filter (whitelist)", self.filter_whitelist, ctx)
         blacklist = _pattern("Filter (blacklist)", self.filter_blacklist, ctx)
-        ages = ctx.state.get("ages") if ctx.state.get("fixed") == ctx.frames.fixed_frame else None
-        ctx.state.clear()
-        ctx.state["fixed"] = ctx.frames.fixed_frame
-        ctx.state["ages"] = ages or Ages()
-        ctx.state["filter"] = FrameFilter(whitelist, blacklist, self.frames, self.all_enabled)
+        state: _State = ctx.state
+        if state.fixed_frame != ctx.frames.fixed_frame:
+            state.fixed_frame, state.ages = ctx.frames.fixed_frame, Ages()
+        state.filter = FrameFilter(whitelist, blacklist, self.frames, self.all_enabled)
+        state.known = state.last = state.reasons_of = None
 
     def tick(self, ctx: Context) -> None:
         """Draw every frame where it is at the latest common time with the fixed frame."""
-        state, now_ns = ctx.state, ctx.frames.now_ns
-        if (last := state.get("last")) and now_ns - last[0] < self.update_interval * SECOND:
-            _, groups, statuses = last
-            ctx.groups.update(groups)
-            ctx.statuses.update(statuses)
+        state: _State = ctx.state
+        now_ns = ctx.frames.now_ns
+        if (last := state.last) and now_ns - last.now_ns < self.update_interval * SECOND:
+            ctx.groups.update(last.groups)
+            ctx.statuses.update(last.statuses)
             return
         poses = ctx.frames.all()
         if not poses.names:
@@ -109,24 +145,23 @@ class TF(Display):
             )
             return
         known = self._known(ctx, poses.names)
-        ages = state["ages"].update(poses.stamps_ns, now_ns)
+        ages = state.ages.update(poses.stamps_ns, now_ns)
         is_young = ages <= self.frame_timeout
         shown = known.selected & poses.ok & is_young
         self._draw(shown, poses, known.parents, ages, ctx)
         self._report(known.selected, shown, poses, ctx)
         ctx.ok("Tree", f"{known.tree}.")
         groups = {key: group for key, group in ctx.groups.items() if group is not ctx}
-        state["last"] = (now_ns, groups, dict(ctx.statuses))
+        state.last = _Tick(now_ns, groups, dict(ctx.statuses))
 
     def _known(self, ctx: Context, names: list[str]) -> _Known:
-        known: _Known | None = ctx.state.get("known")
-        version = (ctx.frames.buffer.structure_version, len(names))
-        if known is None or known.version != version:
-            selected = ctx.state["filter"].select(names)
+        state: _State = ctx.state
+        version = (ctx.frames.structure, len(names))
+        if state.known is None or state.known.version != version:
+            selected = state.filter.select(names)
             parents = parent_indices(ctx.frames, names)
-            known = _Known(version, selected, parents, outline(names, parents))
-            ctx.state["known"] = known
-        return known
+            state.known = _Known(version, selected, parents, outline(names, parents))
+        return state.known
 
     def _draw(
         self,
@@ -176,11 +211,12 @@ class TF(Display):
         say("Frames", ", ".join(parts) + ".")
         # Explanations contain times, so they are renewed, but not on every tick.
         moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
-        if ctx.state.get("moment") != moment:
+        state: _State = ctx.state
+        if state.reasons_of != moment:
             names = sorted(poses.names[place] for place in lost)
-            ctx.state["moment"] = moment
-            ctx.state["reasons"] = distinct(names, ctx.frames.explain, NAMED)
-        for name, reason in ctx.state["reasons"].items():
+            state.reasons_of = moment
+            state.reasons = distinct(names, ctx.frames.explain, NAMED)
+        for name, reason in state.reasons.items():
             ctx.warn(name, reason)
         for name in [name for name, is_on in self.frames.items() if is_on][:READ_OUT]:
             if name not in ctx.statuses and (text := readout(ctx.frames, name)):

@@ -57,11 +57,8 @@ def compiled(text: str) -> re.Pattern[str] | None:
 def parent_indices(frames: Frames, names: Sequence[str]) -> NDArray[np.int64]:
     """Place in `names` of each name's newest parent, -1 for roots and frames without data."""
     places = {name: place for place, name in enumerate(names)}
-    caches = frames.buffer.tree.caches
     parents = np.full(len(names), -1, np.int64)
     for place, name in enumerate(names):
-        cache = caches.get(name)
-        newest = cache.newest if cache is not None else None
-        if newest is not None:
-            parents[place] = places.get(newest[1], -1)
+        if link := frames.link(name):
+            parents[place] = places.get(link.parent, -1)
     return parents

@@ -7,7 +7,6 @@ import math
 from webviz import Frames, Pose
 from webviz.api.frames import to_pose
 from webviz.data.rotations import to_rpy
-from webviz.data.transforms import TransformException
 
 
 def readout(frames: Frames, name: str) -> str | None:
@@ -15,19 +14,12 @@ def readout(frames: Frames, name: str) -> str | None:
 
     Angles are roll, pitch and yaw about the parent's axes (URDF's order), in degrees.
     """
-    cache = frames.buffer.tree.caches.get(name)
-    newest = cache.newest if cache is not None else None
-    if cache is None or newest is None:
+    if (link := frames.link(name)) is None:
         return None
-    parent = newest[1]
-    try:
-        transform = frames.buffer.lookup(parent, name, 0)
-    except TransformException:  # frames that form a loop
-        return None
-    kind = "static" if cache.is_static else "moving"
-    text = f"In '{parent}' ({kind}): {_words(to_pose(transform))}."
+    kind = "static" if link.is_static else "moving"
+    text = f"In '{link.parent}' ({kind}): {_words(to_pose(link.transform))}."
     pose = frames.latest(name)
-    if pose is None or parent == frames.fixed_frame:
+    if pose is None or link.parent == frames.fixed_frame:
         return text
     return f"{text} In '{frames.fixed_frame}': {_words(pose)}."
 

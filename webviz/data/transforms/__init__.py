@@ -15,11 +15,13 @@ from webviz.data.transforms.errors import (
 )
 from webviz.data.transforms.explain import explain
 from webviz.data.transforms.filter import MessageFilter
+from webviz.data.transforms.geometry import REACH_M
 from webviz.data.transforms.many_frames import FramesIn
-from webviz.data.transforms.reasons import Explanation, Kind
-from webviz.data.transforms.records import Rejection, Transform
+from webviz.data.transforms.reasons import Explanation, Kind, distinct
+from webviz.data.transforms.records import Link, Rejection, Transform
 
 __all__ = [
+    "REACH_M",
     "BackwardExtrapolationException",
     "ConnectivityException",
     "Diagnosis",
@@ -30,6 +32,7 @@ __all__ = [
     "FramesIn",
     "InvalidArgumentException",
     "Kind",
+    "Link",
     "LookupException",
     "MessageFilter",
     "NoDataForExtrapolationException",
@@ -39,6 +42,7 @@ __all__ = [
     "TransformBuffer",
     "TransformException",
     "diagnose",
+    "distinct",
     "explain",
     "tree_text",
 ]

@@ -18,7 +18,7 @@ from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.many_inserts import insert_expected
 from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Publishers
-from webviz.data.transforms.records import Rejection, Transform, fault_of, too_old
+from webviz.data.transforms.records import Link, Rejection, Transform, fault_of, too_old
 from webviz.data.transforms.shape import Shape
 from webviz.data.transforms.tree import FrameTree
 
@@ -285,6 +285,14 @@ class TransformBuffer:
         """Forget who quarrelled over which frame, as when publishers came or went."""
         for publishers in self._publishers.values():
             publishers.forget()
+
+    def link(self, frame: str) -> Link | None:
+        """What places a frame in its parent; None for roots and frames without data."""
+        cache = self._tree.caches.get(frame)
+        if cache is None or (newest := cache.newest) is None:
+            return None
+        pose, parent = newest
+        return Link(parent, _transform(pose, cache.newest_stamp), cache.is_static)
 
     def rigid_root(self, frame: str) -> str:
         """The uppermost frame that static transforms join with this one; itself if there is none.

@@ -24,6 +24,21 @@ class Transform:
 
 
 @dataclass(frozen=True, slots=True)
+class Link:
+    """What places a frame in its parent.
+
+    Attributes:
+        parent: frame id, of the newest transform.
+        transform: that transform, from the frame into its parent.
+        is_static: whether it holds for all times.
+    """
+
+    parent: str
+    transform: Transform
+    is_static: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Rejection:
     """Why the buffer last refused a transform of some child, and how many it has refused.
 

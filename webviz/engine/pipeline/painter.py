@@ -15,6 +15,8 @@ from webviz.engine.pipeline.drawing import Drawing, Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 
+_NO_STATE = object()
+
 
 class Painter:
     """What one display draws, what it says while drawing, and the slow work that takes.
@@ -32,7 +34,7 @@ class Painter:
         self._workers = workers
         self._drawing = Drawing(scene, id)
         self._tasks = Tasks(workers)
-        self._state: dict[str, Any] = {}
+        self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
         self._drawn: dict[str, dict[int, Sample]] = {}
         self._seen: list[tuple[History, int]] | None = None
@@ -40,6 +42,11 @@ class Painter:
 
     def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
         """Call the hooks that have something new to draw, and move what follows frames."""
+        if self._state is _NO_STATE:
+            self._state = guard("new_state", display.new_state)
+            if self._state is CRASHED:
+                self._state = _NO_STATE
+                return
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
         held = [(history, history.version) for history in histories.values()]
@@ -66,7 +73,7 @@ class Painter:
     def forget(self) -> None:
         """Begin anew, also with what the display remembers between calls."""
         self.hide()
-        self._state.clear()
+        self._state = _NO_STATE
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
@@ -77,7 +84,7 @@ class Painter:
         """Go on with an instance of another class, and with the picture there is."""
         self._tasks.close()
         self._tasks = Tasks(self._workers)
-        self._state.clear()
+        self._state = _NO_STATE
         self._statuses.clear()
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
