@@ -140,7 +140,7 @@ def test_a_config_can_be_a_file_a_text_or_a_config(capture, tmp_path):
 def test_another_fixed_frame_is_told_where_it_is_not_known(capture):
     shot: Capture = capture(CONFIG, fixed_frame="mapp")
     assert not shot.is_ok
-    assert "did you mean `map`?" in shot.pictures[0].shown.general["Fixed Frame"].text
+    assert 'Did you mean "map"?' in shot.pictures[0].shown.general["Fixed Frame"].text
 
 
 @pytest.mark.parametrize(

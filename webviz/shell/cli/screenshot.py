@@ -215,7 +215,8 @@ def _image(picture: Picture) -> PIL.Image.Image:
 
 def _interrupt() -> None:
     end_in_time()
-    # asyncio would report that playwright's driver, its child, was ended by others.
-    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
+    # Both would report that playwright's driver, a child, was ended by others.
+    for name in ("asyncio", "playwright"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     end_children()  # a browser that hangs could not be closed
     raise KeyboardInterrupt
