@@ -1,4 +1,5 @@
-# `make` sets up .venv, `make test` checks and tests everything in it, by two processes.
+# `make` sets up .venv, `make test` checks and tests everything in it, by two processes: first what
+# takes a minute, `make quick` and `make check` at once, then what opens browsers and ROS graphs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := install
 
@@ -16,12 +17,28 @@ else
 endif
 comma := ,
 
-.PHONY: install test check bench browser
+PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
+# Neither a browser nor a ROS graph.
+QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages pipeline rviz \
+	sources transforms views)
+# A long file that comes last would leave one of the processes without work.
+FIRST := $(addprefix tests/,benchmarks e2e gui capture)
+
+.PHONY: install test quick check bench browser
 
 install: $(VENV)/ready
 
-test: $(VENV)/ready-to-test check
-	@$(VENV)/bin/python -m pytest -n 2 --dist loadfile $(ARGS)
+test: $(VENV)/ready-to-test
+ifdef ARGS
+	@$(MAKE) --no-print-directory check
+	@$(PYTEST) $(ARGS)
+else
+	@$(MAKE) --no-print-directory -j2 check quick
+	@$(PYTEST) --no-loadscope-reorder $(FIRST) tests $(addprefix --ignore=,$(QUICK))
+endif
+
+quick: $(VENV)/ready-to-test
+	@$(PYTEST) $(QUICK)
 
 check: $(VENV)/ready-to-test
 	@$(VENV)/bin/ruff check
