@@ -77,6 +77,7 @@ class FrameLoop:
         self._next_panel = 0.0
         core = self._core = Core(source, scene, self._guard, clock)
         services = Services(scene, self._workers, source.resolve, strict, clock)
+        self._tracer = services.tracer
         transforms = TransformsPart(core)
         self._time = TimePart(core, lambda: self._parts.reset())
         displays = self._displays = DisplaysPart(core, services)
@@ -158,6 +159,7 @@ class FrameLoop:
         if core.is_watched():
             runners = self._displays.list.active()
             self._showing.draw(runners, core.frames, self.settings.background)
+            self._tracer.sent()
         self._guard("Source", self._source.want, parts.subscriptions())
         if answers or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S

@@ -7,6 +7,7 @@ from webviz.engine.commands.displays import (
     MoveDisplay,
     RemoveDisplay,
     SetProperty,
+    TraceDisplay,
     nobody,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save
@@ -61,6 +62,7 @@ __all__ = [
     "SetProperty",
     "ShowView",
     "StartWithView",
+    "TraceDisplay",
     "ViewCommand",
     "nobody",
 ]

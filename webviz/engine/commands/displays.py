@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.engine.commands.command import Command
+from webviz.engine.trace import Trace
 
 
 def nobody(id: str) -> None:
@@ -72,3 +74,16 @@ class MoveDisplay(Command):
     display: str
     group: str = ""
     before: str = ""
+
+
+@dataclass(frozen=True)
+class TraceDisplay(Command):
+    """Note the times of the next sample that a display draws.
+
+    Args:
+        display: id of the display.
+        answer: is given them; cancel it to stop waiting.
+    """
+
+    display: str
+    answer: Future[Trace]

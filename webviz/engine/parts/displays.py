@@ -19,6 +19,7 @@ from webviz.engine.commands import (
     RemoveDisplay,
     Sender,
     SetProperty,
+    TraceDisplay,
 )
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Batches, Core, Handler, Part
@@ -40,6 +41,7 @@ class DisplaysPart(Part):
     def __init__(self, core: Core, services: Services) -> None:
         super().__init__(core)
         self.list = DisplayList(services)
+        self._tracer = services.tracer
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -50,6 +52,7 @@ class DisplaysPart(Part):
             RemoveDisplay: self._remove,
             DuplicateDisplay: self._duplicate,
             MoveDisplay: self._move,
+            TraceDisplay: self._trace,
         }
 
     def subscriptions(self) -> Mapping[str, Subscription]:
@@ -93,6 +96,9 @@ class DisplaysPart(Part):
 
     def _move(self, command: MoveDisplay, sender: Sender) -> None:
         self.list.move(command.display, command.group, command.before)
+
+    def _trace(self, command: TraceDisplay, sender: Sender) -> None:
+        self._tracer.ask(command.display, command.answer)
 
 
 def _new(type_name: str, values: dict[str, Any]) -> Display:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from webviz.api.declared import set_property
@@ -22,6 +22,7 @@ from webviz.engine.pipeline.inputs import Inputs, Set
 from webviz.engine.pipeline.intake import Arrival
 from webviz.engine.pipeline.painter import Painter
 from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.engine.trace import Tracer
 
 NOTHING_TO_DRAW = Status(Level.WARN, "There is nothing to draw.")
 NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until somebody opens the page.")
@@ -37,6 +38,7 @@ class Services:
         resolve: the full name of a topic; raises ValueError.
         strict: raise what a display raises, as tests want it.
         clock: monotonic time in seconds, for rates and ages.
+        tracer: notes the times of samples that somebody asks about.
     """
 
     scene: Scene
@@ -44,6 +46,7 @@ class Services:
     resolve: Callable[[str], str]
     strict: bool = False
     clock: Callable[[], float] = time.monotonic
+    tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
 
 
 class Runner:
@@ -66,6 +69,7 @@ class Runner:
         self._inputs = self._new_inputs()
         self._histories = self._no_histories()
         self._newest: dict[str, Set] = {}
+        self._ready_s: dict[str, float] = {}
         self._folded: Any = None
         self._fixed_frame = ""
 
@@ -126,12 +130,14 @@ class Runner:
         self._inputs.reset()
         self._histories = self._no_histories()
         self._newest.clear()
+        self._services.tracer.forget(self.id)
         self._folded = None
         self._painter.forget()
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
         self._painter.close()
+        self._services.tracer.forget(self.id)
 
     # One tick
 
@@ -197,8 +203,10 @@ class Runner:
     ) -> None:
         display, keep = self.display, self._keep()
         every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
-        for found in self._inputs.take(batches, frames, offers, self._services.clock()):
+        clock = self._services.clock()
+        for found in self._inputs.take(batches, frames, offers, clock):
             name = next(iter(found))
+            self._ready_s[name] = clock
             # How long messages go on shows once one is decoded, and the next ones wait for that.
             is_unknown = (
                 overrides(display, "duration_ns") and not self._inputs.intakes[name].duration_ns
@@ -225,6 +233,8 @@ class Runner:
             self._painter.is_stale = True
         self._trim(self._keep(), frames)
         self._painter.draw(self.display, self._guard, self._histories, frames)
+        if self._services.tracer.wants(self.id):
+            self._services.tracer.drawn(self.id)
 
     def _statuses(
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
@@ -253,15 +263,23 @@ class Runner:
         if others:
             sample = replace(sample, synced={other: samples[other] for other in others})
         size = sum(len(arrival.raw.cdr) for arrival in found.values())
+        tracer = self._services.tracer
+        decoded_s = tracer.clock() if tracer.wants(self.id) else None
+        is_held = self._hold(sample, size)
+        if is_held and decoded_s is not None:
+            tracer.decoded(self.id, sample, found[name].raw, self._ready_s[name], decoded_s)
+
+    def _hold(self, sample: Sample, size: int) -> bool:
+        """Fold a sample in, or hold it if the display accepts it; whether there is news."""
         if overrides(self.display, "fold"):
-            self._fold(name, sample, size)
-            return
-        history = self._histories[name]
+            return self._fold(sample, size)
+        history = self._histories[sample.input]
         verdict = self._guard("accept", self.display.accept, sample, history.samples())
         if isinstance(verdict, str):
-            self._inputs.intakes[name].refuse(verdict)
+            self._inputs.intakes[sample.input].refuse(verdict)
         elif verdict is True:
             history.add(sample, size, self._keep())
+        return verdict is True
 
     def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
         """A decoded message, None if it cannot be shown."""
@@ -287,13 +305,14 @@ class Runner:
             message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
         )
 
-    def _fold(self, name: str, sample: Sample, size: int) -> None:
-        folded = self._guard("fold", self.display.fold, name, sample, self._folded)
+    def _fold(self, sample: Sample, size: int) -> bool:
+        folded = self._guard("fold", self.display.fold, sample.input, sample, self._folded)
         if folded is None or folded is CRASHED:
-            return
+            return False
         self._folded = folded
         history = next(iter(self._histories.values()))
         history.add(replace(sample, message=folded), size, self._keep())
+        return True
 
 
 def _what_arrives(display: Display) -> tuple[object, ...]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,10 +15,12 @@ class Raw:
     Args:
         cdr: the serialised message with its encapsulation header.
         received_ns: ROS time of arrival.
+        arrived_s: monotonic time of arrival, in seconds.
     """
 
     cdr: bytes
     received_ns: int
+    arrived_s: float = field(default_factory=time.monotonic)
 
 
 class Inbox:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import copy
+import time
 from collections.abc import Iterable, Sequence
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeout
+from dataclasses import replace
 from typing import Any, Protocol
 
 from webviz.api.errors import Error
@@ -15,8 +19,10 @@ from webviz.engine.commands import (
     MoveDisplay,
     RemoveDisplay,
     SetProperty,
+    TraceDisplay,
 )
 from webviz.engine.state import Row, State
+from webviz.engine.trace import Trace
 from webviz.shell.app.adding import NoSuchProperty, no_property
 
 
@@ -34,6 +40,10 @@ class Owner(Protocol):
 
     def do(self, command: Command) -> str:
         """Change something, and wait until it is done."""
+        ...
+
+    def acknowledged(self, timeout: float) -> bool:
+        """Wait until every browser has applied all that was sent so far; whether they did."""
         ...
 
 
@@ -107,6 +117,36 @@ class DisplayHandle:
         """
         self._row()
         self._viewer.do(FocusDisplay(self.id))
+
+    def trace(self, timeout: float = 5.0) -> Trace:
+        """Wait for the next sample that it draws, and return when that was where.
+
+        A browser has to be connected, for nothing is drawn without one. Times are collected only
+        while this waits.
+
+        Args:
+            timeout: seconds, for the sample and for the browsers in turn.
+
+        Raises:
+            Error: it drew no new sample in time.
+        """
+        name = self._row().name
+        answer: Future[Trace] = Future()
+        answer.add_done_callback(lambda _: sent_s.append(time.monotonic()))
+        sent_s: list[float] = []
+        self._viewer.do(TraceDisplay(self.id, answer))
+        try:
+            trace = answer.result(timeout)
+        except FutureTimeout:
+            answer.cancel()
+            raise Error(
+                f"{name} drew no new sample within {timeout:g} s. Check its status, and open the "
+                "page in a browser."
+            ) from None
+        if not self._viewer.acknowledged(timeout):
+            return trace
+        elapsed_ns = round((time.monotonic() - sent_s[0]) * 1e9)
+        return replace(trace, acknowledged_ns=trace.sent_ns + elapsed_ns)
 
     def duplicate(self) -> DisplayHandle:
         """Add a copy right behind it, of a group with all that is in it."""

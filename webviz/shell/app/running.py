@@ -98,7 +98,7 @@ class Running:
             shown = shown or read(path)
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
-            scene = Scene(server)
+            scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._panel = Panel(server, self._enqueue)
             on_typed(scene.link, take_typed)
@@ -163,6 +163,21 @@ class Running:
         if self._ended.done():
             raise Error("The viewer has ended: make a new one.") from self._ended.exception()
         raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
+
+    def acknowledged(self, timeout: float) -> bool:
+        """Wait until every connected browser has applied all that was sent so far.
+
+        Args:
+            timeout: seconds.
+
+        Returns:
+            False if one did not answer, or none is connected.
+        """
+        try:
+            self._scene.link.acknowledge(timeout)
+        except TimeoutError:
+            return False
+        return self._scene.has_watchers()
 
     def screenshot(
         self,
