@@ -47,6 +47,9 @@ class Faulty(Display):
                 sys.exit(3)
             raise Boom
 
+    def new_state(self) -> None:
+        self._raise_in("new_state")
+
     def history(self) -> Keep:
         self._raise_in("history")
         return Keep()
