@@ -24,6 +24,13 @@ setup(
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",
         ],
+        "webviz.panels": [
+            "Displays = webviz.panels.displays:Displays",
+            "TFTree = webviz.panels.transforms:TFTree",
+            "Time = webviz.panels.time:Time",
+            "Topics = webviz.panels.topics:Topics",
+            "Views = webviz.panels.views:Views",
+        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/webviz"]),

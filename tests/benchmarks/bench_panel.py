@@ -19,7 +19,7 @@ import playwright.sync_api as playwright
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
-from webviz.edges.gui import Panel
+from webviz.edges.gui import Panels
 from webviz.edges.scene import open_server
 from webviz.engine.state import Row, State
 from webviz.shell.pictures.browser import launched
@@ -58,7 +58,7 @@ def loads(browser: playwright.Browser) -> None:
     """Print how long pages take."""
     servers = {count: open_server(port=0) for count in (FEW, MANY)}
     for count, server in servers.items():
-        Panel(server, lambda command: None).update(state_of(count))
+        Panels(server, lambda command: None).update(state_of(count))
     times: dict[int, list[float]] = {FEW: [], MANY: []}
     for _ in range(ROUNDS):
         for count, server in servers.items():
@@ -76,14 +76,14 @@ def updates() -> None:
     """Print what an update that changes nothing costs, in processor time."""
     server = open_server(port=0)
     for count in (FEW, MANY):
-        panel, state = Panel(server, lambda command: None), state_of(count)
+        panel, state = Panels(server, lambda command: None), state_of(count)
         update = updater(panel, state)
         seconds = timeit.repeat(update, timer=time.thread_time, number=200, repeat=ROUNDS)
         print(f"update, {count:>3} displays: {min(seconds) / 200 * 1e6:.0f} us")
     server.stop()
 
 
-def updater(panel: Panel, state: State) -> Callable[[], None]:
+def updater(panel: Panels, state: State) -> Callable[[], None]:
     """An update that changes nothing."""
     panel.update(state)
     return lambda: panel.update(state)

@@ -16,7 +16,7 @@ import viser
 from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
-from webviz.edges.gui import Panel, take_typed
+from webviz.edges.gui import Panels, take_typed
 from webviz.edges.scene import on_typed, open_server
 from webviz.edges.scene.adapter import Adapter
 from webviz.engine.commands import Command, Refresh, SetProperty
@@ -60,7 +60,7 @@ class Loop:
         self.commands: list[Command] = []
         self.state = State()
         self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
-        self.panel = Panel(server, self._queue.put)
+        self.panel = Panels(server, self._queue.put)
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""

@@ -11,7 +11,7 @@ import viser
 from webviz.api.declared import Topic
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
-from webviz.edges.gui import Panel
+from webviz.edges.gui import Panels
 from webviz.engine.commands import AddDisplay, RemoveDisplay, Reset, SetFixedFrame, SetProperty
 from webviz.engine.state import Row
 
@@ -300,4 +300,4 @@ def test_reset_is_one_click(loop: Any, tab: Any) -> None:
 
 def test_a_panel_without_displays_can_be_shown(server: viser.ViserServer) -> None:
     commands: list[Any] = []
-    assert isinstance(Panel(server, commands.append), Panel)
+    assert isinstance(Panels(server, commands.append), Panels)

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from webviz.edges.gui import transforms_tab
 from webviz.edges.gui.text import MAX_LINES, block_html
-from webviz.edges.gui.time_tab import clock_html
 from webviz.edges.gui.topics_table import MAX_ROWS, amount, qos_of, topics_html
 from webviz.engine.commands import InspectTopic, InspectTransforms, Pause, Reset
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Clock, Inspected, Traffic
+from webviz.panels import transforms
+from webviz.panels.time import times
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 SCAN = Publisher("/driver", "sensor_msgs/msg/LaserScan", "best_effort", "volatile")
@@ -42,27 +42,27 @@ def test_time_stands_still_and_goes_on(loop: Any, tab: Any) -> None:
 
 
 def test_a_time_that_is_not_known_is_not_zero() -> None:
-    assert "not known yet" in clock_html(Clock())
-    assert "-1.50" in clock_html(Clock(1, ros_elapsed_ns=-1_500_000_000))
+    assert ("ROS Time", "not known yet") in times(Clock())
+    assert ("ROS Elapsed", "-1.50") in times(Clock(1, ros_elapsed_ns=-1_500_000_000))
 
 
 def test_transforms_are_followed_while_somebody_wants_to(
     loop: Any, tab: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(transforms_tab, "EVERY_S", 0.0)
+    monkeypatch.setattr(transforms, "EVERY_S", 0.0)
     loop.show()
     tab.show_tab("TF tree")
     tab.check("Live")
     tab.wait_for(lambda: loop.drain() or loop.commands)
     assert loop.commands == [InspectTransforms(True)]
-    tab.wait_for(lambda: loop.turn() or transforms_tab.NOTHING in tab.text())
+    tab.wait_for(lambda: loop.turn() or transforms.NOTHING in tab.text())
     loop.show(transforms=f"map\n└─ odom  50.0 Hz\n   └─ {HOSTILE}")
     tab.wait_for(lambda: loop.turn() or "└─ odom  50.0 Hz" in tab.text())
     assert HOSTILE in tab.text()
     loop.show(transforms="map")
     tab.wait_for(lambda: loop.turn() or "odom" not in tab.text())
     tab.uncheck("Live")
-    tab.wait_for(lambda: loop.turn() or transforms_tab.OFF in tab.text())
+    tab.wait_for(lambda: loop.turn() or transforms.OFF in tab.text())
     assert loop.commands[1:] == [InspectTransforms(False)]
 
 

@@ -1,6 +1,6 @@
-"""viser's GUI: the panel of a viewer."""
+"""viser's GUI: the panels of a viewer."""
 
 from webviz.edges.gui.control import take_typed
-from webviz.edges.gui.panel import Panel
+from webviz.edges.gui.panels import Panels
 
-__all__ = ["Panel", "take_typed"]
+__all__ = ["Panels", "take_typed"]

@@ -34,9 +34,11 @@ class Answers:
             return
         self._number = answer.number
         for client in self._server.get_clients().values():
-            client.add_notification(
-                TITLES[answer.level],
-                plain(answer.text),
-                auto_close_seconds=SECONDS[answer.level],
-                color=COLORS[answer.level],
-            )
+            tell(client, answer.level, answer.text)
+
+
+def tell(client: viser.ClientHandle, level: Level, text: str) -> None:
+    """Show a browser for some seconds how something went."""
+    client.add_notification(
+        TITLES[level], plain(text), auto_close_seconds=SECONDS[level], color=COLORS[level]
+    )

@@ -61,6 +61,11 @@ class Control:
             if event.client is not None:
                 self._entered(event.client)
 
+    @property
+    def value(self) -> Any:
+        """What the widget holds now."""
+        return self.decode(self.widget.value)
+
     def show(self, value: Any) -> None:
         """Show the value the viewer has."""
         shown = self.encode(value)

@@ -49,13 +49,13 @@ class Dialogs:
     def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
         self._server = server
         self._enqueue = enqueue
-        self._asked: queue.SimpleQueue[tuple[viser.ClientHandle, MakeDialog]] = queue.SimpleQueue()
+        self._asked: queue.SimpleQueue[tuple[int, MakeDialog]] = queue.SimpleQueue()
         self._open: dict[int, Dialog] = {}
 
-    def open(self, client: viser.ClientHandle | None, make: MakeDialog) -> None:
+    def open(self, browser: int | None, make: MakeDialog) -> None:
         """Open a dialog in a browser instead of the one it has open, from any thread."""
-        if client is not None:
-            self._asked.put((client, make))
+        if browser is not None:
+            self._asked.put((browser, make))
             self._enqueue(Refresh())
 
     def update(self, state: State) -> None:
@@ -69,10 +69,10 @@ class Dialogs:
             elif dialog.is_done:
                 self._close(id)
         while not self._asked.empty():
-            client, make = self._asked.get()
-            if client.client_id in connected:
-                self._close(client.client_id)
-                self._open[client.client_id] = make(client)
+            browser, make = self._asked.get()
+            if browser in connected:
+                self._close(browser)
+                self._open[browser] = make(connected[browser])
         for dialog in self._open.values():
             dialog.update(state)
 

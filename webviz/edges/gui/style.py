@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from webviz.api.status import Level
-from webviz.edges.gui.text import COLORS
+from webviz.edges.gui.text import COLORS, note_html
 
 WHOLE = 24
 """The columns of a line in a grid of rows."""
@@ -67,6 +67,14 @@ def row_style(name: str, spans: Sequence[int]) -> str:
             )
         column = (column + span) % WHOLE
     return f'<div class="webviz-row-{name}"><style>{"".join(rules)}</style></div>'
+
+
+def failure_html(sentence: str) -> str:
+    """A sentence on top of the tab that it is the last widget of, which others' places count."""
+    style = (
+        ":has(> div > .webviz-failure) { display: grid; } :has(> .webviz-failure) { order: -1; }"
+    )
+    return f'<div class="webviz-failure"><style>{style}</style>{note_html(sentence, True)}</div>'
 
 
 def picks_style() -> str:

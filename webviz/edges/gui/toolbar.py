@@ -10,23 +10,24 @@ import viser
 from webviz.edges.gui.moves import Moves
 from webviz.edges.gui.selection import Selection
 from webviz.edges.gui.style import row_style
+from webviz.edges.gui.ui import browser_of
 from webviz.engine.commands import Command, MoveDisplay
 
 
 class Actions(Protocol):
-    """What the tab "Displays" does with the selected display."""
+    """What the panel "Displays" does with the selected display."""
 
     selection: Selection
 
-    def focus(self, client: viser.ClientHandle | None) -> None:
+    def focus(self, browser: int | None) -> None:
         """Let a browser look at it."""
         ...
 
-    def duplicate(self) -> None:
+    def duplicate(self, browser: int | None) -> None:
         """Add a copy, and select it."""
         ...
 
-    def remove(self) -> None:
+    def remove(self, browser: int | None) -> None:
         """Remove it."""
         ...
 
@@ -53,9 +54,9 @@ class Toolbar:
         self._down = gui.add_button("Down", color="gray", hint="Move it down in the list.")
         self._into = gui.add_button("In", color="gray", hint="Move it into the nearest group.")
         self._out = gui.add_button("Out", color="gray", hint="Move it out of its group.")
-        focus.on_click(lambda event: actions.focus(event.client))
-        duplicate.on_click(lambda _: actions.duplicate())
-        remove.on_click(lambda _: actions.remove())
+        focus.on_click(lambda event: actions.focus(browser_of(event)))
+        duplicate.on_click(lambda event: actions.duplicate(browser_of(event)))
+        remove.on_click(lambda event: actions.remove(browser_of(event)))
         self._up.on_click(lambda _: self._move(actions.selection.moves.up))
         self._down.on_click(lambda _: self._move(actions.selection.moves.down))
         self._into.on_click(lambda _: self._move(actions.selection.moves.into))

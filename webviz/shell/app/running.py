@@ -77,7 +77,7 @@ class Running:
             path = Path(config) if config is not None else None
             # viser takes a while to import; mistakes in files are told before.
             shown = read(path) if path is not None else None
-            from webviz.edges.gui import Panel, take_typed
+            from webviz.edges.gui import Panels, take_typed
             from webviz.edges.scene import CannotListen, Scene, on_typed, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
@@ -100,7 +100,7 @@ class Running:
                 shown.set_fixed_frame(fixed_frame)
             scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
-            self._panel = Panel(server, self._enqueue)
+            self._panel = Panels(server, self._enqueue)
             on_typed(scene.link, take_typed)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()

@@ -1,16 +1,13 @@
-"""The tab "Topics": what is published, and the last message of one topic."""
+"""The panel "Topics": what is published, and the last message of one topic."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
-import viser
-
-from webviz.edges.gui.control import Choice
+from webviz.api.panel import Panel, Send, Ui
 from webviz.edges.gui.text import block_html, note_html
 from webviz.edges.gui.topics_table import topics_html
-from webviz.engine.commands import Command, InspectTopic
+from webviz.engine.commands import InspectTopic
 from webviz.engine.state import Inspected, State
 
 EVERY_S = 1.0
@@ -20,26 +17,27 @@ ROWS_PER_S = 50
 HINT = "Choose a topic to read its last message; it need not be shown."
 
 
-class TopicsTab:
-    """All topics.
+class Topics(Panel):
+    """All topics: who publishes them and how, how much of them arrives, and the last message."""
 
-    Args:
-        gui: viser's GUI; the widgets go into the tab that is open.
-        enqueue: takes commands, from any thread.
-    """
+    place = 50
 
-    def __init__(self, gui: viser.GuiApi, enqueue: Callable[[Command], None]) -> None:
-        self._choice = Choice(gui, "Inspect", "", lambda topic: enqueue(InspectTopic(topic)), HINT)
-        self._message = gui.add_html(note_html(HINT))
-        self._filter = gui.add_text("Filter", "", hint="A part of the name or type.")
-        self._table = gui.add_html("")
+    def build(self, ui: Ui, send: Send) -> None:
+        """A topic to choose, its message, and all topics."""
+        self._choice = ui.choice(
+            "Inspect", "", lambda topic, browser: send(InspectTopic(topic), browser), HINT
+        )
+        self._message = ui.area()
+        self._message.text(HINT)
+        self._filter = ui.field("Filter", "", lambda *_: None, "A part of the name or type.")
+        self._table = ui.area()
         self._filtered = ""
         self._offers: object = None
         self._topics: tuple[str, ...] = ()
         self._inspected = ""
         self._next_message = self._next_table = 0.0
 
-    def update(self, state: State) -> None:
+    def show(self, state: State) -> None:
         """Show the topics as they are, now and then."""
         current = state.inspected.topic if state.inspected else ""
         if state.offers is not self._offers:
@@ -55,7 +53,10 @@ class TopicsTab:
         if topic == self._inspected and now < self._next_message:
             return
         self._inspected, self._next_message = topic, now + EVERY_S
-        self._message.content = note_html(HINT) if inspected is None else inspected_html(inspected)
+        if inspected is None:
+            self._message.text(HINT)
+        else:
+            self._message.html(inspected_html(inspected))
 
     def _show_table(self, state: State) -> None:
         now, wanted = time.monotonic(), self._filter.value
@@ -63,7 +64,7 @@ class TopicsTab:
             return
         self._filtered = wanted
         self._next_table = now + max(1.0, len(state.offers) / ROWS_PER_S)
-        self._table.content = topics_html(state.offers, state.traffic, wanted)
+        self._table.html(topics_html(state.offers, state.traffic, wanted))
 
 
 def inspected_html(inspected: Inspected) -> str:

@@ -8,23 +8,16 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable
-from typing import Any
 
 import viser
 
+from webviz.api.panel import Panel, Send, Ui
 from webviz.api.views import View, type_of
 from webviz.edges.gui.style import row_style
 from webviz.edges.gui.text import plain
+from webviz.edges.gui.ui import browser_of
 from webviz.edges.gui.view_editor import ViewEditor
-from webviz.engine.commands import (
-    Command,
-    RemoveView,
-    ResetView,
-    SaveView,
-    ShowView,
-    StartWithView,
-)
+from webviz.engine.commands import RemoveView, ResetView, SaveView, ShowView, StartWithView
 from webviz.engine.state import State
 
 NAME = "View"
@@ -34,18 +27,16 @@ SAVE, SHOW = (16, 8), (17, 7)
 """Columns of the line in which a view is named, and of one that shows it."""
 
 
-class ViewsTab:
-    """The tab "Views".
+class Views(Panel):
+    """What a browser looks at, and the views that are saved."""
 
-    Args:
-        server: where the panel appears; the widgets go into the tab that is open.
-        enqueue: takes commands, from any thread.
-    """
+    place = 20
 
-    def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
-        self._server = server
-        self._gui = gui = server.gui
-        self._enqueue = enqueue
+    def build(self, ui: Ui, send: Send) -> None:
+        """The view of each browser, and the saved ones for all."""
+        self._server: viser.ViserServer = ui.viser
+        self._gui = gui = self._server.gui
+        self._send = send
         self._editors: dict[int, ViewEditor] = {}
         self._saved: dict[str, View] = {}
         self._lines: list[viser.GuiButtonHandle] = []
@@ -54,8 +45,8 @@ class ViewsTab:
             zero = gui.add_button("Zero", color="gray", hint="Where such a view begins: Z")
             hint = "Browsers that join, and pictures, begin with what you see."
             start = gui.add_button("Start with this", color="gray", hint=hint)
-        zero.on_click(lambda event: enqueue(ResetView(_browser(event))))
-        start.on_click(lambda event: enqueue(StartWithView(_browser(event))))
+        zero.on_click(lambda event: self._zero(browser_of(event)))
+        start.on_click(lambda event: self._start_with(browser_of(event)))
         self._own = gui.add_folder(None)
         self._list = gui.add_folder("Saved views")
         with self._list:
@@ -63,21 +54,28 @@ class ViewsTab:
             self._name = gui.add_text("", "", hint="Name of the view to save.")
             save = gui.add_button("Save this", color="gray", hint="Keep what you see.")
             save.on_click(self._save)
+        ui.command("Zero view", self._zero, key="Z")
 
-    def update(self, state: State) -> None:
-        """Show the viewer as it is; to be called by the frame loop."""
+    def show(self, state: State) -> None:
+        """Show the viewer as it is."""
         clients = self._server.get_clients()
         for id in self._editors.keys() - clients.keys():
             del self._editors[id]  # viser clears what a browser had
         for id, view in state.views.items():
             if id in clients:
                 if id not in self._editors:
-                    self._editors[id] = ViewEditor(clients[id], self._own, view, self._enqueue)
+                    self._editors[id] = ViewEditor(clients[id], self._own, view, self._send)
                 self._editors[id].update(view, state.frames)
         if state.settings.views != self._saved:
             self._saved = dict(state.settings.views)
             with self._server.atomic():
                 self._show_saved()
+
+    def _zero(self, browser: int | None) -> None:
+        self._send(ResetView(browser), browser)
+
+    def _start_with(self, browser: int | None) -> None:
+        self._send(StartWithView(browser), browser)
 
     def _show_saved(self) -> None:
         for line in self._lines:
@@ -89,23 +87,21 @@ class ViewsTab:
                 hint = f"Look at it so: {type_of(view)}"
                 show = self._gui.add_button(plain(name), color="gray", hint=hint)
                 remove = self._gui.add_button("Remove", color="gray", hint="Forget this view.")
-                show.on_click(functools.partial(self._show, name))
+                show.on_click(functools.partial(self._look, name))
                 remove.on_click(functools.partial(self._remove, name))
                 self._lines += [show, remove]
 
-    def _show(self, name: str, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        self._enqueue(ShowView(name, _browser(event)))
+    def _look(self, name: str, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+        browser = browser_of(event)
+        self._send(ShowView(name, browser), browser)
 
     def _remove(self, name: str, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        self._enqueue(RemoveView(name))
+        self._send(RemoveView(name), browser_of(event))
 
     def _save(self, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         names = (f"{NAME} {number}" for number in itertools.count(1))
         free = next(name for name in names if name not in self._saved)
         name = self._name.value.strip() or free
         self._name.value = ""
-        self._enqueue(SaveView(name, _browser(event)))
-
-
-def _browser(event: viser.GuiEvent[Any]) -> int | None:
-    return event.client.client_id if event.client else None
+        browser = browser_of(event)
+        self._send(SaveView(name, browser), browser)
