@@ -58,7 +58,7 @@ def loads(browser: playwright.Browser) -> None:
     """Print how long pages take."""
     servers = {count: open_server(port=0) for count in (FEW, MANY)}
     for count, server in servers.items():
-        Panels(server, lambda command: None).update(state_of(count))
+        Panels(server, lambda command, sender: None).update(state_of(count))
     times: dict[int, list[float]] = {FEW: [], MANY: []}
     for _ in range(ROUNDS):
         for count, server in servers.items():
@@ -76,7 +76,7 @@ def updates() -> None:
     """Print what an update that changes nothing costs, in processor time."""
     server = open_server(port=0)
     for count in (FEW, MANY):
-        panel, state = Panels(server, lambda command: None), state_of(count)
+        panel, state = Panels(server, lambda command, sender: None), state_of(count)
         update = updater(panel, state)
         seconds = timeit.repeat(update, timer=time.thread_time, number=200, repeat=ROUNDS)
         print(f"update, {count:>3} displays: {min(seconds) / 200 * 1e6:.0f} us")

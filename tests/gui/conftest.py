@@ -60,7 +60,7 @@ class Loop:
         self.commands: list[Command] = []
         self.state = State()
         self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
-        self.panel = Panels(server, self._queue.put)
+        self.panel = Panels(server, lambda command, sender: self._queue.put(command))
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""

@@ -300,4 +300,4 @@ def test_reset_is_one_click(loop: Any, tab: Any) -> None:
 
 def test_a_panel_without_displays_can_be_shown(server: viser.ViserServer) -> None:
     commands: list[Any] = []
-    assert isinstance(Panels(server, commands.append), Panels)
+    assert isinstance(Panels(server, lambda command, sender: commands.append(command)), Panels)

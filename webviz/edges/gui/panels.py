@@ -15,7 +15,7 @@ from webviz.edges.gui.file_names import NAME, title_of
 from webviz.edges.gui.style import failure_html, panel_style
 from webviz.edges.gui.text import escape, plain
 from webviz.edges.gui.ui import TabUi
-from webviz.engine.commands import Command
+from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import File, State
 
@@ -29,10 +29,12 @@ class Panels:
 
     Args:
         server: where the panels appear.
-        enqueue: takes commands; called from viser's threads, must not block.
+        enqueue: takes commands and who sends them; called from viser's threads, must not block.
     """
 
-    def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
+    def __init__(
+        self, server: viser.ViserServer, enqueue: Callable[[Command, Sender], object]
+    ) -> None:
         self._server = server
         self._gui = gui = server.gui
         self._enqueue = enqueue
@@ -78,7 +80,7 @@ class Panels:
             self._tabs[name] = _Tab(self._server, self._group, name, types[name], self._send)
 
     def _send(self, command: Any, browser: int | None = None) -> None:
-        self._enqueue(command)
+        self._enqueue(command, Sender(browser))
 
 
 class _Tab:

@@ -20,7 +20,7 @@ import PIL.Image
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
 from webviz.engine import plugins as plugin_files
-from webviz.engine.commands import Command, Refresh, StartWithView
+from webviz.engine.commands import Command, Refresh, Sender, StartWithView
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
@@ -230,8 +230,8 @@ class Running:
         self.do(Refresh())
         return self.state
 
-    def _enqueue(self, command: Command) -> None:
-        self._loop.enqueue(command)  # what comes of it stands in the state
+    def _enqueue(self, command: Command, sender: Sender) -> None:
+        self._loop.enqueue(command, sender)  # what comes of it stands in the state
 
     def _run(self) -> None:
         try:
