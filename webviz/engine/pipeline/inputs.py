@@ -80,8 +80,8 @@ class Inputs:
             elif matched := synchronizer.add(name, arrival.stamp_ns, arrival):
                 found.append(matched)
                 self._waiting_since = None
-            elif self._waiting_since is None:
-                self._waiting_since = clock
+        if self._waiting_since is None and synchronizer.is_waiting:
+            self._waiting_since = clock
         return found
 
     def statuses(

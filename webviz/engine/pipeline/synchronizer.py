@@ -51,6 +51,11 @@ class Synchronizer(Generic[P]):
         self._queues: dict[str, dict[int, P]] = {name: {} for name in self.inputs}
         self._last: dict[str, int] = {}
 
+    @property
+    def is_waiting(self) -> bool:
+        """Whether any message waits for its partners."""
+        return any(self._queues.values())
+
     def add(self, name: str, stamp_ns: int, payload: P) -> dict[str, P] | None:
         """Let a message in; the set that it completes, by input in their order."""
         queue = self._queues[name]

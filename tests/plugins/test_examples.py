@@ -1,0 +1,71 @@
+"""The examples in the documentation do what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.api import registry
+from webviz.api.display import Display
+from webviz.engine.plugins import load
+from webviz.shell.testing.messages import header
+
+EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
+T = 100_000_000_000
+
+
+@pytest.fixture
+def camera_view() -> Iterator[type[Display]]:
+    path = EXAMPLES / "camera_view.py"
+    yield load(path)["CameraView"]
+    registry.register(str(path), {})
+
+
+def publish(bench: Any, stamp_ns: int, focal_length: float, *names: str) -> None:
+    """An image of 640 x 480 pixels, its calibration, or both."""
+    at = {"header": header("camera", stamp_ns), "width": 640, "height": 480}
+    if "image" in names:
+        bench.publish("/camera/image_raw", "sensor_msgs/msg/Image", at)
+    if "info" in names:
+        k = [focal_length, 0.0, 320.0, 0.0, focal_length, 240.0, 0.0, 0.0, 1.0]
+        bench.publish("/camera/camera_info", "sensor_msgs/msg/CameraInfo", {**at, "k": k})
+
+
+def test_camera_view_draws_an_image_with_the_calibration_of_its_stamp(
+    bench: Callable[..., Any], camera_view: type[Display]
+) -> None:
+    b = bench(camera_view(name="Camera"))
+    b.transform("map", "camera", T, static=True)
+    publish(b, T, 320.0, "image", "info")
+    publish(b, T + 1, 640.0, "image")
+    b.turn()
+    corners = {key: node.segments[:, 1] for key, _, node in b.scene.visible()}["rays"]
+    sides = [(-1, -0.75), (1, -0.75), (1, 0.75), (-1, 0.75)]
+    np.testing.assert_allclose(corners, [(*side, 1) for side in sides])
+    b.clock += 1.1
+    level, text = b.statuses()["Sync"]
+    assert level == "WARN"
+    assert text.startswith(
+        "Waiting for a CameraInfo on /camera/camera_info with the stamp of the Image on "
+        "/camera/image_raw, 100.000 s."
+    )
+
+
+def test_camera_view_says_that_a_camera_is_not_calibrated(
+    bench: Callable[..., Any], camera_view: type[Display]
+) -> None:
+    b = bench(camera_view(name="Camera"))
+    b.transform("map", "camera", T, static=True)
+    publish(b, T, 0.0, "image", "info")
+    b.turn()
+    text = "The CameraInfo has no focal length. Calibrate the camera."
+    assert b.statuses()["Camera"] == ("ERROR", text)
+
+
+def test_every_example_is_listed() -> None:
+    listed = (EXAMPLES / "README.md").read_text()
+    assert all(f"[{path.name}]({path.name})" in listed for path in EXAMPLES.glob("*.py"))
