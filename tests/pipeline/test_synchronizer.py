@@ -19,13 +19,10 @@ class EveryCombination:
     def __init__(self, inputs: str, slop_ns: int) -> None:
         self.queues: dict[str, list[tuple[int, int]]] = {name: [] for name in inputs}
         self.slop_ns = slop_ns
-        self.last: dict[str, int] = {}
 
     def add(self, name: str, stamp: int, number: int) -> dict[str, int] | None:
-        if name in self.last and stamp < self.last[name]:
-            return None
         queue = [item for item in self.queues[name] if item[0] != stamp]
-        self.queues[name] = sorted([*queue, (stamp, number)])
+        self.queues[name] = [*queue, (stamp, number)]
         combinations = itertools.product(
             *([(stamp, number)] if each == name else q for each, q in self.queues.items())
         )
@@ -38,7 +35,6 @@ class EveryCombination:
             self.queues[name] = self.queues[name][-QUEUE:]
             return None
         chosen = dict(zip(self.queues, min(fitting)[2], strict=True))
-        self.last = {each: s for each, (s, _) in chosen.items()}
         for each, (s, _) in chosen.items():
             self.queues[each] = [item for item in self.queues[each] if item[0] > s]
         return {each: n for each, (_, n) in chosen.items()}
@@ -81,3 +77,11 @@ def test_a_gap_names_the_input_that_is_waited_for(messages: str, gap: Gap | None
     for message in messages.split():
         synchronizer.add(message[0], int(message[1]), message)
     assert synchronizer.gap() == gap
+
+
+def test_stamps_that_start_over_are_matched_while_later_ones_still_wait() -> None:
+    synchronizer: Synchronizer[str] = Synchronizer("ab", queue_size=QUEUE)
+    for stamp in range(100, 100 + QUEUE):
+        synchronizer.add("a", stamp, "before")
+    assert synchronizer.add("a", 1, "after") is None
+    assert synchronizer.add("b", 1, "after") == {"a": "after", "b": "after"}

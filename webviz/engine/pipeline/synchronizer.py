@@ -31,8 +31,8 @@ class Synchronizer(Generic[P]):
     """Forms sets of one message per input whose stamps differ by at most the slop.
 
     A message that arrives completes the set in which the others are nearest to it; of sets equally
-    near, the earlier one. A set removes its messages and all older ones, so sets never go back in
-    time. Each queue is bounded; the oldest message gives way.
+    near, the earlier one. A set removes its messages and all with earlier stamps. Each queue is
+    bounded; the message that arrived first gives way, so stamps may start over.
 
     Args:
         inputs: names, at least two.
@@ -59,15 +59,12 @@ class Synchronizer(Generic[P]):
     def add(self, name: str, stamp_ns: int, payload: P) -> dict[str, P] | None:
         """Let a message in; the set that it completes, by input in their order."""
         queue = self._queues[name]
-        if stamp_ns < self._last.get(name, stamp_ns):
-            self.dropped += 1
-            return None
-        self.dropped += stamp_ns in queue
+        self.dropped += queue.pop(stamp_ns, None) is not None
         queue[stamp_ns] = payload
         stamps = self._nearest(name, stamp_ns)
         if stamps is None:
             if len(queue) > self._queue_size:
-                del queue[min(queue)]
+                del queue[next(iter(queue))]
                 self.dropped += 1
             return None
         self._last = stamps
