@@ -111,6 +111,7 @@ def test_a_frame_that_does_not_exist_can_be_typed_and_stays(
     loop: Any, tab: Any, make_row: MakeRow, leave: str
 ) -> None:
     loop.show(make_row("a"), frames=("base_link", "odom"))
+    tab.wait_for(lambda: tab.names() == ["a"])
     for label, command in (
         ("Fixed Frame", SetFixedFrame("bass")),
         ("Frame", SetProperty("a", "frame", "bass")),
