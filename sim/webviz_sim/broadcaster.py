@@ -16,7 +16,7 @@ from webviz.edges.ros.types import message_class
 from webviz_sim import cdr, messages
 from webviz_sim.description import demo_description, read_joints
 from webviz_sim.lidar import LidarSettings, scan
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.simulation import Simulation
 
 LOCALISATION_RATE = 10.0  # Hz, of map -> odom: AMCL sends it with every scan
@@ -41,7 +41,7 @@ class Broadcaster:
         self._simulation = simulation
         self._values = values
         self._random = np.random.default_rng([values["seed"], 1])
-        self._scanner_poses: deque[Pose] = deque(maxlen=math.ceil(10.0 * values["rate"]) + 1)
+        self._scanner_poses: deque[Pose2D] = deque(maxlen=math.ceil(10.0 * values["rate"]) + 1)
         self._scan_due, self._joints_due = _Schedule(), _Schedule()
         self._localisation_due, self._path_due = _Schedule(), _Schedule()
 
@@ -51,7 +51,7 @@ class Broadcaster:
         by_name = {joint.name: joint for joint in joints}
         self._wheels = [by_name[name] for name in messages.WHEEL_JOINTS]
         [self._scanner] = [
-            Pose(*transform.translation[:2])
+            Pose2D(*transform.translation[:2])
             for transform in self._fixed
             if transform.child == messages.SCANNER
         ]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz_sim.pose import Pose, wrap
+from webviz_sim.pose import Pose2D, wrap
 
 LOOKAHEAD = 0.35  # m
 TOLERANCE = 0.12  # m from the end of the path at which it counts as reached
@@ -40,7 +40,7 @@ class Follower:
         return self._path[self._passed :] if not self.done else self._path[:0]
 
     def step(
-        self, pose: Pose, velocity: tuple[float, float], speed: float, seconds: float
+        self, pose: Pose2D, velocity: tuple[float, float], speed: float, seconds: float
     ) -> tuple[float, float]:
         """The linear and angular velocity for the next step, in m/s and rad/s.
 
@@ -56,7 +56,7 @@ class Follower:
             _approach(velocity[1], angular, ANGULAR_ACCELERATION * seconds),
         )
 
-    def _wanted(self, pose: Pose, speed: float) -> tuple[float, float]:
+    def _wanted(self, pose: Pose2D, speed: float) -> tuple[float, float]:
         here = pose.x, pose.y
         # Look a little way ahead only, lest a path that comes back past itself is cut short.
         window = self._path[self._passed : self._passed + 30]
@@ -81,7 +81,7 @@ class Follower:
             linear = min(linear, math.sqrt(2.0 * 0.5 * ACCELERATION * to_end))
         return linear, curvature * linear
 
-    def _final_turn(self, pose: Pose) -> float:
+    def _final_turn(self, pose: Pose2D) -> float:
         error = 0.0 if self._yaw is None else wrap(self._yaw - pose.yaw)
         self.done = abs(error) < 0.05
         return 0.0 if self.done else min(max(2.5 * error, -TURN_RATE), TURN_RATE)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays
 from webviz_sim.world import World
 
@@ -36,8 +36,8 @@ class Scan(NamedTuple):
 
 def scan(
     world: World,
-    first: Pose,
-    last: Pose,
+    first: Pose2D,
+    last: Pose2D,
     settings: LidarSettings,
     random: np.random.Generator,
 ) -> Scan:

@@ -12,7 +12,7 @@ from sensor_msgs.msg import JointState, LaserScan
 from webviz.data.rotations import from_rpy, to_rpy, w_last
 from webviz_sim.description import Transform
 from webviz_sim.lidar import LidarSettings, Scan
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.robot import Robot
 from webviz_sim.world import World
 
@@ -29,12 +29,12 @@ def stamp(nanoseconds: int) -> Time:
     return Time(sec=seconds, nanosec=rest)
 
 
-def planar(parent: str, child: str, pose: Pose) -> Transform:
+def planar(parent: str, child: str, pose: Pose2D) -> Transform:
     """A pose in the plane as a transform."""
     return Transform(parent, child, (pose.x, pose.y, 0.0), w_last(from_rpy(0.0, 0.0, pose.yaw)))
 
 
-def to_pose(position: Point, orientation: Quaternion) -> Pose | None:
+def to_pose(position: Point, orientation: Quaternion) -> Pose2D | None:
     """What a pose message says about the plane; None if it is not finite or no rotation."""
     x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
     norm = math.hypot(x, y, z, w)
@@ -43,7 +43,7 @@ def to_pose(position: Point, orientation: Quaternion) -> Pose | None:
     if not math.isfinite(norm):
         return None
     _, _, yaw = to_rpy((w / norm, x / norm, y / norm, z / norm))
-    return Pose(position.x, position.y, yaw)
+    return Pose2D(position.x, position.y, yaw)
 
 
 def occupancy_grid(world: World, nanoseconds: int) -> OccupancyGrid:

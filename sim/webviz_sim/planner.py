@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS
 from webviz_sim.world import World
 
@@ -43,7 +43,7 @@ class Planner:
         near = (COMFORT - self._clearance) / (COMFORT - RADIUS - MARGIN)
         self._cost = 1.0 + 3.0 * np.clip(near, 0.0, 1.0)
 
-    def plan(self, start: Pose, goal: Pose) -> NDArray[np.float64] | None:
+    def plan(self, start: Pose2D, goal: Pose2D) -> NDArray[np.float64] | None:
         """Plans a path which keeps the robot clear of walls and of unknown space.
 
         Args:
@@ -70,7 +70,7 @@ class Planner:
                 points[end] = pose.x, pose.y
         return self._smooth(_resample(points))
 
-    def spread(self, start: Pose, count: int) -> list[Pose]:
+    def spread(self, start: Pose2D, count: int) -> list[Pose2D]:
         """Chooses places to visit: reachable, with room around, and far from one another.
 
         Each place is the one farthest from all chosen before (farthest-point sampling).
@@ -87,11 +87,11 @@ class Planner:
         chosen = []
         while len(chosen) < count and nearest.max() > 2.0 * RADIUS:
             place = places[nearest.argmax()]
-            chosen.append(Pose(float(place[0]), float(place[1])))
+            chosen.append(Pose2D(float(place[0]), float(place[1])))
             nearest = np.minimum(nearest, np.hypot(*(places - place).T))
         return chosen
 
-    def roomy_pose(self) -> Pose | None:
+    def roomy_pose(self) -> Pose2D | None:
         """A place with room around it near the middle of the free space; None without any."""
         cells = np.argwhere(self._open)
         if not len(cells):
@@ -99,7 +99,7 @@ class Planner:
         places = self._roomy(cells)
         middle = self._to_map(cells.astype(float)).mean(axis=0)
         x, y = places[np.hypot(*(places - middle).T).argmin()]
-        return Pose(float(x), float(y))
+        return Pose2D(float(x), float(y))
 
     def _roomy(self, cells: NDArray[np.intp]) -> NDArray[np.float64]:
         """Those of the cells with at least the usual room around them, in the map frame."""
@@ -150,7 +150,7 @@ class Planner:
             if 0 <= row < height and 0 <= column < width and self._open[row, column]:
                 yield (row, column), length * self._cost[row, column]
 
-    def _nearest_open(self, pose: Pose) -> Cell | None:
+    def _nearest_open(self, pose: Pose2D) -> Cell | None:
         x, y, _ = self._world.to_grid(pose)
         cells = np.argwhere(self._open)
         if not len(cells):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.world import World
 
 # Of the bundled robot (webviz_urdf/demo/robot.urdf), in metres.
@@ -17,7 +17,7 @@ MAX_LINEAR = 0.6  # m/s
 MAX_ANGULAR = 2.0  # rad/s
 
 
-def drive(pose: Pose, linear: float, angular: float, seconds: float) -> Pose:
+def drive(pose: Pose2D, linear: float, angular: float, seconds: float) -> Pose2D:
     """Moves a pose with constant velocities for a while: exactly, along a circular arc.
 
     Args:
@@ -29,7 +29,7 @@ def drive(pose: Pose, linear: float, angular: float, seconds: float) -> Pose:
     half = 0.5 * angular * seconds
     # The chord of the arc; np.sinc(x) is sin(pi x) / (pi x) and well behaved at 0.
     chord = linear * seconds * float(np.sinc(half / math.pi))
-    return pose @ Pose(chord * math.cos(half), chord * math.sin(half), 2.0 * half)
+    return pose @ Pose2D(chord * math.cos(half), chord * math.sin(half), 2.0 * half)
 
 
 @dataclass
@@ -37,12 +37,12 @@ class Robot:
     """A kinematic differential-drive robot in a world."""
 
     world: World
-    pose: Pose
+    pose: Pose2D
     """base_link in the map frame: the truth."""
     random: np.random.Generator
     drift: float = 0.0
     """Standard deviation of the odometry's error, as a fraction of the motion of one step."""
-    odometry: Pose = field(default_factory=Pose)
+    odometry: Pose2D = field(default_factory=Pose2D)
     """base_link in the odom frame, as the wheels tell it."""
     linear: float = 0.0
     angular: float = 0.0

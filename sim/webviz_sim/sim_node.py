@@ -12,8 +12,8 @@ from std_srvs.srv import Empty
 
 from webviz_sim import messages, options
 from webviz_sim.broadcaster import Broadcaster
-from webviz_sim.pose import Pose
-from webviz_sim.simulation import Settings, Simulation
+from webviz_sim.pose import Pose2D
+from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import load_world
 
 
@@ -32,7 +32,7 @@ class SimNode(Node):
         """
         super().__init__("sim")
         self._values: dict[str, Any] = {}
-        self._settings = Settings()
+        self._settings = SimulationSettings()
         self.add_on_set_parameters_callback(self._check)
         self.add_post_set_parameters_callback(self._apply)
         for name, option in options.OPTIONS.items():
@@ -43,7 +43,7 @@ class SimNode(Node):
 
         values = self._values
         world = load_world(values["world"] or options.BUILDING)
-        start_pose = Pose(*values["start_pose"]) if values["start_pose"] else None
+        start_pose = Pose2D(*values["start_pose"]) if values["start_pose"] else None
         self._simulation = Simulation(world, self._settings, start_pose, values["seed"])
         latched_at = 0 if values["publish_clock"] else start
         self._broadcaster = Broadcaster(self, self._simulation, values, latched_at)
@@ -118,7 +118,7 @@ class SimNode(Node):
         self.get_logger().warning(sentence)
 
 
-def to_map_pose(header: Header, pose) -> Pose | str:
+def to_map_pose(header: Header, pose) -> Pose2D | str:
     """The pose in the map, or what is wrong with it."""
     if header.frame_id.removeprefix("/") != "map":
         return f"in the frame {header.frame_id!r}: send it in map"

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from webviz_sim.follower import Follower
 from webviz_sim.planner import Planner
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS, Robot
 from webviz_sim.world import World, WorldError
 
@@ -20,7 +20,7 @@ PROGRESS = 0.05  # m
 
 
 @dataclass
-class Settings:
+class SimulationSettings:
     """What may change while the simulation runs."""
 
     tour: bool = True
@@ -41,7 +41,9 @@ class Simulation:
     same order give the same states, whatever the speed of the machine.
     """
 
-    def __init__(self, world: World, settings: Settings, start: Pose | None = None, seed: int = 0):
+    def __init__(
+        self, world: World, settings: SimulationSettings, start: Pose2D | None = None, seed: int = 0
+    ):
         """Puts the robot into the world.
 
         Args:
@@ -84,7 +86,7 @@ class Simulation:
         self._commanded_at = self.time
         self._follower = None
 
-    def go_to(self, goal: Pose) -> bool:
+    def go_to(self, goal: Pose2D) -> bool:
         """Plans a path to a goal in the map frame and follows it; False if there is none."""
         path = self.planner.plan(self.robot.pose, goal)
         if path is None:
@@ -93,14 +95,14 @@ class Simulation:
         self._commanded_at = -math.inf
         return True
 
-    def put(self, pose: Pose) -> None:
+    def put(self, pose: Pose2D) -> None:
         """Puts the robot somewhere else in the map; the odometry does not notice."""
         self.robot.pose = pose
         self._follower = None
 
     def reset_odometry(self) -> None:
         """Makes the place where the robot stands the origin of the odom frame."""
-        self.robot.odometry = Pose()
+        self.robot.odometry = Pose2D()
 
     def step(self, seconds: float) -> None:
         """Lets time pass."""

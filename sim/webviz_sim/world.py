@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from ruamel.yaml import YAML, YAMLError
 
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
 
@@ -31,7 +31,7 @@ class World:
     """Shape (height, width): 0 free to 100 occupied, -1 unknown; row 0 is at the origin."""
     resolution: float
     """Edge of a cell in metres."""
-    origin: Pose
+    origin: Pose2D
     """The outer corner of cell (0, 0) in the map frame; rows run along its y axis."""
 
     @cached_property
@@ -49,10 +49,10 @@ class World:
         cos, sin = math.cos(self.origin.yaw), math.sin(self.origin.yaw)
         return np.array([[cos, -sin], [sin, cos]])
 
-    def to_grid(self, pose: Pose) -> Pose:
+    def to_grid(self, pose: Pose2D) -> Pose2D:
         """A pose of the map frame in the grid's own frame, with x and y in cells."""
         local = self.origin.inverse() @ pose
-        return Pose(local.x / self.resolution, local.y / self.resolution, local.yaw)
+        return Pose2D(local.x / self.resolution, local.y / self.resolution, local.yaw)
 
     def to_cells(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """The reverse of `to_map`."""
@@ -69,7 +69,7 @@ class World:
         """
         return cells * self.resolution @ self._rotation.T + (self.origin.x, self.origin.y)
 
-    def clearance(self, pose: Pose, reach: float) -> float:
+    def clearance(self, pose: Pose2D, reach: float) -> float:
         """Distance from a point to the nearest wall, exactly; at most `reach`.
 
         Beyond the edge of the grid there is wall.
@@ -140,7 +140,7 @@ def _read(entries: dict[str, Any], folder: Path) -> World:
         free_thresh=_number(entries, "free_thresh"),
     )
     # Image rows run down, grid rows up.
-    return World(np.ascontiguousarray(cells[::-1]), resolution, Pose(*map(float, origin)))
+    return World(np.ascontiguousarray(cells[::-1]), resolution, Pose2D(*map(float, origin)))
 
 
 def occupancy(

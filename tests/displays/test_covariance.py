@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from webviz_displays.odometry import covariance
-from webviz_displays.shared.shapes import WEDGE, Shape, copies
+from webviz_displays.shared.shapes import WEDGE, TriangleMesh, copies
 
 EYE = np.eye(3)[None]
 HERE = np.zeros((1, 3))
@@ -15,8 +15,8 @@ QUARTER = np.array([[[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]])
 
 NO_FACES = np.zeros((0, 3), np.uint32)
 AROUND = np.linspace(0.0, 2 * np.pi, 25)
-DISC = Shape(np.array([(np.cos(a), np.sin(a), 0.0) for a in AROUND]), NO_FACES)
-SPHERE = Shape(np.concatenate((np.eye(3), -np.eye(3))), NO_FACES)
+DISC = TriangleMesh(np.array([(np.cos(a), np.sin(a), 0.0) for a in AROUND]), NO_FACES)
+SPHERE = TriangleMesh(np.concatenate((np.eye(3), -np.eye(3))), NO_FACES)
 
 
 def given(*entries: tuple[int, int, float]) -> covariance.Covariances:
@@ -28,7 +28,7 @@ def given(*entries: tuple[int, int, float]) -> covariance.Covariances:
     return result
 
 
-def corners(shape: Shape, placed: covariance.Placed) -> NDArray[np.float64]:
+def corners(shape: TriangleMesh, placed: covariance.Placed) -> NDArray[np.float64]:
     return copies(shape, *placed)[0].astype(np.float64)
 
 

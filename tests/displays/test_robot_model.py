@@ -12,7 +12,7 @@ import webviz
 import webviz_urdf
 from webviz.engine.pipeline.background import Workers
 from webviz_displays.robot_model import RobotModel
-from webviz_urdf import Loading, LoadingStopped, Request
+from webviz_urdf import Loading, LoadingStopped, LoadRequest
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 PACKAGES = [str(Path(webviz_urdf.__file__).parent.parent)]
@@ -116,7 +116,7 @@ def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
 
 def test_no_loading_outlives_the_viewer(slow_arm) -> None:
     workers = Workers(lambda: None)
-    loading = Loading(Request(text=slow_arm))
+    loading = Loading(LoadRequest(text=slow_arm))
     future = workers.submit(loading.run, stop=loading.stop)
     while loading.at[2] != "tool":
         time.sleep(0.005)

@@ -11,15 +11,15 @@ from webviz.shell.testing import Stage, turned
 from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.laser_scan import LaserScan
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 
 Stages = Callable[..., Stage]
 
-LASER = Pose(-2.0, 0.0, 0.3)
+LASER = Pose2D(-2.0, 0.0, 0.3)
 VIEW = Orbit(distance=13.5, yaw=-1.5708, pitch=1.2, focal_point=(0.0, -0.2, 0.0))
 
 
-def send(seen: Stage, laser: Pose = LASER) -> None:
+def send(seen: Stage, laser: Pose2D = LASER) -> None:
     """A scan of the building, by a laser 0.3 m above the floor."""
     seen.transform("map", "laser", (laser.x, laser.y, 0.3), turned(yaw=laser.yaw))
     seen.publish("/scan", "sensor_msgs/msg/LaserScan", building.scan(laser), frame="laser")
@@ -74,7 +74,7 @@ def test_scans_stay_for_the_decay_time(webviz_stage: Stages) -> None:
     seen = webviz_stage(
         LaserScan(size=0.08, decay_time=2.0, color_transformer="FlatColor"), view=VIEW
     )
-    for laser in (Pose(-4.0, 2.5), Pose(0.0, 0.0), Pose(4.0, -2.0)):
+    for laser in (Pose2D(-4.0, 2.5), Pose2D(0.0, 0.0), Pose2D(4.0, -2.0)):
         seen.transform("map", "laser", (laser.x, laser.y, 0.3), stamp_ns=seen.source.now)
         seen.publish("/scan", "sensor_msgs/msg/LaserScan", building.scan(laser), frame="laser")
         seen.turn()

@@ -24,7 +24,7 @@ from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.tf import TF
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 
 REFERENCES = Path(__file__).parent
 FOLDERS = sorted(path for path in REFERENCES.iterdir() if path.is_dir())
@@ -73,7 +73,7 @@ def test_a_shade_does_not_count_but_a_shift_does() -> None:
 
 def everything(seen: Stage) -> None:
     """Something to see for every display."""
-    place = Pose(-2.0, 0.0, 0.5)
+    place = Pose2D(-2.0, 0.0, 0.5)
     seen.transform("map", "base_link", (place.x, place.y, 0.0), turned(yaw=place.yaw))
     place_links(seen, DEMO, below="base_link")
     seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})

@@ -18,12 +18,12 @@ from webviz_displays.path import Path
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.tf import TF
 from webviz_sim.planner import Planner
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 
 Stages = Callable[..., Stage]
 
 VIEW = Orbit(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
-START = Pose(-2.0, 0.0)
+START = Pose2D(-2.0, 0.0)
 """Where the robot was switched on: in the corridor."""
 
 
@@ -34,7 +34,7 @@ def displays() -> tuple[Map, RobotModel, LaserScan, TF]:
     return Map(), RobotModel(), scan, frames
 
 
-def robot(seen: Stage, odom: Pose = START, laser_yaw: float = 0.0) -> None:
+def robot(seen: Stage, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
     """The demo robot with its map, its laser and its description.
 
     Args:
@@ -60,7 +60,7 @@ def look_around(seen: Stage) -> None:
 
 def test_a_robot_misplaced_by_a_static_transform(webviz_stage: Stages) -> None:
     seen = webviz_stage(*displays(), view=VIEW)
-    robot(seen, odom=Pose(START.y, START.x))  # x and y are exchanged
+    robot(seen, odom=Pose2D(START.y, START.x))  # x and y are exchanged
     seen.check_picture("stories/misplaced")
     assert seen.statuses("TF")["odom"] == Status(
         Level.OK,
@@ -88,7 +88,7 @@ def test_a_path_that_leads_through_an_obstacle(webviz_stage: Stages) -> None:
     map_, model, scan, _ = displays()
     path = Path(line_style="Billboards", line_width=0.06)
     seen = webviz_stage(map_, model, scan, path, view=VIEW)
-    goal = Pose(4.5, 0.0)
+    goal = Pose2D(4.5, 0.0)
     plan = Planner(building.WORLD).plan(START, goal)
     robot(seen)
     seen.publish("/path", "nav_msgs/msg/Path", building.path(plan), frame="map")

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.world import World
 
 
@@ -9,7 +9,7 @@ from webviz_sim.world import World
 def draw():
     """Makes a world of cells from lines of text, first line topmost: # wall, . free, ? unknown."""
 
-    def make(text: str, resolution: float = 1.0, origin: Pose = Pose()) -> World:  # noqa: B008
+    def make(text: str, resolution: float = 1.0, origin: Pose2D = Pose2D()) -> World:  # noqa: B008
         lines = text.split()
         meaning = {"#": 100, ".": 0, "?": -1}
         cells = np.array([[meaning[c] for c in line] for line in lines[::-1]], dtype=np.int8)

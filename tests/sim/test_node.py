@@ -26,7 +26,7 @@ from std_srvs.srv import Empty
 
 from webviz.edges.ros.types import message_class
 from webviz_sim.options import BUILDING
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays
 from webviz_sim.world import load_world
 
@@ -157,7 +157,7 @@ def nanoseconds(stamp):
 
 def planar(pose):
     yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
-    return Pose(pose.position.x, pose.position.y, yaw)
+    return Pose2D(pose.position.x, pose.position.y, yaw)
 
 
 def period(messages):
@@ -232,7 +232,7 @@ def test_a_scan_placed_by_tf_at_its_stamp_lies_on_the_walls_of_the_map(sim, robo
 
     def as_pose(transform):
         rotation, shift = transform.rotation, transform.translation
-        return Pose(shift.x, shift.y, 2.0 * math.atan2(rotation.z, rotation.w))
+        return Pose2D(shift.x, shift.y, 2.0 * math.atan2(rotation.z, rotation.w))
 
     scanner = as_pose(map_from_odom) @ as_pose(odom_from_base) @ as_pose(base_from_scan)
     world = load_world(BUILDING)
@@ -249,7 +249,7 @@ def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
     sim("tour:=false", "start_pose:=[0.0, 0.0, 0.0]")
     odometry = robot.listen("/odom", Odometry, 1000)
     robot.spin_until(lambda: odometry)
-    assert robot.pose() == pytest.approx(Pose())
+    assert robot.pose() == pytest.approx(Pose2D())
     robot.drive(Twist, twist(0.3, 0.0), 2.0)
     moved = robot.pose()
     driving = [message for message in odometry if message.twist.twist.linear.x == 0.3]
@@ -287,7 +287,7 @@ def test_resetting_the_odometry_moves_odom_and_not_the_robot(sim, robot):
     done = client.call_async(Empty.Request())
     robot.spin_until(done.done)
     robot.spin(0.5)
-    assert robot.pose() == pytest.approx(Pose())
+    assert robot.pose() == pytest.approx(Pose2D())
     correction = [t for _, _, child, t in robot.transforms() if child == "odom"][-1]
     assert correction.translation.x == pytest.approx(1.0 + before.x)
 
@@ -308,7 +308,7 @@ def test_an_initial_pose_puts_the_robot_there_in_the_map(sim, robot):
         return found and found[-1].translation.x == pytest.approx(-4.5)
 
     robot.spin_until(corrected)
-    assert robot.pose() == pytest.approx(Pose())
+    assert robot.pose() == pytest.approx(Pose2D())
 
 
 def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(sim, robot):

@@ -10,7 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from webviz_sim.options import BUILDING
 from webviz_sim.planner import SPACING, Planner, obstacle_distance
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS
 from webviz_sim.world import load_world
 
@@ -44,17 +44,17 @@ PLACES = [(-5.0, 1.5), (1.2, 2.5), (4.1, 2.2), (-4.3, -2.7), (1.6, -3.3), (5.3, 
 @pytest.mark.parametrize("start", PLACES)
 @pytest.mark.parametrize("goal", PLACES)
 def test_paths_between_rooms_never_come_near_a_wall(building, planner, start, goal):
-    path = planner.plan(Pose(*start), Pose(*goal))
+    path = planner.plan(Pose2D(*start), Pose2D(*goal))
     assert path is not None
     assert path[0] == pytest.approx(start)
     assert path[-1] == pytest.approx(goal)
     assert np.hypot(*np.diff(path, axis=0).T).max() < 1.5 * SPACING
     for x, y in path:
-        assert building.clearance(Pose(x, y), 1.0) > RADIUS
+        assert building.clearance(Pose2D(x, y), 1.0) > RADIUS
 
 
 def test_a_path_turns_gently(planner):
-    path = planner.plan(Pose(-5.0, 1.5), Pose(1.2, 2.5))
+    path = planner.plan(Pose2D(-5.0, 1.5), Pose2D(1.2, 2.5))
     headings = np.unwrap(np.arctan2(*np.diff(path, axis=0).T[::-1]))
     assert np.abs(np.diff(headings)).max() < math.radians(20)
 
@@ -62,7 +62,7 @@ def test_a_path_turns_gently(planner):
 def test_a_path_is_not_much_longer_than_it_must_be(draw):
     rows = ["#" * 60, *["#" + "." * 58 + "#"] * 40, "#" * 60]
     planner = Planner(draw("\n".join(rows), resolution=0.1))
-    path = planner.plan(Pose(1.0, 1.0), Pose(5.0, 3.0))
+    path = planner.plan(Pose2D(1.0, 1.0), Pose2D(5.0, 3.0))
     assert path is not None
     assert np.hypot(*np.diff(path, axis=0).T).sum() < 1.1 * math.hypot(4.0, 2.0)
 
@@ -71,37 +71,37 @@ def test_there_is_no_path_through_a_wall_or_through_what_is_unknown(draw):
     for wall in "#?":
         rows = ["." * 20 + wall * 2 + "." * 20] * 20
         planner = Planner(draw("\n".join(rows), resolution=0.1))
-        assert planner.plan(Pose(1.0, 1.0), Pose(3.2, 1.0)) is None
+        assert planner.plan(Pose2D(1.0, 1.0), Pose2D(3.2, 1.0)) is None
 
 
 def test_there_is_no_path_through_a_gap_narrower_than_the_robot(draw):
     open_row, closed_row = "." * 42, "." * 20 + "#" * 2 + "." * 20
     narrow = Planner(draw("\n".join([closed_row] * 10 + [open_row] * 4 + [closed_row] * 10), 0.1))
     wide = Planner(draw("\n".join([closed_row] * 10 + [open_row] * 8 + [closed_row] * 10), 0.1))
-    assert narrow.plan(Pose(1.0, 1.2), Pose(3.2, 1.2)) is None
-    assert wide.plan(Pose(1.0, 1.4), Pose(3.2, 1.4)) is not None
+    assert narrow.plan(Pose2D(1.0, 1.2), Pose2D(3.2, 1.2)) is None
+    assert wide.plan(Pose2D(1.0, 1.4), Pose2D(3.2, 1.4)) is not None
 
 
 def test_a_path_from_a_wall_begins_where_the_robot_has_room(building, planner):
-    path = planner.plan(Pose(-5.95, 0.5), Pose(0.0, 0.0))
-    assert building.clearance(Pose(*path[0]), 1.0) > RADIUS
+    path = planner.plan(Pose2D(-5.95, 0.5), Pose2D(0.0, 0.0))
+    assert building.clearance(Pose2D(*path[0]), 1.0) > RADIUS
     assert math.dist(path[0], (-5.95, 0.5)) < 0.7
 
 
 def test_a_path_to_where_the_robot_stands_has_two_points(planner):
-    path = planner.plan(Pose(0.0, 0.0), Pose(0.0, 0.0))
+    path = planner.plan(Pose2D(0.0, 0.0), Pose2D(0.0, 0.0))
     assert path == pytest.approx(np.zeros((2, 2)))
 
 
 def test_a_world_without_room_has_no_paths(draw):
     planner = Planner(draw("####\n####"))
-    assert planner.plan(Pose(1.0, 1.0), Pose(2.0, 1.0)) is None
-    assert planner.spread(Pose(1.0, 1.0), 5) == []
+    assert planner.plan(Pose2D(1.0, 1.0), Pose2D(2.0, 1.0)) is None
+    assert planner.spread(Pose2D(1.0, 1.0), 5) == []
     assert planner.roomy_pose() is None
 
 
 def test_places_to_visit_are_apart_and_in_every_room(building, planner):
-    places = planner.spread(Pose(), 12)
+    places = planner.spread(Pose2D(), 12)
     assert len(places) == 12
     gaps = [math.dist(a[:2], b[:2]) for a in places for b in places if a is not b]
     assert min(gaps) > 1.5
@@ -113,12 +113,12 @@ def test_places_to_visit_are_apart_and_in_every_room(building, planner):
 @given(st.floats(-math.pi, math.pi))
 def test_a_turned_map_gives_turned_paths(yaw):
     world = load_world(BUILDING)
-    turn = Pose(3.0, -1.0, yaw)
+    turn = Pose2D(3.0, -1.0, yaw)
     turned = Planner(replace(world, origin=turn @ world.origin))
-    path = turned.plan(turn @ Pose(-5.0, 1.5), turn @ Pose(1.2, 2.5))
-    expected = Planner(world).plan(Pose(-5.0, 1.5), Pose(1.2, 2.5))
+    path = turned.plan(turn @ Pose2D(-5.0, 1.5), turn @ Pose2D(1.2, 2.5))
+    expected = Planner(world).plan(Pose2D(-5.0, 1.5), Pose2D(1.2, 2.5))
     assert path is not None
-    back = np.array([(turn.inverse() @ Pose(x, y))[:2] for x, y in path])
+    back = np.array([(turn.inverse() @ Pose2D(x, y))[:2] for x, y in path])
     assert np.abs(back - expected).max() < 1e-6
 
 
@@ -137,4 +137,4 @@ def test_paths_are_found_in_maps_in_the_wild(name):
         route = planner.plan(start, place)
         assert route is not None
         for x, y in route:
-            assert world.clearance(Pose(x, y), 1.0) > RADIUS
+            assert world.clearance(Pose2D(x, y), 1.0) > RADIUS

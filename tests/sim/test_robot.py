@@ -8,13 +8,13 @@ from hypothesis import strategies as st
 
 from webviz_sim.description import demo_description
 from webviz_sim.options import BUILDING
-from webviz_sim.pose import Pose, wrap
+from webviz_sim.pose import Pose2D, wrap
 from webviz_sim.robot import RADIUS, WHEEL_RADIUS, WHEEL_SEPARATION, Robot, drive
 from webviz_sim.world import load_world
 
 coordinates = st.floats(-100, 100)
 angles = st.floats(-math.pi, math.pi)
-poses = st.builds(Pose, coordinates, coordinates, angles)
+poses = st.builds(Pose2D, coordinates, coordinates, angles)
 
 
 def robot_at(world, pose, drift=0.0, seed=0):
@@ -34,38 +34,38 @@ def test_a_pose_composed_with_its_inverse_is_the_identity(a, b):
 def test_an_arc_keeps_its_distance_from_the_centre_of_turning(start, linear, angular, seconds):
     end = drive(start, linear, angular, seconds)
     radius = linear / angular
-    centre = start @ Pose(0.0, radius)
+    centre = start @ Pose2D(0.0, radius)
     assert math.dist(end[:2], centre[:2]) == pytest.approx(abs(radius), abs=1e-9)
     assert wrap(end.yaw - start.yaw - angular * seconds) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_arcs_have_their_closed_form():
-    assert drive(Pose(), 0.5, 0.0, 2.0) == pytest.approx((1.0, 0.0, 0.0))
-    quarter = drive(Pose(), math.pi / 2, math.pi / 2, 1.0)
+    assert drive(Pose2D(), 0.5, 0.0, 2.0) == pytest.approx((1.0, 0.0, 0.0))
+    quarter = drive(Pose2D(), math.pi / 2, math.pi / 2, 1.0)
     assert quarter == pytest.approx((1.0, 1.0, math.pi / 2))
-    assert drive(Pose(3.0, 4.0), 1.0, 1.0, math.tau)[:2] == pytest.approx((3.0, 4.0))
+    assert drive(Pose2D(3.0, 4.0), 1.0, 1.0, math.tau)[:2] == pytest.approx((3.0, 4.0))
 
 
 @settings(deadline=None)
 @given(st.floats(-1, 1), st.floats(-3, 3), st.integers(1, 50))
 def test_many_small_steps_make_the_same_arc_as_one(linear, angular, count):
-    pose = Pose()
+    pose = Pose2D()
     for _ in range(count):
         pose = drive(pose, linear, angular, 1.0 / count)
-    assert pose[:2] == pytest.approx(drive(Pose(), linear, angular, 1.0)[:2], abs=1e-9)
+    assert pose[:2] == pytest.approx(drive(Pose2D(), linear, angular, 1.0)[:2], abs=1e-9)
 
 
 def test_odometry_equals_the_motion_in_the_frame_of_the_start(room):
-    start = Pose(1.0, 2.0, 0.7)
+    start = Pose2D(1.0, 2.0, 0.7)
     robot = robot_at(room, start)
     for _ in range(50):
         robot.step(0.3, 0.4, 0.02)
     assert start @ robot.odometry == pytest.approx(robot.pose)
-    assert robot.odometry == pytest.approx(drive(Pose(), 0.3, 0.4, 1.0))
+    assert robot.odometry == pytest.approx(drive(Pose2D(), 0.3, 0.4, 1.0))
 
 
 def test_wheels_roll_as_far_as_the_ground_below_them(room):
-    robot = robot_at(room, Pose(1.0, 2.0))
+    robot = robot_at(room, Pose2D(1.0, 2.0))
     for _ in range(100):
         robot.step(0.2, 0.5, 0.01)
     left, right = (0.2 - 0.5 * WHEEL_SEPARATION / 2), (0.2 + 0.5 * WHEEL_SEPARATION / 2)
@@ -88,7 +88,7 @@ def test_the_dimensions_are_those_of_the_bundled_robot():
 
 @pytest.mark.parametrize("seconds", [0.02, 0.1, 1.0, 10.0])
 def test_a_wall_stops_the_robot_where_it_touches(room, seconds):
-    robot = robot_at(room, Pose(4.0, 2.0))
+    robot = robot_at(room, Pose2D(4.0, 2.0))
     for _ in range(math.ceil(10.0 / seconds)):
         robot.step(0.5, 0.0, seconds)
     # The wall begins at x = 5.1 m.
@@ -98,7 +98,7 @@ def test_a_wall_stops_the_robot_where_it_touches(room, seconds):
 
 
 def test_a_robot_at_a_wall_can_turn_and_drive_away(room):
-    robot = robot_at(room, Pose(4.85, 2.0))
+    robot = robot_at(room, Pose2D(4.85, 2.0))
     robot.step(0.5, 0.0, 1.0)
     robot.step(0.5, 1.0, 1.0)
     assert robot.pose.yaw == pytest.approx(1.0)
@@ -108,7 +108,7 @@ def test_a_robot_at_a_wall_can_turn_and_drive_away(room):
 
 @pytest.mark.parametrize("x", [5.0, 5.15, 50.0])
 def test_a_robot_put_into_a_wall_or_outside_can_leave(room, x):
-    robot = robot_at(room, Pose(x, 2.0))
+    robot = robot_at(room, Pose2D(x, 2.0))
     robot.step(-0.5, 0.0, 0.2)
     assert robot.pose.x == pytest.approx(x - 0.1)
 
@@ -118,14 +118,14 @@ def test_a_robot_put_into_a_wall_or_outside_can_leave(room, x):
 def test_no_command_brings_the_robot_into_a_wall(seed):
     world = load_world(BUILDING)
     random = np.random.default_rng(seed)
-    robot = robot_at(world, Pose(0.0, 0.0))
+    robot = robot_at(world, Pose2D(0.0, 0.0))
     for _ in range(40):
         robot.step(random.uniform(-2, 2), random.uniform(-2, 2), 0.3)
         assert world.clearance(robot.pose, 1.0) >= RADIUS - 1e-9
 
 
 def test_drift_moves_the_odometry_away_from_the_truth_and_nothing_else(room):
-    exact, drifting = robot_at(room, Pose(1.0, 2.0)), robot_at(room, Pose(1.0, 2.0), drift=0.1)
+    exact, drifting = robot_at(room, Pose2D(1.0, 2.0)), robot_at(room, Pose2D(1.0, 2.0), drift=0.1)
     for robot in (exact, drifting):
         for _ in range(100):
             robot.step(0.3, 0.1, 0.02)

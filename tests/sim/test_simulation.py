@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from webviz_sim.options import BUILDING
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.robot import MAX_LINEAR, RADIUS, drive
-from webviz_sim.simulation import RESUME_AFTER, Settings, Simulation
+from webviz_sim.simulation import RESUME_AFTER, Simulation, SimulationSettings
 from webviz_sim.world import WorldError, load_world
 
 STEP = 0.02
@@ -21,8 +21,8 @@ def building():
 def simulate(building):
     """Makes a simulation which starts in the corridor and stands still unless told otherwise."""
 
-    def make(start=Pose(), seed=0, **settings):  # noqa: B008
-        settings = Settings(**{"tour": False, **settings})
+    def make(start=Pose2D(), seed=0, **settings):  # noqa: B008
+        settings = SimulationSettings(**{"tour": False, **settings})
         return Simulation(building, settings, start, seed)
 
     return make
@@ -38,7 +38,7 @@ def test_a_command_moves_the_robot_by_its_velocity_times_its_duration(simulate):
     for _ in range(20):
         simulation.command(0.3, 0.2)
         run(simulation, 0.1)
-    assert simulation.robot.pose == pytest.approx(drive(Pose(), 0.3, 0.2, 2.0))
+    assert simulation.robot.pose == pytest.approx(drive(Pose2D(), 0.3, 0.2, 2.0))
 
 
 def test_a_command_holds_for_its_timeout_only(simulate):
@@ -59,7 +59,7 @@ def test_commands_beyond_what_the_robot_can_do_are_limited(simulate):
 def test_without_a_tour_the_robot_stays_where_it_is(simulate):
     simulation = simulate()
     run(simulation, 10.0)
-    assert simulation.robot.pose == Pose()
+    assert simulation.robot.pose == Pose2D()
     assert len(simulation.path) == 0
 
 
@@ -67,9 +67,9 @@ def test_the_tour_goes_on_a_while_after_the_last_command(simulate):
     simulation = simulate(tour=True)
     simulation.command(0.0, 0.0)
     run(simulation, RESUME_AFTER - 0.1)
-    assert simulation.robot.pose == Pose()
+    assert simulation.robot.pose == Pose2D()
     run(simulation, 5.0)
-    assert simulation.robot.pose != Pose()
+    assert simulation.robot.pose != Pose2D()
     assert len(simulation.path) > 1
 
 
@@ -94,7 +94,7 @@ def test_switching_the_tour_off_stops_the_robot(simulate):
 
 def test_a_goal_is_reached_with_its_heading(simulate):
     simulation = simulate()
-    goal = Pose(1.2, 2.5, -2.0)
+    goal = Pose2D(1.2, 2.5, -2.0)
     assert simulation.go_to(goal)
     run(simulation, 30.0)
     pose = simulation.robot.pose
@@ -105,7 +105,7 @@ def test_a_goal_is_reached_with_its_heading(simulate):
 def test_a_goal_goes_before_the_tour(simulate):
     simulation = simulate(tour=True)
     run(simulation, 3.0)
-    goal = Pose(-1.0, 0.0)
+    goal = Pose2D(-1.0, 0.0)
     assert simulation.go_to(goal)
     assert simulation.path[-1] == pytest.approx(goal[:2])
     distances = []
@@ -117,10 +117,12 @@ def test_a_goal_goes_before_the_tour(simulate):
 
 def test_a_goal_without_a_way_is_refused_and_changes_nothing(draw):
     rows = [("." * 30 + "##" + "." * 30)] * 40
-    simulation = Simulation(draw("\n".join(rows), 0.1), Settings(tour=False), Pose(1.0, 1.0))
-    assert not simulation.go_to(Pose(5.0, 1.0))
+    simulation = Simulation(
+        draw("\n".join(rows), 0.1), SimulationSettings(tour=False), Pose2D(1.0, 1.0)
+    )
+    assert not simulation.go_to(Pose2D(5.0, 1.0))
     run(simulation, 1.0)
-    assert simulation.robot.pose == Pose(1.0, 1.0)
+    assert simulation.robot.pose == Pose2D(1.0, 1.0)
 
 
 def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulate):
@@ -128,8 +130,8 @@ def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulate):
     simulation.command(0.3, 0.0)
     run(simulation, 0.4)
     odometry = simulation.robot.odometry
-    simulation.put(Pose(2.0, 0.0, 1.0))
-    assert simulation.robot.pose == Pose(2.0, 0.0, 1.0)
+    simulation.put(Pose2D(2.0, 0.0, 1.0))
+    assert simulation.robot.pose == Pose2D(2.0, 0.0, 1.0)
     assert simulation.robot.odometry == odometry
 
 
@@ -139,17 +141,17 @@ def test_resetting_the_odometry_does_not_move_the_robot(simulate):
     run(simulation, 0.4)
     pose = simulation.robot.pose
     simulation.reset_odometry()
-    assert simulation.robot.odometry == Pose()
+    assert simulation.robot.odometry == Pose2D()
     assert simulation.robot.pose == pose
 
 
 def test_the_tour_goes_on_from_wherever_the_robot_is_put(simulate):
     simulation = simulate(tour=True)
     run(simulation, 5.0)
-    simulation.put(Pose(-5.95, 3.9))  # into the desk
+    simulation.put(Pose2D(-5.95, 3.9))  # into the desk
     run(simulation, 60.0)
     assert simulation.world.clearance(simulation.robot.pose, 1.0) >= RADIUS
-    simulation.put(Pose(100.0, 100.0))
+    simulation.put(Pose2D(100.0, 100.0))
     run(simulation, 10.0)
 
 
@@ -194,10 +196,10 @@ def test_the_same_seed_gives_the_same_simulation_and_another_does_not(simulate):
 
 
 def test_the_robot_starts_where_there_is_room(building):
-    simulation = Simulation(building, Settings())
+    simulation = Simulation(building, SimulationSettings())
     assert building.clearance(simulation.robot.pose, 1.0) > 0.5
 
 
 def test_a_world_without_room_is_refused_in_one_sentence(draw):
     with pytest.raises(WorldError, match=r"^The world has no free place .* to start\.$"):
-        Simulation(draw("#####\n#...#\n#####", 0.05), Settings())
+        Simulation(draw("#####\n#...#\n#####", 0.05), SimulationSettings())

@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 
 from webviz_sim.options import BUILDING
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.world import WorldError, load_world
 
 MAPS = Path(__file__).parents[2] / "../shared/data/maps"
@@ -98,7 +98,7 @@ def test_resolution_and_origin_with_yaw_place_the_cells(write):
     # The middle of the second cell is 0.75 m along the grid's x, which points along the map's y.
     assert np.allclose(world.to_map(np.array([[1.5, 0.5]])), [[0.75, 2.75]])
     assert np.allclose(world.to_cells(np.array([[0.75, 2.75]])), [[1.5, 0.5]])
-    assert np.allclose(world.to_grid(Pose(0.75, 2.75, math.pi)), (1.5, 0.5, math.pi / 2))
+    assert np.allclose(world.to_grid(Pose2D(0.75, 2.75, math.pi)), (1.5, 0.5, math.pi / 2))
 
 
 @pytest.mark.parametrize(
@@ -145,17 +145,17 @@ def test_a_missing_yaml_is_refused_in_one_sentence(tmp_path):
 def test_clearance_is_the_distance_to_the_nearest_wall_cell(draw):
     world = draw("......\n..#...\n......\n......\n......", resolution=0.5)
     # The wall cell spans x 1.0 to 1.5 and y 1.5 to 2.0; the grid ends at x 3 and y 2.5.
-    assert world.clearance(Pose(1.25, 1.1), 9.0) == pytest.approx(0.4)
-    assert world.clearance(Pose(1.8, 1.1), 9.0) == pytest.approx(0.5)
-    assert world.clearance(Pose(1.25, 1.1), 0.3) == 0.3
-    assert world.clearance(Pose(1.2, 1.6), 9.0) == 0.0
+    assert world.clearance(Pose2D(1.25, 1.1), 9.0) == pytest.approx(0.4)
+    assert world.clearance(Pose2D(1.8, 1.1), 9.0) == pytest.approx(0.5)
+    assert world.clearance(Pose2D(1.25, 1.1), 0.3) == 0.3
+    assert world.clearance(Pose2D(1.2, 1.6), 9.0) == 0.0
 
 
 def test_there_is_no_clearance_outside_the_world(draw):
     world = draw("...\n...\n...")
-    assert world.clearance(Pose(1.5, 0.25), 9.0) == pytest.approx(0.25)
-    assert world.clearance(Pose(-5.0, 1.0), 9.0) == 0.0
-    assert world.clearance(Pose(1e9, 1e9), 9.0) == 0.0
+    assert world.clearance(Pose2D(1.5, 0.25), 9.0) == pytest.approx(0.25)
+    assert world.clearance(Pose2D(-5.0, 1.0), 9.0) == 0.0
+    assert world.clearance(Pose2D(1e9, 1e9), 9.0) == 0.0
 
 
 def test_the_bundled_building_is_12_by_8_metres():

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import webviz_sim
 from webviz_sim import lidar
-from webviz_sim.pose import Pose
+from webviz_sim.pose import Pose2D
 from webviz_sim.world import World, load_world
 
 WORLD: World = load_world(Path(webviz_sim.__file__).parent / "worlds/building.yaml")
@@ -37,7 +37,7 @@ def with_box(x: float, y: float, edge: float) -> World:
     return World(occupied, WORLD.resolution, WORLD.origin)
 
 
-def scan(laser: Pose, world: World = WORLD) -> dict[str, Any]:
+def scan(laser: Pose2D, world: World = WORLD) -> dict[str, Any]:
     """What a laser there measures, as a sensor_msgs/LaserScan."""
     random = np.random.default_rng(0)
     measured = lidar.scan(world, laser, laser, LIDAR, random)

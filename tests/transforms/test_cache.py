@@ -11,12 +11,12 @@ from webviz.data.transforms.errors import (
     ForwardExtrapolationException,
     NoDataForExtrapolationException,
 )
-from webviz.data.transforms.geometry import Pose, interpolate
+from webviz.data.transforms.geometry import PoseTuple, interpolate
 
 FAR = 10**18
 
 
-def pose(x: float = 0.0, yaw: float = 0.0) -> Pose:
+def pose(x: float = 0.0, yaw: float = 0.0) -> PoseTuple:
     return (x, 0.0, 0.0, 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
 
 

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from webviz_urdf import glb_with
-from webviz_urdf.glb import Part, Surface, write_glb
+from webviz_urdf.glb import MeshPart, Surface, write_glb
 
 VERTICES = np.array(((0, 0, 0), (1, 0, 0), (0, 1, 0)), np.float32)
 FACES = np.array(((0, 1, 2),), np.uint32)
@@ -24,7 +24,9 @@ HALF = Surface((1.0, 0.0, 0.0, 0.5))
 @pytest.fixture
 def two_parts() -> bytes:
     colors = np.full((3, 4), 255, np.uint8)
-    return write_glb([Part(VERTICES, FACES, GREEN), Part(VERTICES + 1, FACES, HALF, colors=colors)])
+    return write_glb(
+        [MeshPart(VERTICES, FACES, GREEN), MeshPart(VERTICES + 1, FACES, HALF, colors=colors)]
+    )
 
 
 def document(data: bytes) -> dict:
@@ -57,7 +59,9 @@ def test_colours_are_stored_as_linear_light(two_parts):
 
 
 def test_parts_of_one_surface_share_a_material():
-    data = write_glb([Part(VERTICES, FACES, GREEN), Part(VERTICES, FACES, Surface(GREEN.rgba))])
+    data = write_glb(
+        [MeshPart(VERTICES, FACES, GREEN), MeshPart(VERTICES, FACES, Surface(GREEN.rgba))]
+    )
     assert len(document(data)["materials"]) == 1
 
 
@@ -68,13 +72,13 @@ def test_only_transparent_surfaces_are_blended(two_parts):
 
 @given(st.floats(0, 1))
 def test_alpha_multiplies_that_of_each_material(alpha):
-    data = write_glb([Part(VERTICES, FACES, GREEN), Part(VERTICES, FACES, HALF)])
+    data = write_glb([MeshPart(VERTICES, FACES, GREEN), MeshPart(VERTICES, FACES, HALF)])
     changed = glb_with(data, alpha=alpha)
     assert [factor[3] for factor in factors(changed)] == pytest.approx([alpha, alpha / 2])
 
 
 def test_alpha_one_leaves_an_opaque_material_opaque():
-    changed = glb_with(write_glb([Part(VERTICES, FACES, GREEN)]), alpha=1.0)
+    changed = glb_with(write_glb([MeshPart(VERTICES, FACES, GREEN)]), alpha=1.0)
     assert "alphaMode" not in document(changed)["materials"][0]
 
 
@@ -83,7 +87,10 @@ def test_a_colour_replaces_colours_textures_and_vertex_colours():
     picture = Surface(texture=b"\x89PNG")
     colors = np.full((3, 4), 255, np.uint8)
     data = write_glb(
-        [Part(VERTICES, FACES, picture, uvs=uvs), Part(VERTICES, FACES, HALF, colors=colors)]
+        [
+            MeshPart(VERTICES, FACES, picture, uvs=uvs),
+            MeshPart(VERTICES, FACES, HALF, colors=colors),
+        ]
     )
     assert b"COLOR_0" in data
     changed = document(glb_with(data, color=(255, 255, 255)))

@@ -15,7 +15,7 @@ import pytest
 from webviz_urdf import (
     Loading,
     LoadingStopped,
-    Request,
+    LoadRequest,
     Robot,
     RobotDescriptionError,
     load_robot,
@@ -63,7 +63,7 @@ def start(tmp_path, monkeypatch):
         begun: list[Loading] = []
 
         def start(text: str) -> tuple[Loading, Future[Robot]]:
-            begun.append(Loading(Request(text=text)))
+            begun.append(Loading(LoadRequest(text=text)))
             return begun[-1], pool.submit(begun[-1].run)
 
         yield start
@@ -150,7 +150,7 @@ def test_loading_that_is_stopped_ends_at_once_with_its_process(start, slow_dae):
 
 
 def test_loading_that_was_stopped_before_it_began_never_begins(start):
-    begun = Loading(Request(text=BOX))
+    begun = Loading(LoadRequest(text=BOX))
     begun.stop()
     with pytest.raises(LoadingStopped):
         begun.run()
@@ -170,4 +170,4 @@ def test_robots_are_loaded_side_by_side(start, slow_dae):
 def test_a_description_file_is_a_regular_file(tmp_path):
     os.mkfifo(tmp_path / "robot.urdf")
     with pytest.raises(RobotDescriptionError, match="not a regular file"):
-        Loading(Request(path=str(tmp_path / "robot.urdf"))).run()
+        Loading(LoadRequest(path=str(tmp_path / "robot.urdf"))).run()

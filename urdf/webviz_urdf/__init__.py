@@ -5,7 +5,7 @@ from webviz_urdf.glb import glb_with
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.joints import Joint, Mimic
 from webviz_urdf.load import load_file, load_robot
-from webviz_urdf.loading import Loading, LoadingStopped, Request
+from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import (
     Inertial,
@@ -20,12 +20,12 @@ __all__ = [
     "Inertial",
     "Joint",
     "Link",
+    "LoadRequest",
     "Loading",
     "LoadingStopped",
     "Mimic",
     "Missing",
     "Progress",
-    "Request",
     "ResolveError",
     "Resolver",
     "Robot",

@@ -11,7 +11,7 @@ from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import primitives
 from webviz_urdf.description import Description, pose_of
 from webviz_urdf.dress import Dresser
-from webviz_urdf.glb import Part
+from webviz_urdf.glb import MeshPart
 from webviz_urdf.materials import DEFAULT, Material, Materials
 from webviz_urdf.meshes import MeshError, MeshLibrary, Scale
 from webviz_urdf.resolve import ResolveError, Resolver
@@ -160,7 +160,7 @@ class _Builder:
         self._warnings.update(dict.fromkeys(filter(None, sentences)))
 
 
-def _primitive(geometry: yourdfpy.Geometry) -> Part:
+def _primitive(geometry: yourdfpy.Geometry) -> MeshPart:
     if geometry.box is not None:
         size = [float(v) for v in geometry.box.size]
         make = primitives.box

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from webviz.api.nodes import Glb, Mesh
-from webviz_urdf.glb import OPAQUE, Part, Surface, write_glb
+from webviz_urdf.glb import OPAQUE, MeshPart, Surface, write_glb
 from webviz_urdf.materials import Material
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.textures import TextureError, encode, mean_color, open_image
@@ -26,7 +26,7 @@ class Dresser:
         self._pictures: dict[str, tuple[bytes, tuple[float, float, float]] | None] = {}
         self.warnings: list[str] = []
 
-    def dress(self, parts: Sequence[Part], material: Material) -> Mesh | Glb:
+    def dress(self, parts: Sequence[MeshPart], material: Material) -> Mesh | Glb:
         """One node: a `Mesh` if one colour says all, else a `Glb`."""
         dressed = [
             part if part.surface else replace(part, surface=self._surface(part, material))
@@ -40,7 +40,7 @@ class Dresser:
         opacity = first.rgba[3] if first.rgba[3] < OPAQUE else 1.0
         return Mesh(*_joined(dressed), color=(r, g, b), opacity=opacity)
 
-    def _surface(self, part: Part, material: Material) -> Surface:
+    def _surface(self, part: MeshPart, material: Material) -> Surface:
         picture = self._picture(material.texture) if material.texture else None
         if picture is None:
             return Surface(material.rgba)
@@ -62,7 +62,7 @@ class Dresser:
         return self._pictures[uri]
 
 
-def _joined(parts: Sequence[Part]) -> tuple[np.ndarray, np.ndarray]:
+def _joined(parts: Sequence[MeshPart]) -> tuple[np.ndarray, np.ndarray]:
     """Vertices and faces of all parts as one mesh."""
     if len(parts) == 1:
         return parts[0].vertices, parts[0].faces

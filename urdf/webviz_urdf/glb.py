@@ -38,7 +38,7 @@ class Surface:
 
 
 @dataclass(frozen=True)
-class Part:
+class MeshPart:
     """Triangles of one surface.
 
     Args:
@@ -58,7 +58,7 @@ class Part:
     colors: U8 | None = None
 
 
-def write_glb(parts: Sequence[Part]) -> bytes:
+def write_glb(parts: Sequence[MeshPart]) -> bytes:
     """One mesh of several parts as a binary glTF; a part without a surface is white."""
     writer = _Writer()
     primitives = [writer.primitive(part) for part in parts]
@@ -122,7 +122,7 @@ class _Writer:
             "materials": [],
         }
 
-    def primitive(self, part: Part) -> dict[str, Any]:
+    def primitive(self, part: MeshPart) -> dict[str, Any]:
         attributes = {"POSITION": self._accessor(part.vertices, _FLOAT, bounds=True)}
         if part.normals is not None:
             attributes["NORMAL"] = self._accessor(part.normals, _FLOAT)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from webviz.api.nodes import Mesh, Rgb
 from webviz.data.rotations import matrices
 from webviz_urdf import primitives
-from webviz_urdf.glb import Part
+from webviz_urdf.glb import MeshPart
 from webviz_urdf.robot import Inertial, Link
 
 _RED: Rgb = (255, 0, 0)
@@ -67,7 +67,7 @@ def _principal(
     return moments, axes
 
 
-def _placed(part: Part, axes: NDArray[np.float64], inertial: Inertial) -> Mesh:
+def _placed(part: MeshPart, axes: NDArray[np.float64], inertial: Inertial) -> Mesh:
     """`part`, given along the columns of `axes`, moved to the centre of mass."""
     turned = part.vertices @ (matrices(inertial.com.wxyz) @ axes).T + inertial.com.position
     return Mesh(turned.astype(np.float32), part.faces, _RED)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from webviz_urdf.loading import DEADLINE_S, IDLE_S, MAX_MEMORY, Request
+from webviz_urdf.loading import DEADLINE_S, IDLE_S, MAX_MEMORY, LoadRequest
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 from webviz_urdf.textures import MAX_PIXELS
@@ -41,7 +41,7 @@ def _limit() -> None:
 
 
 def _load(
-    connection: Connection, request: Request, resolver: Resolver, skip: dict[int, str]
+    connection: Connection, request: LoadRequest, resolver: Resolver, skip: dict[int, str]
 ) -> Robot | Exception:
     def progress(done: int, total: int, link: str) -> None:
         signal.alarm(round(2 * DEADLINE_S))  # if nobody is left to end this process

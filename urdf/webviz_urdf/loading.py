@@ -34,7 +34,7 @@ MOST_FAILURES = 3
 
 
 @dataclass(frozen=True)
-class Request:
+class LoadRequest:
     """A robot to load; equal ones need not be loaded again.
 
     Args:
@@ -70,7 +70,7 @@ class LoadingStopped(Exception):
 class Loading:
     """One robot being loaded: `run` in a thread, the rest in any other."""
 
-    def __init__(self, request: Request) -> None:
+    def __init__(self, request: LoadRequest) -> None:
         self.at = (0, 0, "")
         """Shapes done, their total, and the link at work."""
         self._request = request

@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 from webviz.api.nodes import U8
 from webviz_urdf.dae import without_broken_materials
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import Part, Surface
+from webviz_urdf.glb import MeshPart, Surface
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.textures import TextureFolder, encode
 
@@ -43,7 +43,7 @@ class MeshFile:
         warnings: sentences, such as textures that were not found.
     """
 
-    parts: tuple[Part, ...]
+    parts: tuple[MeshPart, ...]
     warnings: tuple[str, ...] = ()
 
 
@@ -119,7 +119,7 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     return MeshFile(tuple(parts), tuple(warnings))
 
 
-def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[Part], list[str]]:
+def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshPart], list[str]]:
     """The file's parts, and the ids of materials that could not be used."""
     if suffix != "dae":
         return _parts(data, suffix, textures), []
@@ -130,7 +130,7 @@ def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[Part]
     return (_parts(data, suffix, textures) if broken else parts), broken
 
 
-def scaled(part: Part, scale: Scale) -> Part:
+def scaled(part: MeshPart, scale: Scale) -> MeshPart:
     """`part` multiplied along x, y, z; a mirrored one keeps its outside outside."""
     if scale == (1.0, 1.0, 1.0):
         return part
@@ -144,7 +144,7 @@ def scaled(part: Part, scale: Scale) -> Part:
     return replace(part, vertices=part.vertices * factors, faces=faces, normals=normals)
 
 
-def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[Part]:
+def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[MeshPart]:
     scene = trimesh.load_scene(io.BytesIO(data), suffix, resolver=textures, process=False)
     parts = []
     for node in scene.graph.nodes_geometry:
@@ -156,7 +156,7 @@ def _parts(data: bytes, suffix: str, textures: TextureFolder) -> list[Part]:
     return parts
 
 
-def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> Part:
+def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart:
     """The mesh in the scene's frame, in metres."""
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if not np.isfinite(vertices).all():
@@ -178,7 +178,7 @@ def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> Part:
             faces = faces[:, ::-1]
         if normals is not None:
             normals = normals @ np.linalg.pinv(linear)
-    return Part(
+    return MeshPart(
         (vertices * unit).astype(np.float32),
         np.ascontiguousarray(faces, np.uint32),
         surface or (Surface() if colors is not None else None),

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import trimesh
 
-from webviz_urdf.glb import Part
+from webviz_urdf.glb import MeshPart
 
 _SEGMENTS = 32
 
 
-def box(x: float, y: float, z: float) -> Part:
+def box(x: float, y: float, z: float) -> MeshPart:
     """A box around the origin, edges in metres; each side shows a whole texture."""
     u = np.array((0.0, 1.0, 1.0, 0.0))
     v = np.array((0.0, 0.0, 1.0, 1.0))
@@ -29,13 +29,13 @@ def box(x: float, y: float, z: float) -> Part:
     return _part(corners, np.concatenate(faces), uvs)
 
 
-def sphere(radius: float) -> Part:
+def sphere(radius: float) -> MeshPart:
     """A sphere around the origin, metres."""
     ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
     return _part(ball.vertices, ball.faces)
 
 
-def cylinder(radius: float, length: float) -> Part:
+def cylinder(radius: float, length: float) -> MeshPart:
     """A cylinder along z around the origin, metres.
 
     The caps have vertices of their own, so that a renderer that averages normals at shared
@@ -60,8 +60,8 @@ def cylinder(radius: float, length: float) -> Part:
     return _part(np.concatenate((bottom, top, bottom, top)), faces)
 
 
-def _part(vertices: np.ndarray, faces: np.ndarray, uvs: np.ndarray | None = None) -> Part:
-    return Part(
+def _part(vertices: np.ndarray, faces: np.ndarray, uvs: np.ndarray | None = None) -> MeshPart:
+    return MeshPart(
         vertices.astype(np.float32),
         faces.astype(np.uint32),
         uvs=None if uvs is None else uvs.astype(np.float32),

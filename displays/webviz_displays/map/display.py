@@ -21,7 +21,7 @@ BEHIND = 100_000
 
 
 @dataclass(frozen=True)
-class Look:
+class MapStyle:
     """How the cells of a tile become a picture.
 
     Args:
@@ -34,7 +34,7 @@ class Look:
     resolution: float
     layer: int
 
-    def is_like(self, other: Look | None) -> bool:
+    def is_like(self, other: MapStyle | None) -> bool:
         """Whether equal cells look alike; tables are cached, so identity is enough."""
         return (
             other is not None
@@ -76,7 +76,7 @@ class _State:
         at_stamp: fixed frame, frame and stamp of the map, and the pose that it had.
     """
 
-    look: Look | None = None
+    look: MapStyle | None = None
     tiles: dict[Corner, Tile] = field(default_factory=dict)
     at_stamp: tuple[tuple[str, str, int], Pose] | None = None
 
@@ -167,7 +167,7 @@ class Map(Display):
             return
         threshold = self.binary_threshold if self.binary_representation else None
         alpha = 1.0 if self.alpha >= OPAQUE else self.alpha
-        look = Look(
+        look = MapStyle(
             lookup_table(self.color_scheme, alpha, threshold),
             grid.resolution,
             ctx.order - (BEHIND if self.draw_behind else 0),
@@ -209,7 +209,7 @@ class Map(Display):
             ctx.ok("Update", f"{count} since the last whole map.")
 
 
-def _images(grid: TiledGrid, look: Look, state: _State) -> dict[Corner, Image]:
+def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:
     """A node for each tile; unchanged tiles keep the node of the previous call."""
     before = state.tiles if look.is_like(state.look) else {}
     tiles: dict[Corner, Tile] = {}

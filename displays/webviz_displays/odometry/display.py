@@ -12,7 +12,7 @@ from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Top
 from webviz.data import messages
 from webviz_displays.odometry import covariance
 from webviz_displays.odometry.covariance_marks import add_orientations, add_positions
-from webviz_displays.odometry.poses import Trail, Trails, fault, has_moved, is_sound
+from webviz_displays.odometry.poses import GrowingTrail, Trail, fault, has_moved, is_sound
 from webviz_displays.shared.arrows import along_x
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
@@ -40,9 +40,9 @@ class Odometry(Display):
     shape: Annotated[PoseShape, Prop(help="How to draw each pose.")] = PoseShape()
     covariance: Annotated[Covariance, Prop(help="How to draw the covariances.")] = Covariance()
 
-    def new_state(self) -> Trails:
+    def new_state(self) -> GrowingTrail:
         """No poses."""
-        return Trails()
+        return GrowingTrail()
 
     def history(self) -> Keep:
         """The newest poses that were accepted."""

@@ -77,7 +77,7 @@ def is_sound(message: messages.Odometry) -> bool:
     return bool(np.abs(entries).max() <= LARGEST and entries[::7].min() >= 0)
 
 
-class Trails:
+class GrowingTrail:
     """Trails of a list of samples that grows at its end and shrinks at its start."""
 
     def __init__(self) -> None:

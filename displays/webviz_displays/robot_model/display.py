@@ -22,7 +22,7 @@ from webviz_displays.robot_model.statuses import (
     why_lost,
 )
 from webviz_displays.shared.trails import Trails
-from webviz_urdf import Request, Robot, RobotDescriptionError
+from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
 
 SECOND = 1_000_000_000
 
@@ -253,7 +253,7 @@ class RobotModel(Display):
         shown = tuple(link for link in robot.links if choices.of(link).enabled)
         return _Model(robot, full, prefix, shown)
 
-    def _request(self, samples: Sequence[Sample], ctx: Context) -> Request | None:
+    def _request(self, samples: Sequence[Sample], ctx: Context) -> LoadRequest | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
             if self.description_file:
@@ -261,7 +261,7 @@ class RobotModel(Display):
             ctx.warn("URDF", "No description file is chosen. Enter its path in Description File.")
             return None
         if samples:
-            return Request(text=samples[-1].message.data, package_paths=paths)
+            return LoadRequest(text=samples[-1].message.data, package_paths=paths)
         ctx.warn(
             "URDF",
             f"No robot description received on {self.description_topic.name}. "

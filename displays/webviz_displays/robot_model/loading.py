@@ -5,22 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 
 from webviz import Context
-from webviz_urdf import Loading, Request, Robot
+from webviz_urdf import Loading, LoadRequest, Robot
 
-Loadings = dict[Request, Loading]
+Loadings = dict[LoadRequest, Loading]
 """The robots being loaded."""
 
 
-def request_file(path: str, package_paths: tuple[str, ...]) -> Request:
+def request_file(path: str, package_paths: tuple[str, ...]) -> LoadRequest:
     """The current description in a file."""
     try:
         changed_ns = Path(path).expanduser().stat().st_mtime_ns
     except OSError:
         changed_ns = 0  # loading reports the cause
-    return Request(path=path, changed_ns=changed_ns, package_paths=package_paths)
+    return LoadRequest(path=path, changed_ns=changed_ns, package_paths=package_paths)
 
 
-def load(request: Request, before: Loadings, ctx: Context) -> Robot | None:
+def load(request: LoadRequest, before: Loadings, ctx: Context) -> Robot | None:
     """The robot, None while it is being loaded; `before` is the previous request.
 
     Raises:

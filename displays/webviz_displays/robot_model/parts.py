@@ -83,7 +83,7 @@ class Choices:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class LinkNode:
     """A node on a link.
 
     Args:
@@ -124,7 +124,7 @@ class Paint:
 
 def parts_of(
     visuals: Robot, collisions: Robot | None, choices: Choices, paint: Paint
-) -> list[Part]:
+) -> list[LinkNode]:
     """Everything to draw.
 
     Args:
@@ -143,15 +143,15 @@ def parts_of(
         alpha = choices.alpha * settings.alpha
         if alpha > 0.0:
             parts += [
-                Part(name, f"{name} {key}", shape.pose, paint(shape.node, alpha))
+                LinkNode(name, f"{name} {key}", shape.pose, paint(shape.node, alpha))
                 for key, shape in shapes
             ]
         parts += [
-            Part(name, f"{name} {key}", _ORIGIN, node)
+            LinkNode(name, f"{name} {key}", _ORIGIN, node)
             for key, node in _extras(link, settings, choices)
         ]
     return parts + [
-        Part(joint.parent, f"{joint.name} {key}", joint.origin, node)
+        LinkNode(joint.parent, f"{joint.name} {key}", joint.origin, node)
         for name, settings in choices.joints.items()
         if (joint := visuals.joints.get(name))
         for key, node in _joint_marks(joint, settings)

@@ -11,7 +11,7 @@ F64 = NDArray[np.float64]
 U32 = NDArray[np.uint32]
 
 
-class Shape(NamedTuple):
+class TriangleMesh(NamedTuple):
     """A triangle mesh.
 
     Attributes:
@@ -23,7 +23,7 @@ class Shape(NamedTuple):
     faces: U32
 
 
-def copies(shape: Shape, centers: F64, frames: F64) -> tuple[NDArray[np.float32], U32]:
+def copies(shape: TriangleMesh, centers: F64, frames: F64) -> tuple[NDArray[np.float32], U32]:
     """A shape drawn N times.
 
     Args:
@@ -40,7 +40,7 @@ def copies(shape: Shape, centers: F64, frames: F64) -> tuple[NDArray[np.float32]
     return placed.reshape(-1, 3).astype(np.float32), faces.reshape(-1, 3)
 
 
-WEDGE = Shape(
+WEDGE = TriangleMesh(
     np.array(((0.0, 0.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0))),
     np.array(((0, 1, 2),), dtype=np.uint32),
 )

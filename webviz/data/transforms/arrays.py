@@ -17,7 +17,7 @@ from struct import Struct
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.transforms.geometry import Pose
+from webviz.data.transforms.geometry import PoseTuple
 
 F64 = NDArray[np.float64]
 C128 = NDArray[np.complex128]
@@ -27,7 +27,7 @@ IDENTITY_PAIRS = np.array([[0], [0], [1], [0]], np.complex128)
 _POSE = Struct("7d")
 
 
-def poses_to_rows(poses: Iterable[Pose]) -> F64:
+def poses_to_rows(poses: Iterable[PoseTuple]) -> F64:
     """Poses as rows (7, N)."""
     return packed_to_rows(b"".join(starmap(_POSE.pack, poses)))
 

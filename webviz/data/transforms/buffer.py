@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from webviz.data.transforms import many_frames
 from webviz.data.transforms.cache import Cache, StaticCache, TimeCache
 from webviz.data.transforms.errors import NS_PER_S
-from webviz.data.transforms.geometry import IDENTITY, Pose, canonical, compose_as_matrices
+from webviz.data.transforms.geometry import IDENTITY, PoseTuple, canonical, compose_as_matrices
 from webviz.data.transforms.listing import frames_as_yaml
 from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.many_inserts import insert_expected
 from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.records import Link, Rejection, Transform, fault_of, too_old
-from webviz.data.transforms.shape import Shape
+from webviz.data.transforms.topology import Topology
 from webviz.data.transforms.tree import FrameTree
 
 QUATERNION_TOLERANCE = 10e-3
@@ -58,7 +58,7 @@ class TransformBuffer:
         self._tree = FrameTree()
         self._publishers: dict[str, Publishers] = {}
         self._rejections: dict[str, Rejection] = {}
-        self._shape: tuple[int, Shape] | None = None
+        self._topology: tuple[int, Topology] | None = None
         """What the last question for many frames followed from, and at which structure version."""
         self._largest: tuple[int, tuple[str, int]] | None = None
 
@@ -227,8 +227,8 @@ class TransformBuffer:
         """
         names = self.frames() if frames is None else list(frames)
         if stamp_ns == 0 and len(names) >= many_frames.ARRAYS_PAY_FROM:
-            shape = self._shape_of(target, names)
-            if shape.is_usable and (found := shape.poses()):
+            topology = self._topology_of(target, names)
+            if topology.is_usable and (found := topology.poses()):
                 return FramesIn.of(names, *found)
         valid = set() if self._tree.fault(target) else {n for n in names if not self._tree.fault(n)}
         return many_frames.poses_in(self._tree, target, names, valid, stamp_ns)
@@ -328,7 +328,7 @@ class TransformBuffer:
         """All frame ids ever mentioned, in order of first mention."""
         return list(self._tree.names)
 
-    def _pose(self, target: str, source: str, stamp_ns: int) -> tuple[Pose, int]:
+    def _pose(self, target: str, source: str, stamp_ns: int) -> tuple[PoseTuple, int]:
         if target == source:
             if stamp_ns == 0:
                 stamp_ns = self._tree.latest_common_time(target, source)
@@ -337,14 +337,18 @@ class TransformBuffer:
         self._tree.validate("lookupTransform argument source_frame", source)
         return self._tree.resolve(target, source, stamp_ns)
 
-    def _shape_of(self, target: str, frames: list[str]) -> Shape:
-        if self._shape is not None:
-            version, shape = self._shape
-            if (version, target, frames) == (self.structure_version, shape.target, shape.frames):
-                return shape
-        shape = Shape(self._tree, target, frames)
-        self._shape = (self.structure_version, shape)
-        return shape
+    def _topology_of(self, target: str, frames: list[str]) -> Topology:
+        if self._topology is not None:
+            version, topology = self._topology
+            if (version, target, frames) == (
+                self.structure_version,
+                topology.target,
+                topology.frames,
+            ):
+                return topology
+        topology = Topology(self._tree, target, frames)
+        self._topology = (self.structure_version, topology)
+        return topology
 
     def _new_cache(self, parent: str, child: str, is_static: bool) -> Cache:
         cache = StaticCache() if is_static else TimeCache(self.cache_time_ns)
@@ -361,7 +365,7 @@ class TransformBuffer:
         return False
 
 
-def _transform(pose: Pose, stamp_ns: int) -> Transform:
+def _transform(pose: PoseTuple, stamp_ns: int) -> Transform:
     """tf2 returns a rotation only after the way through a matrix."""
     x, y, z, qx, qy, qz, qw = pose
     return Transform((x, y, z), canonical(qx, qy, qz, qw), stamp_ns)

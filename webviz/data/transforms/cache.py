@@ -12,7 +12,7 @@ from webviz.data.transforms.errors import (
     NoDataForExtrapolationException,
     format_stamp,
 )
-from webviz.data.transforms.geometry import Pose, interpolate
+from webviz.data.transforms.geometry import PoseTuple, interpolate
 
 # A bound on memory that tf2 lacks: a publisher whose clock stands still never lets data grow old.
 # 65536 samples are 10 s at 6.5 kHz.
@@ -21,10 +21,10 @@ MAX_SAMPLES = 65_536
 NEVER_NS = -(1 << 63)
 """Before every stamp."""
 
-Sample = tuple[Pose, str]
+ParentedPose = tuple[PoseTuple, str]
 """A pose and the parent frame it is given in."""
 
-Bracket = tuple[Pose, Pose, float, str]
+Bracket = tuple[PoseTuple, PoseTuple, float, str]
 """The poses before and after a time, the ratio between them, and their parent frame."""
 
 
@@ -37,22 +37,22 @@ class StaticCache:
     oldest_stamp = 0
 
     def __init__(self) -> None:
-        self.sample: Sample | None = None
+        self.sample: ParentedPose | None = None
 
     def __len__(self) -> int:
         return 1
 
     @property
-    def newest(self) -> Sample | None:
+    def newest(self) -> ParentedPose | None:
         """The sample; None only before the first insert."""
         return self.sample
 
-    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+    def insert(self, stamp_ns: int, sample: ParentedPose) -> bool:
         """Overwrite the pose; the stamp has no meaning."""
         self.sample = sample
         return True
 
-    def at(self, stamp_ns: int) -> Sample | None:
+    def at(self, stamp_ns: int) -> ParentedPose | None:
         """The sample, whatever the time."""
         return self.sample
 
@@ -82,7 +82,7 @@ class TimeCache:
 
     def __init__(self, cache_time_ns: int) -> None:
         self.stamps: list[int] = []
-        self.samples: list[Sample] = []
+        self.samples: list[ParentedPose] = []
         self.mixed_ns = NEVER_NS
         self._cache_time_ns = cache_time_ns
         # The poses once more, side by side, as far as `poses` was ever asked for: to gather them
@@ -105,11 +105,11 @@ class TimeCache:
         return self.stamps[0] if self.stamps else 0
 
     @property
-    def newest(self) -> Sample | None:
+    def newest(self) -> ParentedPose | None:
         """The sample of the newest stamp, or None if empty."""
         return self.samples[-1] if self.samples else None
 
-    def insert(self, stamp_ns: int, sample: Sample) -> bool:
+    def insert(self, stamp_ns: int, sample: ParentedPose) -> bool:
         """Insert in order; an exact duplicate counts as stored but is not kept twice.
 
         Old samples are pruned before the new one is inserted, measured by the newest stamp so far:
@@ -173,7 +173,7 @@ class TimeCache:
                 del self._packed[: 7 * self._dead]
                 self._dead = 0
 
-    def at(self, stamp_ns: int) -> Sample | None:
+    def at(self, stamp_ns: int) -> ParentedPose | None:
         """The sample interpolated at a time; 0 means the newest; None if `refusal` says why not."""
         stamps = self.stamps
         if not stamps:

@@ -11,11 +11,11 @@ from __future__ import annotations
 from math import acos, nan, sin, sqrt
 from typing import Any
 
-Pose = tuple[float, float, float, float, float, float, float]
+PoseTuple = tuple[float, float, float, float, float, float, float]
 Quaternion = tuple[float, float, float, float]
 Matrix = tuple[float, float, float, float, float, float, float, float, float]
 
-IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+IDENTITY: PoseTuple = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 REACH_M = 1e12
 """Farthest that anything is drawn along an axis, some seven times the distance to the sun.
@@ -24,7 +24,7 @@ Finite transforms may compose to infinity or NaN, which no viewer can draw.
 """
 
 
-def is_within_reach(pose: Pose) -> bool:
+def is_within_reach(pose: PoseTuple) -> bool:
     """Whether a pose is finite and near enough to be drawn."""
     return all(abs(value) <= REACH_M for value in pose)
 
@@ -99,7 +99,7 @@ def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
     )
 
 
-def compose_as_matrices(a: Pose, b: Pose) -> Pose:
+def compose_as_matrices(a: PoseTuple, b: PoseTuple) -> PoseTuple:
     """The pose `a * b` by way of rotation matrices, as tf2 joins two finished lookups."""
     ax, ay, az, *aq = a
     x, y, z, *bq = b
@@ -153,7 +153,7 @@ def inverse(a: Any) -> Any:
     return (*rotate(-qx, -qy, -qz, qw, -x, -y, -z), -qx, -qy, -qz, qw)
 
 
-def interpolate(a: Pose, b: Pose, ratio: float) -> Pose:
+def interpolate(a: PoseTuple, b: PoseTuple, ratio: float) -> PoseTuple:
     """Straight line and great circle from `a` (ratio 0) to `b` (ratio 1), as tf2 does.
 
     The rotation takes the shorter way round: with a negative dot product `b` is negated.

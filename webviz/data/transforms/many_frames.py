@@ -22,7 +22,14 @@ from webviz.data.transforms.arrays import (
     to_rows,
 )
 from webviz.data.transforms.errors import TransformException
-from webviz.data.transforms.geometry import IDENTITY, Pose, canonical, compose, interpolate, inverse
+from webviz.data.transforms.geometry import (
+    IDENTITY,
+    PoseTuple,
+    canonical,
+    compose,
+    interpolate,
+    inverse,
+)
 from webviz.data.transforms.tree import FrameTree
 
 ARRAYS_PAY_FROM = 75
@@ -60,8 +67,8 @@ class _Links:
     A top is a root, or the frame below a link that has no data at the time.
     """
 
-    starts: list[Pose] = field(default_factory=list)
-    ends: list[Pose] = field(default_factory=list)
+    starts: list[PoseTuple] = field(default_factory=list)
+    ends: list[PoseTuple] = field(default_factory=list)
     """The very object in `starts` where nothing is to be interpolated."""
     ratios: list[float] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
@@ -77,7 +84,7 @@ class _Links:
             stamp_ns: when; 0 means the newest of each link.
             known: numbers of the links already made for this time.
         """
-        climbed: list[tuple[str, Pose, Pose, float]] = []
+        climbed: list[tuple[str, PoseTuple, PoseTuple, float]] = []
         while (number := known.get(frame)) is None:
             cache = tree.caches.get(frame)
             bracket = cache.bracket(stamp_ns) if cache is not None else None
@@ -100,7 +107,7 @@ class _Links:
         return number
 
     def _append(
-        self, start: Pose, end: Pose, ratio: float, parent: int, depth: int, top: int
+        self, start: PoseTuple, end: PoseTuple, ratio: float, parent: int, depth: int, top: int
     ) -> None:
         self.starts.append(start)
         self.ends.append(end)
@@ -109,9 +116,9 @@ class _Links:
         self.depths.append(depth)
         self.tops.append(top)
 
-    def poses_by_floats(self) -> list[Pose]:
+    def poses_by_floats(self) -> list[PoseTuple]:
         """The pose of every frame in its top."""
-        poses: list[Pose] = []
+        poses: list[PoseTuple] = []
         for start, end, ratio, parent in zip(
             self.starts, self.ends, self.ratios, self.parents, strict=True
         ):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from webviz.data.transforms.cache import Sample
+from webviz.data.transforms.cache import ParentedPose
 
-Claim = str | Sample
+Claim = str | ParentedPose
 """What tells publishers of one frame apart: the authority of a moving transform, and of a static
 one the parent and pose, as publishers of the same static transform agree."""
 

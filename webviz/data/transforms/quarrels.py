@@ -11,7 +11,7 @@ from itertools import pairwise
 from math import dist
 
 from webviz.data.transforms.buffer import TransformBuffer
-from webviz.data.transforms.cache import Sample, TimeCache
+from webviz.data.transforms.cache import ParentedPose, TimeCache
 from webviz.data.transforms.publishers import Contest
 
 RECENT = 100
@@ -77,7 +77,7 @@ def _in_words(frame: str, contest: Contest) -> str:
     return f'"{frame}" has two publishers, {names}: stop one of them.'
 
 
-def _takes_turns(samples: Sequence[Sample]) -> bool:
+def _takes_turns(samples: Sequence[ParentedPose]) -> bool:
     """Whether the newest poses lie alternately in two places."""
     newest = [pose[:3] for pose, _ in samples[-MIN_TURNS - 2 :]]
     if len(newest) < MIN_TURNS + 2:

@@ -9,7 +9,7 @@ from webviz.data.transforms.errors import (
     LookupException,
     TransformException,
 )
-from webviz.data.transforms.geometry import IDENTITY, Pose, compose, inverse
+from webviz.data.transforms.geometry import IDENTITY, PoseTuple, compose, inverse
 
 MAX_DEPTH = 1000
 """Longest chain tf2 walks; beyond it the tree is held to contain a loop."""
@@ -95,7 +95,7 @@ class FrameTree:
                 raise self._loop()
         raise unconnected(target, source)
 
-    def resolve(self, target: str, source: str, stamp_ns: int) -> tuple[Pose, int]:
+    def resolve(self, target: str, source: str, stamp_ns: int) -> tuple[PoseTuple, int]:
         """The pose of `source` in `target`, and the time it holds for: 0 if all links are static.
 
         The walk from the source stops at the first link without data; it fails only if the walk

@@ -22,7 +22,7 @@ from webviz.engine.pipeline import Runner, Services
 from webviz.engine.state import Row
 from webviz.files import config as config_file
 from webviz.files import rviz
-from webviz.files.config import Branch, ConfigError, Item, Place, Settings, Unreadable
+from webviz.files.config import Branch, ConfigError, Item, Location, Settings, Unreadable
 from webviz.files.config.reading import MAX_DISPLAYS
 
 log = logging.getLogger("webviz")
@@ -215,7 +215,7 @@ class DisplayList:
         """
         for index, entry in enumerate(self._entries):
             if isinstance(entry.content, Unreadable):
-                item = config_file.read_display(entry.content.values, Place(("displays", index)))
+                item = config_file.read_display(entry.content.values, Location(("displays", index)))
                 (item,), settings, report = rviz.revive([item], settings)
                 for sentence in report.sentences():
                     log.warning("%s", sentence)

@@ -17,7 +17,7 @@ from webviz.files.config.model import (
     standard,
 )
 from webviz.files.config.reading import read, read_display, read_tool
-from webviz.files.config.source import MAX_VALUES, Place, Source
+from webviz.files.config.source import MAX_VALUES, Location, YamlDocument
 from webviz.files.config.writing import document, dump
 
 __all__ = [
@@ -28,11 +28,11 @@ __all__ = [
     "Config",
     "ConfigError",
     "Item",
-    "Place",
+    "Location",
     "Settings",
-    "Source",
     "ToolItem",
     "Unreadable",
+    "YamlDocument",
     "all_tools",
     "document",
     "dump",

@@ -13,7 +13,7 @@ import msgspec
 
 from webviz.api.declared import Declared, Topic, make
 from webviz.files.config.errors import nearest
-from webviz.files.config.source import Path, Place
+from webviz.files.config.source import Location, Path
 
 MOST = 60
 """Characters of a value that are repeated in an error."""
@@ -93,7 +93,7 @@ def mistakes(
     return found or [explain(error, cls, values)]  # perhaps values do not fit one another
 
 
-def sentences(found: Sequence[tuple[Path, str]], place: Place = Place()) -> str:  # noqa: B008
+def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
     """Mistakes with their places; of very many the first."""
     told = [place.at(*path).says(clause) for path, clause in found[:MOST_MISTAKES]]
     if len(found) > MOST_MISTAKES:

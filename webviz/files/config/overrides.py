@@ -16,11 +16,11 @@ from webviz.files.config import (
     Config,
     ConfigError,
     Item,
-    Place,
+    Location,
     Settings,
-    Source,
     ToolItem,
     Unreadable,
+    YamlDocument,
     explain,
     nearest,
     read_display,
@@ -68,7 +68,7 @@ class _Assignment:
         self._path: Path = tuple(path)
         self._kind = str(path[0]).removesuffix("s")
         value = text[end + 1 :]
-        self._value = Source(value, f"--set {text}").values() if value.strip() else ""
+        self._value = YamlDocument(value, f"--set {text}").values() if value.strip() else ""
 
     def applied(self, config: Config) -> Config:
         steps = self._path[1:]
@@ -128,7 +128,7 @@ class _Assignment:
         if item.is_from_rviz or not isinstance(item.values, Mapping) or not steps:
             self._refuse(f"this {self._kind} is not shown: {item.reason}")
         read_again = read_tool if self._kind == "tool" else read_display
-        read = read_again(_patched(dict(item.values), steps, self._value), Place())
+        read = read_again(_patched(dict(item.values), steps, self._value), Location())
         if isinstance(read, Unreadable):
             self._refuse(read.reason)
         return read
@@ -140,7 +140,7 @@ class _Assignment:
             return named[0]
         above = self._path[: self._path.index(step)]
         if named:
-            places = [Place((*above, index)).words() for index in named]
+            places = [Location((*above, index)).words() for index in named]
             self._refuse(f"`{step}` is the name of several, say {' or '.join(places)}")
         if str(step).isdecimal() and int(step) < len(items):
             return int(step)
@@ -155,7 +155,7 @@ class _Assignment:
     def _refuse_value(self, path: Path, clause: str) -> NoReturn:
         """Refuse the value; its place is told where it is deeper than what was given."""
         deeper = path[len(self._path) :] if path[: len(self._path)] == self._path else ()
-        self._refuse(Place(deeper).says(clause))
+        self._refuse(Location(deeper).says(clause))
 
     def _refuse(self, clause: str) -> NoReturn:
         raise ConfigError(f"--set {self._text}: {clause}{'' if clause[-1] in '.?:' else '.'}")

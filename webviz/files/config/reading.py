@@ -17,7 +17,7 @@ from webviz.api.views import with_type
 from webviz.files.config.errors import ConfigError, nearest
 from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
 from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, ToolItem, Unreadable
-from webviz.files.config.source import Place, Source
+from webviz.files.config.source import Location, YamlDocument
 
 NO_TYPE = "a {} needs a `type`, such as `type: {}`."
 EXAMPLES = {"display": "Grid", "tool": "GoalPose"}
@@ -42,8 +42,8 @@ def read(text: str, where: str) -> Config:
         ConfigError: the text is no YAML or not a config; the sentence shows nothing of what it
             contains. A display or tool that does not fit is no error: it becomes an `Unreadable`.
     """
-    source = Source(text, where)
-    document, top = source.values(), Place(source=source)
+    source = YamlDocument(text, where)
+    document, top = source.values(), Location(source=source)
     if document is None:
         raise ConfigError(f"{where} is empty: a config has at least `version: {VERSION}`.")
     if not isinstance(document, Mapping):
@@ -76,7 +76,7 @@ def read(text: str, where: str) -> Config:
     return Config(settings, items, tools)
 
 
-def _list(document: Mapping[Any, Any], key: str, top: Place) -> list[Any]:
+def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:
     entries = document.get(key) or []
     if not isinstance(entries, list):
         raise ConfigError(top.at(key).says(NO_LIST))
@@ -107,7 +107,7 @@ def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
         )
 
 
-def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Place) -> None:
+def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Location) -> None:
     """Refuse what is not a config, with none of its words but one that is almost ours."""
     keys = [str(key) for key in document]
     if _TELLING.intersection(keys) or set(keys) <= set(_KEYS):
@@ -127,7 +127,7 @@ def _typed(settings: dict[str, Any]) -> dict[str, Any]:
     return settings
 
 
-def read_display(entry: Any, place: Place) -> Item:
+def read_display(entry: Any, place: Location) -> Item:
     """A display or group from an entry of a list in a config file, which is at `place`."""
     is_group = isinstance(entry, Mapping) and entry.get("type") == "Group"
     inner = (entry.get("displays") or []) if is_group else []
@@ -140,13 +140,13 @@ def read_display(entry: Any, place: Place) -> Item:
     return Branch(display, [read_display(e, at) for e, at in zip(inner, places, strict=True)])
 
 
-def read_tool(entry: Any, place: Place) -> ToolItem:
+def read_tool(entry: Any, place: Location) -> ToolItem:
     """A tool from an entry of a list in a config file, which is at `place`."""
     return _read_plugin(Tool, entry, place)
 
 
 def _read_plugin(
-    base: type[P], entry: Any, place: Place, others: tuple[str, ...] = ()
+    base: type[P], entry: Any, place: Location, others: tuple[str, ...] = ()
 ) -> P | Unreadable:
     """A display or tool from an entry of a list, without what is in it, which is under `others`."""
     kind = base.kind
@@ -164,7 +164,7 @@ def _read_plugin(
 
 
 def _read(
-    cls: type[P], entry: Mapping[str, Any], others: tuple[str, ...], place: Place
+    cls: type[P], entry: Mapping[str, Any], others: tuple[str, ...], place: Location
 ) -> P | Unreadable:
     """A display or tool without what is in it, which has other keys than its properties."""
     values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
@@ -174,7 +174,7 @@ def _read(
         return Unreadable(entry, sentences(mistakes(cls, values, error, others), place))
 
 
-def _refuse_unknown(values: Iterable[str], valid: Iterable[str], place: Place) -> None:
+def _refuse_unknown(values: Iterable[str], valid: Iterable[str], place: Location) -> None:
     for key in values:
         if key not in valid:
             raise ConfigError(place.at(key).says(unknown_key(key, valid)))

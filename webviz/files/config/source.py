@@ -34,7 +34,7 @@ Path = tuple[str | int, ...]
 """Keys and indices from the top of a file."""
 
 
-class Source:
+class YamlDocument:
     """A YAML document.
 
     Args:
@@ -135,7 +135,7 @@ def _refuse_too_large(where: str, values: int, depth: int, characters: int = 0) 
 
 
 @dataclass(frozen=True)
-class Place:
+class Location:
     """Where a value stands, for sentences: `lab.yaml:12: displays[2].size`.
 
     Args:
@@ -144,11 +144,11 @@ class Place:
     """
 
     path: Path = ()
-    source: Source | None = None
+    source: YamlDocument | None = None
 
-    def at(self, *path: str | int) -> Place:
+    def at(self, *path: str | int) -> Location:
         """A place within this one."""
-        return Place((*self.path, *path), self.source)
+        return Location((*self.path, *path), self.source)
 
     @property
     def line(self) -> int:

@@ -12,7 +12,7 @@ from webviz.api.declared import Declared, make, to_values
 from webviz.api.display import Display
 from webviz.api.group import Group
 from webviz.api.registry import type_name
-from webviz.files.config import Branch, Item, Place, Unreadable, read_display
+from webviz.files.config import Branch, Item, Location, Unreadable, read_display
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.quiet import is_without_effect
@@ -48,12 +48,12 @@ class Kept:
         return {}
 
 
-def read_items(entries: list[Any], report: Report, kept: Kept, place: Place) -> list[Item]:
+def read_items(entries: list[Any], report: Report, kept: Kept, place: Location) -> list[Item]:
     """Displays of a list in a .rviz file, which is at `place`."""
     return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
 
 
-def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
+def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
     found = counterpart(Display, cls)
@@ -61,7 +61,7 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     if found is None:
         report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
         report.count("properties", 0, len(_effective(tree)))
-        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Place())
+        return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Location())
     display = _read(found, tree, name, report, place)
     if found.rviz != cls:
         report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
@@ -74,7 +74,7 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Place) -> Item:
     return Branch(display, read_items(entries, report, kept, place.at("Displays")))
 
 
-def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Place) -> Display:
+def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Location) -> Display:
     reading = Reading()
     display = display_from(cls, tree, reading)
     note_properties(display, tree, reading, report, place)
@@ -82,7 +82,7 @@ def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Plac
 
 
 def note_properties(
-    declared: Declared, tree: Tree, reading: Reading, report: Report, place: Place
+    declared: Declared, tree: Tree, reading: Reading, report: Report, place: Location
 ) -> None:
     """Report the properties of a display or tool that were not read, or not as they are."""
     for path, reason in reading.faults:
@@ -94,7 +94,7 @@ def note_properties(
             report.note(declared.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
 
 
-def _at_line(name: str, place: Place) -> str:
+def _at_line(name: str, place: Location) -> str:
     """A name with the line where there is something to put right."""
     return f"{name} (line {place.line})" if place.line else name
 

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 
 from webviz.api.declared import Color
-from webviz.files.config import Config, ConfigError, Place, Settings, Source
+from webviz.files.config import Config, ConfigError, Location, Settings, YamlDocument
 from webviz.files.config.reading import refuse_too_many
 from webviz.files.rviz import values, views
 from webviz.files.rviz.displays import Kept, read_items, write_items
@@ -50,7 +50,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     Raises:
         ConfigError: it is not a .rviz file, or has too many displays.
     """
-    source = Source(text, where)
+    source = YamlDocument(text, where)
     document = parse(source)
     if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
         raise ConfigError(f"{where} is no RViz config: it has no `{MANAGER}`.")
@@ -65,8 +65,8 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         report.note(MANAGER, "Displays", "it is no list, so there are no displays")
         entries = []
     refuse_too_many(entries, "Displays", where)
-    items = read_items(entries, report, kept, Place((MANAGER, "Displays"), source))
-    tools = read_tools(manager.get("Tools"), report, Place((MANAGER, "Tools"), source))
+    items = read_items(entries, report, kept, Location((MANAGER, "Displays"), source))
+    tools = read_tools(manager.get("Tools"), report, Location((MANAGER, "Tools"), source))
     note_rest(document, report)
     basis = _bare(settings)
     if views.kind_of(child(manager, "Views", "Current")) is None:

@@ -20,7 +20,7 @@ COMMON = ("name", "enabled")
 
 
 @dataclass(frozen=True)
-class Property:
+class RvizProperty:
     """A property on both sides.
 
     Args:
@@ -43,7 +43,7 @@ class Property:
 
 
 @functools.lru_cache(maxsize=256)
-def properties(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
+def properties(cls: type[msgspec.Struct]) -> tuple[RvizProperty, ...]:
     """The properties of a display or tool, or of a nested setting, besides the common ones."""
     hints = typing.get_type_hints(cls, include_extras=True)
     left_out = COMMON if issubclass(cls, Declared) else ()
@@ -54,7 +54,7 @@ def properties(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
     )
 
 
-def _property(field: msgspec.structs.FieldInfo, hint: Any) -> Property:
+def _property(field: msgspec.structs.FieldInfo, hint: Any) -> RvizProperty:
     marks = []
     while typing.get_origin(hint) is Annotated:
         hint, *more = typing.get_args(hint)
@@ -68,7 +68,7 @@ def _property(field: msgspec.structs.FieldInfo, hint: Any) -> Property:
     default = field.default
     if default is msgspec.NODEFAULT and field.default_factory is not msgspec.NODEFAULT:
         default = field.default_factory()
-    return Property(
+    return RvizProperty(
         field.name,
         tuple(rviz.split("/")) if rviz else (_rviz_name(field.name),),
         hint,

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import msgspec
 
 from webviz.api.display import Display
-from webviz.files.config import Branch, Item, Place, Settings, Unreadable
+from webviz.files.config import Branch, Item, Location, Settings, Unreadable
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.displays import Kept, read_items
@@ -46,7 +46,7 @@ def _revived(item: Item, report: Report, kept: Kept) -> Item:
     cls = values.text(entry.get("Class", "")) if isinstance(entry, Mapping) else ""
     if counterpart(Display, cls) is None:
         return item
-    (made,) = read_items([_plain(entry)], report, kept, Place())
+    (made,) = read_items([_plain(entry)], report, kept, Location())
     return made
 
 

@@ -12,7 +12,7 @@ import msgspec
 from webviz.api.declared import Topic
 from webviz.api.tool import Output
 from webviz.files.rviz import topics, values
-from webviz.files.rviz.properties import Property, properties
+from webviz.files.rviz.properties import RvizProperty, properties
 from webviz.files.rviz.tree import Path, Tree, leaves, put
 from webviz.files.rviz.values import Unfit
 
@@ -50,7 +50,9 @@ class Reading:
                     self.faults.append((path, f"{error}; the default is used"))
         return result
 
-    def _value(self, place: Property, raw: Any, path: Path, all: tuple[Property, ...]) -> Any:
+    def _value(
+        self, place: RvizProperty, raw: Any, path: Path, all: tuple[RvizProperty, ...]
+    ) -> Any:
         origin = typing.get_origin(place.kind)
         if isinstance(place.kind, type) and issubclass(place.kind, msgspec.Struct):
             if not isinstance(raw, Mapping):  # of an old file
@@ -80,14 +82,14 @@ class Reading:
             must_be_open = is_struct or path[-1] in WITH_CHILDREN
             if name in others or (must_be_open and not isinstance(entry, Mapping)):
                 continue
-            place = Property(name, (name,), kind, None)
+            place = RvizProperty(name, (name,), kind, None)
             try:
                 result[name] = self._value(place, entry, (*path, name), ())
             except Unfit as error:
                 self.faults.append(((*path, name), f"{error}; the default is used"))
         return result
 
-    def _bounded(self, value: Any, place: Property, path: Path) -> Any:
+    def _bounded(self, value: Any, place: RvizProperty, path: Path) -> Any:
         if place.kind not in (int, float):
             return value
         bounded = value
@@ -100,7 +102,7 @@ class Reading:
         return place.kind(bounded)
 
 
-def _is_said(place: Property, tree: Tree) -> bool:
+def _is_said(place: RvizProperty, tree: Tree) -> bool:
     """Whether a tree says what a topic is; that of a display without one is "" in RViz."""
     is_output = isinstance(place.port, Output)
     return place.path[0] in tree if is_output else place.port is not None
@@ -116,14 +118,14 @@ def struct_tree(value: msgspec.Struct) -> Tree:
     return tree
 
 
-def _written(value: Any, place: Property, first: Topic) -> Any:
+def _written(value: Any, place: RvizProperty, first: Topic) -> Any:
     if place.port:
         return topics.write(value, place.port, first)
     if isinstance(value, msgspec.Struct):
         return struct_tree(value)
     if isinstance(value, dict):
         kind = typing.get_args(place.kind)[1]
-        inner = Property(place.name, place.path, kind, None)
+        inner = RvizProperty(place.name, place.path, kind, None)
         open = place.path[-1] in WITH_CHILDREN
         return {
             name: {"Value": entry} if open else _written(entry, inner, first)

@@ -13,7 +13,7 @@ import msgspec
 from webviz.api.declared import make, to_values
 from webviz.api.registry import type_name
 from webviz.api.tool import Tool
-from webviz.files.config import Place, ToolItem, Unreadable, all_tools
+from webviz.files.config import Location, ToolItem, Unreadable, all_tools
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.displays import note_properties
@@ -37,7 +37,7 @@ NEW_TOOLS: list[Tree] = [
 """The toolbar of a file that was never RViz's."""
 
 
-def read_tools(entries: Any, report: Report, place: Place) -> list[ToolItem]:
+def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
     """The tools of the list in a .rviz file, which is at `place`; without a list, all of them."""
     if not isinstance(entries, list):
         return all_tools()

@@ -15,7 +15,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import Input
 from webviz.api.tool import Output
 from webviz.files.rviz import values
-from webviz.files.rviz.properties import Property
+from webviz.files.rviz.properties import RvizProperty
 from webviz.files.rviz.tree import Path, Tree
 from webviz.files.rviz.values import Unfit
 
@@ -28,7 +28,7 @@ OLD_KEYS = ("Image Topic", "Marker Topic")
 """Where ROS 1's RViz has topics."""
 
 
-def read(tree: Tree, place: Property, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
+def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
     """A topic of a display as plain values, and the paths they come from.
 
     Args:
@@ -54,7 +54,7 @@ def read(tree: Tree, place: Property, faults: list[tuple[Path, str]]) -> tuple[d
     return result, used
 
 
-def complete(display: dict[str, Any], topics: list[Property]) -> None:
+def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
     """Leave out names that follow from the name of a display's first topic, in place."""
     first = display.get(topics[0].name, {}).get("name") if topics else ""
     for each in topics:

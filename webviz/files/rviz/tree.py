@@ -16,7 +16,7 @@ import numpy as np
 from ruamel.yaml import YAML
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from webviz.files.config import ConfigError, Source
+from webviz.files.config import ConfigError, YamlDocument
 from webviz.files.config.representer import Representer
 
 Tree = dict[str, Any]
@@ -29,7 +29,7 @@ _MOST_DIGITS = 18
 """Longer integers stay text: not every reader has integers that large."""
 
 
-def parse(source: Source) -> Any:
+def parse(source: YamlDocument) -> Any:
     """A tree from YAML; of a key that is there twice the last one counts.
 
     Raises:

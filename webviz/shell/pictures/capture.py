@@ -21,8 +21,8 @@ from webviz.engine.sources.bag_extras import Extra
 from webviz.files.config import Config, nearest
 from webviz.files.opening import load, parse
 from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
 from webviz.shell.pictures.sizes import check_size
-from webviz.shell.pictures.stage import Shown, Stage
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.shell.ros_source import ros_source
@@ -46,7 +46,7 @@ class Picture:
     pixels: Pixels
     view: str
     at_s: float | None
-    shown: Shown
+    shown: Readiness
 
     @property
     def statuses(self) -> dict[str, Status]:
@@ -199,20 +199,20 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
             stack.callback(studio.close)
         else:
             studio.resize(*order.size)
-        stage = Stage(order.config, order.source, studio)
-        stack.callback(stage.close)
-        awaited = stage.names() if order.wait_for is None else order.wait_for
-        if not stage.names():
+        viewer = OfflineViewer(order.config, order.source, studio)
+        stack.callback(viewer.close)
+        awaited = viewer.names() if order.wait_for is None else order.wait_for
+        if not viewer.names():
             raise Error("The config shows nothing. Add a display to it, or enable one.")
         for position in positions:
             deadline = time.monotonic() + order.timeout
             at_s = None
             if isinstance(order.source, BagSource) and position is not None:
-                stage.play(order.source, position, deadline)
+                viewer.play(order.source, position, deadline)
                 at_s = seconds_from_start(position, order.source)
-            shown = stage.wait(awaited, deadline)
+            shown = viewer.wait(awaited, deadline)
             for name, view in looks:
-                studio.look(stage.focused(view, order.focus) if order.focus else view)
+                studio.look(viewer.focused(view, order.focus) if order.focus else view)
                 yield Picture(studio.capture(order.transparent), name, at_s, shown)
 
 

@@ -12,8 +12,8 @@ from webviz.api.views import View
 from webviz.edges.scene import Scene
 from webviz.engine.state import State
 from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Page, Pixels, launched
+from webviz.shell.pictures.offline_viewer import LOADING
 from webviz.shell.pictures.sizes import check_size
-from webviz.shell.pictures.stage import LOADING
 
 SUBJECT = "webviz snapshot"
 PATIENCE_S = 60.0

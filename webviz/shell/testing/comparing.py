@@ -27,7 +27,7 @@ TOLERANCE = 0.001
 GREY = 128
 """What is masked in a stored picture."""
 
-Box = tuple[int, int, int, int]
+PixelBox = tuple[int, int, int, int]
 """Left, top, right and bottom in pixels; right and bottom are the first outside."""
 
 
@@ -71,7 +71,7 @@ def _of_few_colors(pixels: Pixels) -> PIL.Image.Image:
     return PIL.Image.fromarray(pixels).quantize(COLORS, palette, dither=PIL.Image.Dither.NONE)
 
 
-def masked(pixels: Pixels, boxes: Iterable[Box]) -> Pixels:
+def masked(pixels: Pixels, boxes: Iterable[PixelBox]) -> Pixels:
     """A picture with grey instead of what does not matter."""
     result = pixels.copy()
     for left, top, right, bottom in boxes:

@@ -10,7 +10,7 @@ from webviz.api.views import View
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing.comparing import (
     TOLERANCE,
-    Box,
+    PixelBox,
     difference_image,
     load,
     masked,
@@ -74,7 +74,7 @@ class Photographer:
         self,
         name: str,
         displays: Mapping[str, str],
-        mask: Sequence[Box] = (),
+        mask: Sequence[PixelBox] = (),
         tolerance: float = TOLERANCE,
     ) -> None:
         """Compare with a reference picture, or make that.
@@ -114,7 +114,7 @@ class Photographer:
         self,
         name: str,
         displays: Mapping[str, str],
-        mask: Sequence[Box],
+        mask: Sequence[PixelBox],
         tolerance: float,
         whole: Pixels,
     ) -> None:

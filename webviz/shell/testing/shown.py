@@ -11,7 +11,7 @@ from webviz.api.views import View
 from webviz.data.messages import encode
 from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.shell.pictures.browser import Pixels
-from webviz.shell.testing.comparing import TOLERANCE, Box
+from webviz.shell.testing.comparing import TOLERANCE, PixelBox
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.pictures import Photographer
 from webviz.shell.testing.recording import RecordingScene
@@ -149,7 +149,7 @@ class Shown(Seen, ABC):
         self,
         name: str,
         *,
-        mask: Sequence[Box] = (),
+        mask: Sequence[PixelBox] = (),
         tolerance: float = TOLERANCE,
         each_display: bool | None = None,
     ) -> None:

@@ -28,7 +28,7 @@ LOADING = "Loading"
 
 
 @dataclass(frozen=True)
-class Shown:
+class Readiness:
     """How well a config is shown at one moment.
 
     Args:
@@ -53,7 +53,7 @@ class Shown:
         return all(self.statuses[name].level is Level.OK for name in self.awaited)
 
 
-class Stage:
+class OfflineViewer:
     """One config at work, without a thread of its own.
 
     Args:
@@ -98,7 +98,7 @@ class Stage:
                 source.play_step(until_ns)
                 self._viewer.turn()
 
-    def wait(self, names: Collection[str], deadline: float) -> Shown:
+    def wait(self, names: Collection[str], deadline: float) -> Readiness:
         """Draw until nothing is loaded any more and the named displays are OK.
 
         Args:
@@ -116,7 +116,7 @@ class Stage:
             self._source.inbox.arrived.clear()
             self._viewer.turn()
             state = self._state()
-            shown = Shown(self._statuses(state), state.statuses, tuple(names))
+            shown = Readiness(self._statuses(state), state.statuses, tuple(names))
             is_loading = any(LOADING in row.statuses for row in state.rows)
             is_final = shown.is_ok or isinstance(self._source, BagSource)
             if (is_final and not is_loading) or time.monotonic() > deadline:

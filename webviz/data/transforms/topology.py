@@ -21,7 +21,7 @@ from webviz.data.transforms.arrays import (
     to_rows,
 )
 from webviz.data.transforms.cache import StaticCache, TimeCache
-from webviz.data.transforms.geometry import IDENTITY, Pose
+from webviz.data.transforms.geometry import IDENTITY, PoseTuple
 from webviz.data.transforms.tree import FrameTree
 
 I64 = NDArray[np.int64]
@@ -35,7 +35,7 @@ MAX_STAMPS = 8
 _ALWAYS = np.iinfo(np.int64).max
 
 
-class Shape:
+class Topology:
     """Frames, all that is above them, and where they meet a target frame.
 
     Holds while the tree's structure does: no frame, parent or static pose may have changed since.
@@ -63,7 +63,7 @@ class Shape:
         while (above := self._parents[spine[-1]]) >= 0:
             spine.append(above)
         self._spine = np.array(spine)
-        self._jumps, self._roots = _jumps(parents)
+        self._jumps, _ = _jumps(parents)
         cut = parents.copy()
         cut[self._spine] = -1
         self._jumps_to_spine, self._meets = _jumps(cut)
@@ -156,8 +156,8 @@ class Shape:
             is_needed[asked] = is_needed[self._base] = True
             self._mark_ancestors(is_needed)
             needed = is_needed[self._moving_nodes] & (newest[self._moving_nodes] != time)
-            starts: list[Pose] = []
-            ends: list[Pose] = []
+            starts: list[PoseTuple] = []
+            ends: list[PoseTuple] = []
             ratios: list[float] = []
             for place in np.flatnonzero(needed).tolist():
                 bracket = self._moving[place].bracket(time)
