@@ -15,6 +15,13 @@ ENTRY_POINTS = """\
 [webviz.displays]
 Fence = acme_displays.fence:Polygon
 Gone = acme_displays.gone:Gone
+Torn = acme_displays.torn:Torn
+"""
+TORN = """\
+from webviz import Display, Sync
+
+class Torn(Display):
+    sync = Sync("image", "info")
 """
 CONFIG = """\
 fixed_frame: map
@@ -22,6 +29,7 @@ displays:
 - {type: Fence, color: [1, 2, 3]}
 - {type: Gone}
 - {type: Fenc}
+- {type: Torn}
 """
 
 
@@ -32,6 +40,7 @@ def run(tmp_path: Path) -> Callable[[str], str]:
     package.mkdir()
     (package / "__init__.py").touch()
     (package / "fence.py").write_text(EXAMPLE.read_text())
+    (package / "torn.py").write_text(TORN)
     info = tmp_path / "acme_displays-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-displays\nVersion: 1.0\n")
@@ -75,7 +84,7 @@ def test_a_config_can_name_it_and_is_saved_so(run: Callable[[str], str]) -> None
 def test_a_display_that_does_not_load_says_why_and_harms_no_other(
     run: Callable[[str], str],
 ) -> None:
-    fence, gone, typo = run(
+    fence, gone, typo, torn = run(
         "from pathlib import Path\n"
         "from webviz.files.opening import load\n"
         "for display in load(Path('x.yaml')).displays:\n"
@@ -84,6 +93,7 @@ def test_a_display_that_does_not_load_says_why_and_harms_no_other(
     assert fence.split() == ["Polygon"]
     place = "x.yaml:4: displays[1].type"
     assert f"{place}: acme_displays.gone:Gone does not load: ModuleNotFoundError" in gone
+    assert "Torn does not load: TypeError: Torn.sync: 'image' is not an input" in torn
     assert "no display type `Fenc` here, did you mean `Fence`?" in typo
 
 

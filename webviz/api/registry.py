@@ -13,7 +13,7 @@ import importlib.metadata
 from collections.abc import Mapping
 
 from webviz.api.declared import Declared, P
-from webviz.api.display import Display
+from webviz.api.display import Display, inputs_of
 
 _registered: dict[str, dict[str, type[Declared]]] = {}
 """Classes of every kind by owner and name."""
@@ -75,7 +75,10 @@ def _installed(kind: str) -> tuple[dict[str, type[Declared]], dict[str, str]]:
     points = importlib.metadata.entry_points(group=entry_point_group(kind))
     for point in sorted(points, key=lambda p: p.name):
         try:
-            types[point.name] = point.load()
+            cls = point.load()
+            if issubclass(cls, Display):
+                inputs_of(cls)
+            types[point.name] = cls
         except Exception as error:  # somebody else's module may raise anything
             broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
     return types, broken

@@ -17,7 +17,7 @@ class CameraView(Display):
         """Four rays, and the edge of the image 1 m ahead."""
         image, info = sample.message, sample.synced["info"].message
         fx, _, cx, _, fy, cy, *_ = info.k
-        if fx <= 0 or fy <= 0:
+        if not (fx > 0 and fy > 0):
             ctx.error("Camera", "The CameraInfo has no focal length. Calibrate the camera.")
             return
         pixels = ((0, 0), (image.width, 0), (image.width, image.height), (0, image.height))
