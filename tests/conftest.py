@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 from importlib.metadata import entry_points
 from pathlib import Path
+from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
@@ -16,6 +17,9 @@ from webviz.shell.pictures.browser import NoBrowser, launched
 # An example is not wrong because the machine was busy.
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
+
+EXPECTED = ("WebSocket connection to", "Failed to load resource")
+"""What Chromium says when a server is gone, as some tests want it."""
 
 
 def pytest_configure() -> None:
@@ -30,10 +34,39 @@ def pytest_configure() -> None:
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[playwright.Browser]:
+def said_on_consoles() -> list[str]:
+    """Errors of all pages, and warnings of our modules."""
+    return []
+
+
+@pytest.fixture(scope="session")
+def browser(said_on_consoles: list[str]) -> Iterator[playwright.Browser]:
     """One headless Chromium for all tests of pages."""
+
+    def hear(message: playwright.ConsoleMessage) -> None:
+        is_ours = "/webviz/" in message.location.get("url", "")
+        is_bad = message.type == "error" or (message.type == "warning" and is_ours)
+        if is_bad and not message.text.startswith(EXPECTED):
+            said_on_consoles.append(message.text)
+
+    def new_context(*arguments: Any, **options: Any) -> playwright.BrowserContext:
+        context = make(*arguments, **options)
+        context.on("console", hear)
+        context.on("weberror", lambda error: said_on_consoles.append(str(error.error)))
+        return context
+
     try:
         with launched() as browser:
+            make = browser.new_context
+            browser.new_context = new_context
             yield browser
     except NoBrowser as error:
         pytest.fail(str(error), pytrace=False)
+
+
+@pytest.fixture(autouse=True)
+def quiet_consoles(said_on_consoles: list[str]) -> Iterator[None]:
+    """No test makes a page report an error."""
+    yield
+    said, said_on_consoles[:] = tuple(said_on_consoles), ()
+    assert not said

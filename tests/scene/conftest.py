@@ -95,7 +95,7 @@ class View(Page):
         return {name for name in names if name.startswith("/webviz/")}
 
     def _acknowledged(self) -> bool:
-        self.scene.link.acknowledge(timeout=30)
+        self.scene.acknowledge(30)
         return True
 
 

@@ -33,8 +33,6 @@ def test_viser_has_the_loop_that_we_replace() -> None:
         (wire.SetOrientationMessage, ("name", "wxyz", "owner")),
         (wire.SceneNodeUpdateMessage, ("name", "updates", "owner")),
         (wire.RunJavascriptMessage, ("source",)),
-        (wire.LocalStorageGetItemRequestMessage, ("key", "request_uuid")),
-        (wire.LocalStorageGetItemResponseMessage, ("value", "error", "request_uuid")),
     ],
 )
 def test_messages_that_we_queue_have_the_fields_that_we_fill(

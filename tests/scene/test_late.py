@@ -27,7 +27,7 @@ def test_of_one_name_only_the_newest_work_is_sent() -> None:
     late.put("/map", lambda: 3, sent.append)
     assert not late.wait(0.0)
     go.set()
-    assert late.wait(10)
+    late.finish(10)
     assert sent == [3]
 
 
@@ -45,7 +45,7 @@ def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
     assert begun.wait(10)
     late.drop("/map")
     go.set()
-    assert late.wait(10)
+    late.finish(10)
     assert sent == ["other"]
 
 
@@ -53,7 +53,7 @@ def test_work_that_fails_is_told_and_does_not_stop_the_rest(caplog: Any) -> None
     late, sent = Late(), list[int]()
     late.put("/bad", lambda: 1 // 0, sent.append)
     late.put("/good", lambda: 1, sent.append)
-    assert late.wait(10)
+    late.finish(10)
     assert sent == [1]
     assert "/bad could not be drawn" in caplog.text
 
@@ -68,5 +68,5 @@ def test_a_picture_that_is_removed_while_it_is_encoded_leaves_nothing(
     scene.remove_group("map")
     scene.flush()
     go.set()
-    assert scene.link.late.wait(10)
+    scene.link.late.finish(10)
     assert not [m for m in call().replay() if m["type"] == "ImageMessage"]

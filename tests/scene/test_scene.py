@@ -49,7 +49,7 @@ def sent(scene: Scene) -> Callable[[], int]:
     def sent() -> int:
         before = scene.link.queued_messages
         scene.flush()
-        assert scene.link.late.wait(10.0)
+        scene.link.late.finish(10.0)
         return scene.link.queued_messages - before
 
     return sent

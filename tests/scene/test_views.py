@@ -61,13 +61,13 @@ class Window(Page):
         """Show a view, and wait until the server is told so by the page."""
         self.scene.cameras.show(view)
         (browser,) = self.scene.cameras._browsers.values()
-        self.wait_for(lambda: browser.obeyed == browser.number, "the page has told")
+        self.wait_for(lambda: self.view and browser.obeyed == browser.number, "the page has told")
         self.settle_down()
 
     def settle_down(self) -> None:
         """Wait until all that was flushed is drawn."""
         self.scene.flush()
-        self.wait_for(lambda: self.scene.link.acknowledge(30) or True, "it has all")
+        self.wait_for(lambda: self.scene.acknowledge(30) or True, "it has all")
         self.draw(4)
 
     def tell(self, change: Any, what: str) -> View:
@@ -373,7 +373,7 @@ def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
     point = window.evaluate(
         """(mouse) => {
           const world = window.__viserMutable.nodeRefFromName["/webviz"].matrixWorld;
-          return window.webvizMouse.pick(mouse).applyMatrix4(world.clone().invert()).toArray();
+          return window.webviz.pick(mouse).applyMatrix4(world.clone().invert()).toArray();
         }""",
         [column, row],
     )

@@ -1,20 +1,46 @@
-// Starts the modules, once viser's page is there, and then opens the channel.
+// Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
 import * as channel from "./channel.js";
+import constants from "./constants.js";
+import * as contact from "./contact.js";
+import * as inStep from "./in_step.js";
+import * as labels from "./labels.js";
+import * as lines from "./lines.js";
+import * as mouse from "./mouse.js";
+import * as page from "./page.js";
+import * as saveImage from "./save_image.js";
+import * as shade from "./shade.js";
+import * as tiles from "./tiles.js";
+import * as typing from "./typing.js";
+import * as view from "./view.js";
+import * as viser from "./viser_page.js";
 
-let installing = null;
-
-/** Connects the page to the server that told it its key. */
-export async function connect({ key, browser, constants }, folder) {
-  installing ??= install(constants);
-  await installing;
-  window.webviz.browser = browser;
-  channel.open(`${folder.replace(/^http/, "ws")}channel`, key);
-}
-
+// Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
-  const answer = (token) => channel.send({ type: "Answer", token });
-  channel.on("Ask", ({ token }) => answer(token));
-  window.webviz.answer = answer;
-  window.webviz.answers.splice(0).forEach(answer);
+  await viser.until(viser.hasScene);
+  for (const part of [page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
+  await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
+  for (const part of [view, mouse, saveImage]) part.install();
 }
+
+const answer = (token) => channel.send({ type: "Answer", token });
+channel.on("Ask", ({ token }) => answer(token));
+
+const installed = install();
+const address = new URL("channel", import.meta.url).href.replace(/^http/, "ws");
+
+// What the server and the pictures of webviz call.
+window.webviz = {
+  /** viser's id of this page, once it is connected. */
+  browser: null,
+  answer,
+  async connect({ browser, key, version }) {
+    // The server was replaced by one that has other modules.
+    if (version !== constants.VERSION) return location.reload();
+    await installed;
+    window.webviz.browser = browser;
+    channel.open(address, key);
+  },
+  hasView: () => view.type() !== "",
+  pick: mouse.pick,
+};

@@ -39,3 +39,69 @@ class Answer(FromPage, frozen=True):
     """Says that all has been done that came before the `Ask` with the same token."""
 
     token: str
+
+
+class Beat(ToPage, frozen=True):
+    """Says that the server is there; at least every second something does."""
+
+    kept = True
+
+
+class ShowView(ToPage, frozen=True):
+    """Puts the camera where a view says.
+
+    Args:
+        number: of this request; see `ViewReport`.
+        view, target_frame: type and target frame of the view.
+        frame: name of the node that is followed, "" for none.
+        turns: whether the camera turns with it about z.
+        position, look_at: of the camera and of what it looks at, in metres, in the coordinates of
+            that node.
+        scale: pixels per metre of a view without perspective.
+    """
+
+    number: int
+    view: str
+    target_frame: str
+    frame: str
+    turns: bool
+    position: list[float]
+    look_at: list[float]
+    scale: float | None
+
+
+class StartView(ShowView, frozen=True):
+    """The same for a page that has just joined; one that was here before stays as it is."""
+
+
+class ViewReport(FromPage, frozen=True):
+    """Says which view a page has, when it has moved its camera or changed its size.
+
+    Args:
+        number: of the last request it obeyed.
+        view, target_frame: type and target frame of the view.
+        width, height: of its picture in CSS pixels.
+    """
+
+    number: int
+    view: str
+    target_frame: str
+    width: float
+    height: float
+
+
+class SaveImage(ToPage, frozen=True):
+    """Lets a page download what it shows as a PNG of that name, "" for one made of the time."""
+
+    name: str
+
+
+class Typed(FromPage, frozen=True):
+    """Says what was typed into a dropdown.
+
+    Args:
+        uuid: viser's of the dropdown.
+    """
+
+    uuid: str
+    text: str

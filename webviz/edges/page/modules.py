@@ -1,4 +1,4 @@
-"""The JavaScript that browsers are sent: modules as they are, and the call that loads them."""
+"""The JavaScript that browsers are sent: modules as they are, and what loads them."""
 
 from __future__ import annotations
 
@@ -14,27 +14,51 @@ CHANNEL = f"{PREFIX}channel"
 """Where the websocket of the channel is."""
 CONTENT_TYPE = "text/javascript; charset=utf-8"
 
-_FILES = {
-    file.name: file.read_bytes()
-    for file in resources.files("webviz.edges.page").iterdir()
-    if file.name.endswith(".js")
-}
-_BOOTSTRAP = _FILES.pop("bootstrap.js").decode()
-_VERSION = hashlib.sha256(repr(sorted(_FILES.items())).encode()).hexdigest()[:16]
+_FOLDER = resources.files("webviz.edges.page")
+_HEAD = (_FOLDER / "head.html").read_bytes()
 
 
-def module(path: str) -> bytes | None:
-    """The module that a request asks for by its path, or None if there is none."""
-    return _FILES.get(path.removeprefix(PREFIX)) if path.startswith(PREFIX) else None
-
-
-def bootstrap(browser: int, key: str, constants: Mapping[str, Any]) -> str:
-    """A script that makes viser's page load the modules, or connect those that it has.
+class Modules:
+    """The modules of a page.
 
     Args:
-        browser: viser's id of the page.
-        key: for the channel.
-        constants: what Python and the modules share.
+        constants: what Python and the modules share; `constants.js` for the latter.
     """
-    told = {"browser": browser, "key": key, "version": _VERSION, "constants": dict(constants)}
-    return f"({_BOOTSTRAP})({json.dumps(told)});"
+
+    def __init__(self, constants: Mapping[str, Any]) -> None:
+        self._files = {
+            file.name: file.read_bytes() for file in _FOLDER.iterdir() if file.name.endswith(".js")
+        }
+        content = repr((constants, sorted(self._files.items()))).encode()
+        self._version = hashlib.sha256(content).hexdigest()[:16]
+        shared = json.dumps({**constants, "VERSION": self._version})
+        self._files["constants.js"] = f"export default {shared};\n".encode()
+
+    def get(self, path: str) -> bytes | None:
+        """The module that a request asks for by its path, or None if there is none."""
+        return self._files.get(path.removeprefix(PREFIX)) if path.startswith(PREFIX) else None
+
+    def added_to(self, page: bytes) -> bytes:
+        """viser's page with the modules, which run before its own script.
+
+        Raises:
+            ValueError: it is not an HTML page with a head.
+        """
+        start, head, rest = page.partition(b"<head>")
+        if not head:
+            raise ValueError("The page of viser has no <head>.")
+        return start + head + _HEAD + rest
+
+    def connect(self, browser: int, key: str) -> str:
+        """A script that makes a page open the channel.
+
+        Args:
+            browser: viser's id of the page.
+            key: for the channel.
+        """
+        told = json.dumps({"browser": browser, "key": key, "version": self._version})
+        return f"window.webviz?.connect({told});"
+
+    def answer(self, token: str) -> str:
+        """A script that makes a page send an `Answer` with this token."""
+        return f"window.webviz?.answer({json.dumps(token)});"

@@ -12,7 +12,7 @@ import contextlib
 import threading
 import time
 import uuid
-from collections.abc import AsyncGenerator, Callable, Iterable, Mapping, Sequence
+from collections.abc import AsyncGenerator, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,11 +23,12 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._infra import ClientId, WebsockClientConnection
 from viser.infra._messages import Message
 
-from webviz.edges.page import modules
 from webviz.edges.page.channel import Channel
-from webviz.edges.scene.contact_script import BEAT, CONTACT_SCRIPT
+from webviz.edges.page.messages import Answer, Ask, Beat
+from webviz.edges.page.modules import Modules
 from webviz.edges.scene.late import Late
 from webviz.edges.scene.outbox import Outbox
+from webviz.edges.scene.quiet_server import Server
 
 # Removal messages that may wait in the buffer before browsers that do not read are let go.
 MAX_TOMBSTONES = 10_000
@@ -67,28 +68,39 @@ class _Orientation(wire.SetOrientationMessage, include_in_scene_serialization=Tr
         return {"type": "SetOrientationMessage", "wxyz": self.wxyz, **whose}
 
 
+class _Marker(wire.RunJavascriptMessage, include_in_scene_serialization=True):
+    """Makes pages answer when they have handled all that was queued before it."""
+
+    def redundancy_key(self) -> str:
+        return self.source
+
+    def as_serializable_dict(self, binary_buffers: list[memoryview] | None = None) -> dict:
+        return {"type": "RunJavascriptMessage", "source": self.source}
+
+
 class Adapter:
     """Sends a scene's messages to every browser of one viser server.
 
     Args:
-        server: the server; its broadcast buffer is told to replay in the number of live messages.
+        server: as from `open_server`; its broadcast buffer is told to replay in the number of live
+            messages.
     """
 
     def __init__(self, server: viser.ViserServer) -> None:
+        assert isinstance(server, Server), "not opened by open_server"
         self.server = server
+        self.channel = server.channel
+        """To the modules of the pages."""
         self._socket = server._websock_server
         self._buffer: AsyncMessageBuffer = self._socket.get_message_buffer()
         self._queue = self._socket.queue_message
         self._acknowledged: dict[str, set[int]] = {}
         self._answered = threading.Condition()
-        self._listeners: dict[str, Callable[[int, str], None]] = {}
         self._removed = 0
         self.late = Late()
         """What is slow to make, and sent when it is made."""
         replay_live_messages_only(self._buffer)
-        self._socket.register_handler(
-            wire.LocalStorageGetItemResponseMessage, self._on_acknowledgement
-        )
+        self.channel.on(Answer, self._hear)
 
     def set_position(self, name: str, position: Position) -> None:
         """Places a node relative to its parent, however small the move."""
@@ -150,39 +162,6 @@ class Adapter:
             self._removed = 0
             self.server.get_event_loop().call_soon_threadsafe(self._prune)
 
-    def run_javascript(self, source: str, client: viser.ClientHandle | None = None) -> None:
-        """Runs `source` in one browser, or in every browser now and later.
-
-        Without `client` the source is kept and run again by each browser that joins: use it once.
-        """
-        message = wire.RunJavascriptMessage(source=source)
-        (self._socket if client is None else client._websock_connection).queue_message(message)
-
-    def keep_in_contact(self) -> None:
-        """Gives every browser a sign of life now and then, and lets its page say if there is none.
-
-        To be called once. It ends with the server.
-        """
-        self.run_javascript(CONTACT_SCRIPT)
-        loop = self.server.get_event_loop()
-
-        def beat() -> None:
-            # Of a kind that the page obeys without drawing; unsent ones replace each other.
-            message = wire.RemoveNotificationMessage(uuid=BEAT)
-            for client in self.server.get_clients().values():
-                client._websock_connection.queue_message(message)
-            loop.call_later(BEAT_PERIOD, beat)
-
-        loop.call_soon_threadsafe(beat)
-
-    def on_told(self, subject: str, listener: Callable[[int, str], None]) -> None:
-        """Calls `listener` with the client id and the text of what a page tells on a subject.
-
-        A page tells by a `LocalStorageGetItemResponseMessage` that has the subject as its
-        `request_uuid`; nobody vouches for the text. The listener runs on viser's event loop.
-        """
-        self._listeners[subject] = listener
-
     def camera(self, client: viser.ClientHandle) -> tuple[NDArray[np.float64], ...]:
         """A browser's camera, all of one and the same moment.
 
@@ -212,7 +191,8 @@ class Adapter:
     def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> None:
         """Waits until one connected browser, or every one, has applied everything queued so far.
 
-        That is what was queued for everybody and for that browser alone, which travel apart.
+        That is what was queued for everybody, for that browser alone, and on the channel, which
+        travel apart.
         Applied means handled in order; the pixels follow with the next frame. Not to be called on
         viser's event loop.
 
@@ -220,11 +200,9 @@ class Adapter:
             TimeoutError: a browser that is still connected did not answer within `timeout` seconds,
                 or there was still something to send it.
         """
-        shared, own = (
-            wire.LocalStorageGetItemRequestMessage(key="webviz", request_uuid=uuid.uuid4().hex)
-            for _ in range(2)
-        )
-        answered = {question.request_uuid: set[int]() for question in (shared, own)}
+        tokens = [uuid.uuid4().hex for _ in range(3)]
+        shared, own = (_Marker(self.server.modules.answer(token)) for token in tokens[:2])
+        answered = {token: set[int]() for token in tokens}
         self._acknowledged |= answered
         asked = self.server.get_clients()
         if client_id is not None:
@@ -238,6 +216,7 @@ class Adapter:
             for client in asked.values():
                 client._websock_connection.queue_message(own)
                 client.flush()
+                self.channel.send(Ask(tokens[2]), client.client_id)
             with self._answered:
                 while (asked.keys() & self.server.get_clients().keys()) - set.intersection(
                     *answered.values()
@@ -246,19 +225,15 @@ class Adapter:
                         raise TimeoutError(f"A browser did not answer within {timeout:g} s.")
                     self._answered.wait(0.05)
         finally:
-            for request in answered:
-                del self._acknowledged[request]
+            for token in tokens:
+                del self._acknowledged[token]
             self._buffer.remove_from_buffer(lambda message: message is shared)
 
-    def _on_acknowledgement(
-        self, client_id: int, message: wire.LocalStorageGetItemResponseMessage
-    ) -> None:
+    def _hear(self, browser: int, answer: Answer) -> None:
         with self._answered:
-            if message.request_uuid in self._acknowledged:
-                self._acknowledged[message.request_uuid].add(client_id)
+            if answer.token in self._acknowledged:
+                self._acknowledged[answer.token].add(browser)
                 self._answered.notify_all()
-        if message.request_uuid in self._listeners and message.value is not None:
-            self._listeners[message.request_uuid](client_id, message.value)
 
     def _prune(self) -> None:
         """Drops removal messages, and browsers that stopped reading (on the event loop).
@@ -278,19 +253,19 @@ class Adapter:
                 self._socket._live_connections[client_id].transport.abort()
 
 
-def greet(server: viser.ViserServer, channel: Channel, constants: Mapping[str, Any]) -> None:
-    """Makes every page that connects load the modules and open the channel.
+def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
+    """Makes every page that connects open the channel, and gives it a sign of life now and then.
 
     Args:
         server: the server; to be called before it has browsers.
         channel: of the server.
-        constants: what Python and the modules share.
+        modules: of its pages.
     """
     socket = server._websock_server
 
     def join(client: WebsockClientConnection) -> None:
         key = channel.join(client.client_id)
-        source = modules.bootstrap(client.client_id, key, constants)
+        source = modules.connect(client.client_id, key)
         client.queue_message(wire.RunJavascriptMessage(source=source))
 
     def leave(client: WebsockClientConnection) -> None:
@@ -301,6 +276,13 @@ def greet(server: viser.ViserServer, channel: Channel, constants: Mapping[str, A
             socket._live_connections[ClientId(browser)].transport.abort()
 
     channel.on_lost = end
+    loop = server.get_event_loop()
+
+    def beat() -> None:
+        channel.send(Beat())
+        loop.call_later(BEAT_PERIOD, beat)
+
+    loop.call_soon_threadsafe(beat)
     socket.on_client_connect(join)
     socket.on_client_disconnect(leave)
 
@@ -362,7 +344,7 @@ async def _windows(
     backlog_done_message: Message | None,
 ) -> AsyncGenerator[Sequence[Message], None]:
     # What asks whether all has arrived comes last.
-    outbox = Outbox(wire.LocalStorageGetItemRequestMessage)
+    outbox = Outbox(_Marker)
     end_of_backlog = backlog_done_message
     flushed = asyncio.ensure_future(buffer.flush_event.wait())
     buffer.generator_cursors[client_id] = outbox.cursor

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import itertools
-import json
+import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
-import msgspec
 import numpy as np
 import viser
 
@@ -24,30 +24,14 @@ from webviz.api.views import (
     type_of,
     view_of,
 )
+from webviz.edges.page.messages import SaveImage, ShowView, StartView, ViewReport
 from webviz.edges.scene.adapter import Adapter
-from webviz.edges.scene.image_script import IMAGE_SCRIPT
-from webviz.edges.scene.mouse_script import MOUSE_SCRIPT
 from webviz.edges.scene.names import node_path
-from webviz.edges.scene.view_script import REPORT, VIEW_SCRIPT, call
+
+M = TypeVar("M", bound=ShowView)
 
 ASSUMED_PX = 800.0
 """Height of a picture that nobody has told yet; the page corrects the distance."""
-
-
-class _Report(msgspec.Struct):
-    """What a page tells when it has moved its camera, or changed its size.
-
-    Args:
-        number: of the last request it obeyed.
-        type, target_frame: of the view it has.
-        width, height: of its picture in CSS pixels.
-    """
-
-    number: int
-    type: str
-    target_frame: str
-    width: float
-    height: float
 
 
 @dataclass
@@ -70,6 +54,8 @@ class _Browser:
 class Cameras:
     """The cameras of all browsers of a server; each looks as its user wants.
 
+    All methods belong to one thread, which takes what pages report when it next needs it.
+
     Args:
         link: to the server.
     """
@@ -79,9 +65,10 @@ class Cameras:
         self._start: View = Orbit()
         self._numbers = itertools.count(1)
         self._browsers: dict[int, _Browser] = {}
-        link.on_told(REPORT, self._hear)
-        for script in (VIEW_SCRIPT, MOUSE_SCRIPT, IMAGE_SCRIPT):
-            link.run_javascript(script)
+        self._lock = threading.Lock()
+        self._heard: dict[int, ViewReport] = {}
+        """Of each browser the newest report that was not taken yet."""
+        link.channel.on(ViewReport, self._hear)
         link.server.on_client_connect(self._join)
         link.server.on_client_disconnect(self._leave)
         self.start_with(self._start)
@@ -101,25 +88,23 @@ class Cameras:
 
         Its target frame is followed if `target_group` of it is in the scene.
         """
+        self._take_reports()
         number = next(self._numbers)
-        for id_, client in self._link.server.get_clients().items():
+        for id_ in self._link.server.get_clients():
             if browser in (None, id_):
                 if known := self._browsers.get(id_):
                     known.view, known.number = view, number
-                self._link.run_javascript(call("webvizView.show", _json(view, number)), client)
+                self._link.channel.send(_message(ShowView, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
         """What every browser shows now, by its id."""
-        clients = self._link.server.get_clients()
-        return {
-            id_: self._view(known, clients[id_])
-            for id_, known in tuple(self._browsers.items())
-            if id_ in clients
-        }
+        clients = self._take_reports()
+        return {id_: self._view(known, clients[id_]) for id_, known in self._browsers.items()}
 
     def target_frames(self) -> set[str]:
         """The frames that views follow, or begin to when a browser joins."""
-        views = [self._start, *(known.view for known in tuple(self._browsers.values()))]
+        self._take_reports()
+        views = [self._start, *(known.view for known in self._browsers.values())]
         return {view.target_frame for view in views} - {FIXED_FRAME}
 
     def size(self, browser: int) -> tuple[float, float]:
@@ -128,13 +113,30 @@ class Cameras:
         Raises:
             KeyError: there is no such browser.
         """
+        self._take_reports()
         return self._browsers[browser].size
 
     def save_image(self, name: str, browser: int | None = None) -> None:
         """Let a browser, or every one, download what it shows as a PNG of that name."""
-        for id_, client in self._link.server.get_clients().items():
-            if browser in (None, id_):
-                self._link.run_javascript(call("webvizImage.save", json.dumps(name)), client)
+        self._link.channel.send(SaveImage(name), browser)
+
+    def _take_reports(self) -> dict[int, viser.ClientHandle]:
+        """Learns what pages have reported; returns the browsers that are connected."""
+        with self._lock:
+            heard, self._heard = self._heard, {}
+        clients = self._link.server.get_clients()
+        for id_ in self._browsers.keys() - clients.keys():
+            del self._browsers[id_]
+        for id_, report in heard.items():
+            if id_ not in clients or report.view not in VIEW_TYPES:
+                continue  # no page of ours says that
+            size = (max(report.width, 1.0), max(report.height, 1.0))
+            if known := self._browsers.get(id_):
+                known.obeyed, known.size = report.number, size
+            else:
+                view = VIEW_TYPES[report.view](target_frame=report.target_frame)
+                self._browsers[id_] = _Browser(view, report.number, report.number, size)
+        return clients
 
     def _view(self, known: _Browser, client: viser.ClientHandle) -> View:
         if known.obeyed != known.number:
@@ -147,38 +149,27 @@ class Cameras:
     # Called on viser's event loop
 
     async def _join(self, client: viser.ClientHandle) -> None:
-        # A page that only lost its connection keeps its camera, and tells of it.
-        self._link.run_javascript(call("webvizView.join", _json(self._start, 0)), client)
+        self._link.channel.send(_message(StartView, self._start, 0), client.client_id)
 
     async def _leave(self, client: viser.ClientHandle) -> None:
-        self._browsers.pop(client.client_id, None)
+        with self._lock:
+            self._heard.pop(client.client_id, None)
 
-    def _hear(self, browser: int, text: str) -> None:
-        try:
-            report = msgspec.json.decode(text, type=_Report)
-            view = VIEW_TYPES[report.type](target_frame=report.target_frame)
-        except (msgspec.DecodeError, KeyError):
-            return  # no page of ours says that
-        size = (max(report.width, 1.0), max(report.height, 1.0))
-        known = self._browsers.get(browser)
-        if known is None:
-            self._browsers[browser] = _Browser(view, report.number, report.number, size)
-        else:
-            known.obeyed, known.size = report.number, size
+    def _hear(self, browser: int, report: ViewReport) -> None:
+        with self._lock:
+            self._heard[browser] = report
 
 
-def _json(view: View, number: int) -> str:
+def _message(kind: type[M], view: View, number: int) -> M:
     camera = camera_of(view, ASSUMED_PX)
     frame = view.target_frame
-    return json.dumps(
-        {
-            "number": number,
-            "type": type_of(view),
-            "target_frame": frame,
-            "frame": "" if frame == FIXED_FRAME else node_path(target_group(frame)),
-            "turns": isinstance(view, ThirdPersonFollower),
-            "position": camera.position.tolist(),
-            "look_at": camera.look_at.tolist(),
-            "scale": getattr(view, "scale", None),
-        }
+    return kind(
+        number=number,
+        view=type_of(view),
+        target_frame=frame,
+        frame="" if frame == FIXED_FRAME else node_path(target_group(frame)),
+        turns=isinstance(view, ThirdPersonFollower),
+        position=camera.position.tolist(),
+        look_at=camera.look_at.tolist(),
+        scale=getattr(view, "scale", None),
     )

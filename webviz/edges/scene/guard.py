@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import functools
+import gzip
 import http
 from collections.abc import Awaitable, Callable
 from typing import Any
@@ -17,8 +18,8 @@ import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
-from webviz.edges.page import modules
 from webviz.edges.page.channel import Channel, objection
+from webviz.edges.page.modules import CHANNEL, CONTENT_TYPE, Modules
 from webviz.edges.scene.connections import Connection, Gate
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
@@ -39,6 +40,7 @@ def guarded_serve(
     hosts: HostList,
     accepts: Accepts,
     channel: Channel,
+    modules: Modules,
 ) -> Callable[..., Any]:
     """Wraps `websockets.asyncio.server.serve` as viser calls it.
 
@@ -51,8 +53,14 @@ def guarded_serve(
         accepts: whether a decoded message that sets a value, changes a form or announces a file
             may pass.
         channel: to the modules of the page.
+        modules: of the page.
     """
     log = listener.log = sparing_log("webviz.server")
+
+    @functools.lru_cache(maxsize=2)
+    def page(body: bytes, is_packed: bool) -> bytes:
+        whole = modules.added_to(body)
+        return gzip.compress(whole) if is_packed else whole
 
     def process_request(
         serve_file: Callable[[Connection, Request], Response | None],
@@ -64,16 +72,12 @@ def guarded_serve(
             return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
         connection.host = request.headers["Host"].lower()
         path = request.path.partition("?")[0]
-        if (source := modules.module(path)) is not None:
+        if (source := modules.get(path)) is not None:
             response = connection.respond(http.HTTPStatus.OK, "")
-            response.body = source
-            headers = {"Content-Type": modules.CONTENT_TYPE, "Content-Length": str(len(source))}
-            for name, value in headers.items():
-                del response.headers[name]
-                response.headers[name] = value
+            fill(response, source, CONTENT_TYPE)
             response.headers["Cache-Control"] = "no-cache"
             return response
-        if is_upgrade(request) and path == modules.CHANNEL:
+        if is_upgrade(request) and path == CHANNEL:
             connection.is_channel = True
             connection.objection = objection
             return None
@@ -88,12 +92,17 @@ def guarded_serve(
         if path not in PAGES:
             status, text = NOT_FOUND
             return connection.respond(status, text + "\n")
-        # viser asks for the one header of that name.
-        encodings = request.headers.get_all("Accept-Encoding")
-        if len(encodings) > 1:
+        encodings = ", ".join(request.headers.get_all("Accept-Encoding"))
+        if encodings:
             del request.headers["Accept-Encoding"]
-            request.headers["Accept-Encoding"] = ", ".join(encodings)
-        return serve_file(connection, request)
+        response = serve_file(connection, request)
+        if response is not None:
+            is_packed = "gzip" in encodings
+            fill(response, page(bytes(response.body), is_packed), "text/html; charset=utf-8")
+            del response.headers["Content-Encoding"]
+            if is_packed:
+                response.headers["Content-Encoding"] = "gzip"
+        return response
 
     def process_response(connection: Connection, _: Request, response: Response) -> None:
         if response.status_code != http.HTTPStatus.SWITCHING_PROTOCOLS:
@@ -132,3 +141,11 @@ def guarded_serve(
         return serve(functools.partial(welcome, handler), sock=listener, **options)
 
     return guarded
+
+
+def fill(response: Response, body: bytes, content_type: str) -> None:
+    """Gives an answer another body."""
+    response.body = body
+    for name, value in (("Content-Type", content_type), ("Content-Length", str(len(body)))):
+        del response.headers[name]
+        response.headers[name] = value

@@ -9,6 +9,7 @@ from viser import ImageHandle
 
 from webviz.api.nodes import U8, Image, same
 from webviz.edges.scene.adapter import Adapter
+from webviz.edges.scene.names import TILE_PREFIX
 from webviz.edges.scene.png import encode_png
 
 # Cells per edge of a tile, more where the picture is narrow. An update sends only tiles that
@@ -16,9 +17,6 @@ from webviz.edges.scene.png import encode_png
 # accepts.
 TILE = 1024
 LONGEST_TILE = 8192
-
-# The page recognises pictures by this in their names (see page.py); no key has it when escaped.
-TILE_PREFIX = "%tile "
 
 Tile = tuple[int, int, int]
 """Layer, and row and column of the first cell. The page reads the layer from the name."""
@@ -37,10 +35,9 @@ class ImageDrawn:
 
     viser's image is unlit, in exact colours, and shows the old texture until the new one is
     decoded, so an update never blanks. Its rows run along y already, for viser hangs images upside
-    down. Sharp cells are the page's work (page.py).
+    down. Sharp cells are the page's work (tiles.js).
 
-    Tiles are encoded beside the frame loop. So until a tile is dropped there, its handle belongs
-    to that thread.
+    Tiles are encoded beside the frame loop, and sent by it.
     """
 
     def __init__(self, link: Adapter, name: str) -> None:

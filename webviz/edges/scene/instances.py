@@ -49,7 +49,7 @@ class InstancesDrawn(SingleNode[Instances]):
         solid = SOLIDS[node.shape]
         return (
             {"vertices": solid.vertices, "faces": solid.faces},
-            {"material": "toon3" if node.is_data else "standard"},  # see shade_script.py
+            {"material": "toon3" if node.is_data else "standard"},  # see shade.js
             {
                 "batched_positions": positions,
                 "batched_wxyzs": wxyzs,

@@ -8,7 +8,7 @@ import viser
 
 
 def add_lights(scene: viser.SceneApi) -> None:
-    """One that shows plain colours, until `shade_script.py` shades them.
+    """One that shows plain colours, until `shade.js` shades them.
 
     viser's own lights are too bright without tone mapping, and its image lighting stalls a browser
     without a GPU for seconds.

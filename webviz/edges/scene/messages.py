@@ -27,7 +27,6 @@ SIZES = {
     "GuiFormDirtyMessage": SMALL,
     "GuiFormSubmitMessage": SMALL,
     "GuiUpdateMessage": 512 << 10,
-    "LocalStorageGetItemResponseMessage": SMALL,
     "SceneNodeClickMessage": SMALL,
     "SceneNodeDragMessage": SMALL,
     "ScenePointerMessage": SMALL,

@@ -7,6 +7,9 @@ from urllib.parse import quote
 
 ROOT = "/webviz"
 
+TILE_PREFIX = "%tile "
+"""The page recognises pictures by this in their names; no key has it when escaped."""
+
 
 @functools.lru_cache(maxsize=10_000)
 def segment(text: str) -> str:

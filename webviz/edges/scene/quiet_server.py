@@ -10,6 +10,7 @@ import rich
 import viser
 
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.modules import Modules
 
 
 class Server(viser.ViserServer):
@@ -17,12 +18,16 @@ class Server(viser.ViserServer):
 
     Args:
         channel: to the modules of its pages.
+        modules: of its pages.
         close: sends everybody away; called on the event loop.
         options: viser's.
     """
 
-    def __init__(self, channel: Channel, close: Callable[[], None], **options: Any) -> None:
+    def __init__(
+        self, channel: Channel, modules: Modules, close: Callable[[], None], **options: Any
+    ) -> None:
         self.channel = channel
+        self.modules = modules
         self._close = close
         with _quiet():
             super().__init__(**options)

@@ -29,16 +29,12 @@ from webviz.edges.scene.cameras import Cameras
 from webviz.edges.scene.drawn import Drawn
 from webviz.edges.scene.images import ImageDrawn
 from webviz.edges.scene.instances import InstancesDrawn
-from webviz.edges.scene.label_script import LABEL_SCRIPT
 from webviz.edges.scene.labels import LabelsDrawn
-from webviz.edges.scene.line_script import LINE_SCRIPT
 from webviz.edges.scene.lines import ArrowsDrawn, LinesDrawn
 from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn
 from webviz.edges.scene.names import ROOT, node_path
-from webviz.edges.scene.page import PAGE_SCRIPT
 from webviz.edges.scene.points import PointsDrawn, keep_shaders
 from webviz.edges.scene.server import set_background
-from webviz.edges.scene.shade_script import SHADE_SCRIPT
 
 _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Points: PointsDrawn,
@@ -73,11 +69,7 @@ class Scene:
         self._groups: dict[str, _Group] = {}
         self._dirty: dict[str, _Group] = {}
         self._gone: list[_Group] = []
-        server.scene.add_frame(ROOT, show_axes=False)
         keep_shaders(server.scene, ROOT)
-        for script in (PAGE_SCRIPT, LABEL_SCRIPT, LINE_SCRIPT, SHADE_SCRIPT):
-            self.link.run_javascript(script)
-        self.link.keep_in_contact()
         self.cameras = Cameras(self.link)
 
     def has_watchers(self) -> bool:
@@ -146,6 +138,7 @@ class Scene:
             Exception: a node is malformed. It is dropped, a note names it, and what was left goes
                 with the next flush.
         """
+        self.link.late.deliver()
         if not self._dirty and not self._gone:
             return
         moves: list[Move] = []
@@ -159,6 +152,15 @@ class Scene:
             finally:
                 self.link.place(moves)
         self.link.flush()
+
+    def acknowledge(self, timeout: float) -> None:
+        """Waits until every browser has all that was flushed, also what takes time to make.
+
+        Raises:
+            TimeoutError: that takes longer than `timeout` seconds.
+        """
+        self.link.late.finish(timeout)
+        self.link.acknowledge(timeout)
 
     def _touch(self, name: str) -> _Group:
         group = self._groups.get(name)

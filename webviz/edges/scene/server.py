@@ -12,13 +12,16 @@ import websockets.asyncio.server as websocket
 
 from webviz.api.nodes import Rgb
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.modules import Modules
 from webviz.edges.scene.adapter import greet
 from webviz.edges.scene.connections import Gate
+from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
 from webviz.edges.scene.gui_values import accepts_update
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.lights import add_lights
 from webviz.edges.scene.listener import listen
+from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
 
 BACKGROUND: Rgb = (48, 48, 48)
@@ -52,10 +55,11 @@ def open_server(
         return server is not None and accepts_update(server, message)
 
     gate, hosts, channel = Gate(), HostList(host, allowed_hosts), Channel()
-    serve = guarded_serve(websocket.serve, listener, gate, hosts, accepts, channel)
+    modules = Modules(CONSTANTS)
+    serve = guarded_serve(websocket.serve, listener, gate, hosts, accepts, channel, modules)
     with _opening, replaced(websocket, "serve", serve):
-        server = Server(channel, gate.close, host=host, port=port, verbose=False)
-    greet(server, channel, {})
+        server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
+    greet(server, channel, modules)
     _prepare(server)
     return server
 
@@ -71,3 +75,4 @@ def _prepare(server: viser.ViserServer) -> None:
     add_lights(server.scene)
     server.scene.set_up_direction("+z")
     server.initial_camera.far = 1e5
+    server.scene.add_frame(ROOT, show_axes=False)

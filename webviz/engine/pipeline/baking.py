@@ -1,6 +1,6 @@
 """Nodes with their pose worked into their coordinates.
 
-The page takes poses and data of one websocket frame in one step (`scene/page.py`), but large data
+The page takes poses and data of one websocket frame in one step (`in_step.js`), but large data
 comes in a later frame than poses, which are small (`scene/outbox.py`). A scan that turns with its
 robot would flicker between the two. So what changes data and pose together is sent in coordinates
 of the fixed frame, relative to an origin that stays while the data is near it.

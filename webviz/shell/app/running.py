@@ -20,7 +20,7 @@ import PIL.Image
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
 from webviz.engine import plugins as plugin_files
-from webviz.engine.commands import Command, Refresh, Sender, StartWithView
+from webviz.engine.commands import Command, Refresh, Sender, ShowView, StartWithView
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
@@ -108,7 +108,8 @@ class Running:
             thread.start()
             stack.callback(_end, "The frame loop", thread.join)
             stack.callback(self._loop.stop)
-            self._snapshots = Snapshots(scene, self._drawn)
+            scene.link.late.wake = source.inbox.arrived.set
+            self._snapshots = Snapshots(scene, self._drawn, self._look)
             stack.callback(_end, "The browser of pictures", self._snapshots.close)
             watcher.start(self._loop.enqueue)
             stack.callback(_end, "The plug-in watcher", watcher.stop)
@@ -229,6 +230,9 @@ class Running:
     def _drawn(self) -> State:
         self.do(Refresh())
         return self.state
+
+    def _look(self, view: View, browser: int) -> None:
+        self.do(ShowView(view, browser))
 
     def _enqueue(self, command: Command, sender: Sender) -> None:
         self._loop.enqueue(command, sender)  # what comes of it stands in the state

@@ -123,11 +123,7 @@ class Page:
         self.tab.on("crash", lambda _: setattr(self, "_crashed", True))
         self._alive(lambda: self.tab.add_init_script(COUNT_UNPACKING))
         self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
-        self._alive(
-            lambda: self.tab.wait_for_function(
-                "window.__viserMutable?.scene?.webviz && window.webvizView?.type()", timeout=60_000
-            )
-        )
+        self._alive(lambda: self.tab.wait_for_function("window.webviz?.hasView()", timeout=60_000))
 
     def close(self) -> None:
         """Close the tab; one that is dead is no error."""

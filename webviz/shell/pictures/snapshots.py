@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 
 from webviz.api.errors import Error
 from webviz.api.views import View
@@ -15,7 +14,6 @@ from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Page, Pixels, 
 from webviz.shell.pictures.offline_viewer import LOADING
 from webviz.shell.pictures.sizes import check_size
 
-SUBJECT = "webviz snapshot"
 PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
@@ -26,16 +24,17 @@ class Snapshots:
     Args:
         scene: of the viewer.
         draw: brings the scene up to date, once the browser looks, and tells of it; from any thread.
+        look: puts the camera of a browser where a view says; from any thread.
     """
 
-    def __init__(self, scene: Scene, draw: Callable[[], State]) -> None:
+    def __init__(
+        self, scene: Scene, draw: Callable[[], State], look: Callable[[View, int], None]
+    ) -> None:
         self._scene = scene
         self._draw = draw
-        self._joined: dict[str, Future[int]] = {}
-        self._numbers = itertools.count(1)
+        self._look = look
         # playwright needs a thread without an event loop, which a notebook has in its own.
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
-        scene.link.on_told(SUBJECT, self._hear)
 
     def take(self, url: str, size: tuple[int, int], view: View | None = None) -> Pixels:
         """What a browser that joins now shows.
@@ -63,9 +62,9 @@ class Snapshots:
             with launched() as browser, contextlib.closing(Page(browser, url, *size)) as page:
                 self._fit(page, size)
                 page.pixels()  # the first picture of a tab has another smoothing
-                client = self._id_of(page)
+                client = page.evaluate(_BROWSER)
                 if view is not None:
-                    self._scene.cameras.show(view, client)
+                    self._look(view, client)
                 page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
                 self._scene.link.acknowledge(PATIENCE_S, client)
                 page.settle(PATIENCE_S)
@@ -84,26 +83,11 @@ class Snapshots:
         page.resize(*outer)
         page.wait_for(lambda: page.evaluate(_CANVAS) == list(size), f"a picture of {size} pixels")
 
-    def _id_of(self, page: Page) -> int:
-        """By which id the scene knows the browser."""
-        token = str(next(self._numbers))
-        self._joined[token] = Future()
-        try:
-            page.evaluate(_TELL, [SUBJECT, token])
-            return self._joined[token].result(PATIENCE_S)
-        finally:
-            del self._joined[token]
-
-    def _hear(self, client: int, token: str) -> None:
-        if (joined := self._joined.get(token)) and not joined.done():
-            joined.set_result(client)
-
 
 _CANVAS = """() => {
   const {canvas} = window.__viserMutable;
   return [canvas.width, canvas.height];
 }"""
 
-_TELL = """([subject, token]) => window.__viserMutable.sendMessage({
-  type: "LocalStorageGetItemResponseMessage", request_uuid: subject, value: token, error: null,
-})"""
+# By which id the scene knows the browser; a page that has a view is connected.
+_BROWSER = "() => window.webviz.browser"

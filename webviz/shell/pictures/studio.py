@@ -103,7 +103,7 @@ class Studio:
             TimeoutError: it takes longer than a minute.
             BrowserDied: it never will.
         """
-        self.scene.link.acknowledge(timeout=PATIENCE_S)
+        self.scene.acknowledge(PATIENCE_S)
         self.page.settle(PATIENCE_S)
 
     def capture(self, transparent: bool = False) -> Pixels:

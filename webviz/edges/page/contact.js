@@ -1,40 +1,27 @@
-"""What the page does when the server falls silent: a script that every browser runs when it joins.
+// What the page does when the server falls silent.
+//
+// The server says something at least every second. A browser learns from its websocket alone neither
+// that a server hangs nor that a radio link broke.
 
-The server says something at least every second (`Adapter.keep_in_contact`). A browser learns from
-its websocket alone neither that a server hangs nor that a radio link broke.
-"""
+import * as channel from "./channel.js";
+import * as viser from "./viser_page.js";
 
-from __future__ import annotations
+const TICK_MS = 500;
+const LOST_TICKS = 8;
 
-import json
-
-BEAT = "webviz beat"
-"""Marks the messages that only say that the server is there."""
-
-_CONSTANTS = {
-    "BEAT": BEAT,
-    "TICK_MS": 500,
-    "LOST_TICKS": 8,
-}
-
-CONTACT_SCRIPT = (
-    "(function install() {"
-    + "".join(f"const {key} = {json.dumps(value)};" for key, value in _CONSTANTS.items())
-    + """
-  const mutable = window.__viserMutable;
-  if (!mutable || !mutable.canvas) return requestAnimationFrame(install);
-  if (window.webvizContact) return;
-  const queue = mutable.messageQueue;
-  const push = queue.push;
-
+export function install() {
   // Not a clock: of a page that was busy or asleep itself, the time does not count.
   let ticks = 0;
   let heard = Date.now();
-  queue.push = function (...messages) {
+  function hear() {
     [ticks, heard] = [0, Date.now()];
     hide();
-    return push.apply(this, messages.filter(({ uuid }) => uuid !== BEAT));
-  };
+  }
+  channel.on("Beat", hear);
+  viser.filterMessages((messages) => {
+    hear();
+    return messages;
+  });
 
   // viser's page looks for its server only while it has the focus; on a second screen it has not.
   document.hasFocus = () => true;
@@ -55,7 +42,7 @@ CONTACT_SCRIPT = (
   function hide() {
     if (!banner.isConnected) return;
     banner.remove();
-    mutable.canvas.style.filter = "";
+    viser.canvas().style.filter = "";
   }
 
   function tick() {
@@ -66,10 +53,8 @@ CONTACT_SCRIPT = (
       "Check that webviz is running; this page reconnects by itself.";
     if (banner.isConnected) return;
     document.body.append(banner);
-    mutable.canvas.style.filter = "grayscale(1)";
+    viser.canvas().style.filter = "grayscale(1)";
   }
 
-  window.webvizContact = setInterval(tick, TICK_MS);
-})();
-"""
-)
+  setInterval(tick, TICK_MS);
+}

@@ -1,0 +1,117 @@
+// What the mouse and the keyboard do to the camera, as RViz has it.
+//
+// Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
+// under the mouse.
+
+import constants from "./constants.js";
+import * as views from "./view.js";
+import * as viser from "./viser_page.js";
+
+const { ROOT, EYE, FIELD_OF_VIEW } = constants;
+const NEAR_PX = 4; // what the mouse points at although it is not quite there
+
+const isFPS = () => views.type() === "FPS";
+const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
+let mouse = null;
+
+export function arm(event) {
+  const controls = viser.controls();
+  const ACTION = viser.actions();
+  const buttons = controls.mouseButtons;
+  buttons.left = event && event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
+  buttons.middle = ACTION.TRUCK;
+  buttons.right = buttons.wheel = ACTION.NONE;
+  controls.verticalDragToForward = slides();
+  // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
+  const tall = viser.canvas().clientHeight;
+  controls.azimuthRotateSpeed = controls.polarRotateSpeed = (0.005 * tall) / (2 * Math.PI);
+  controls.truckSpeed = isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
+}
+
+function walk(meters) {
+  const controls = viser.controls();
+  const eye = controls.getPosition(viser.camera().position.clone());
+  const at = controls.getTarget(eye.clone());
+  const step = at.clone().sub(eye).setLength(meters);
+  controls.setLookAt(...eye.add(step).toArray(), ...at.add(step).toArray(), false);
+}
+
+// RViz goes away by 1 % of the distance for a pixel down, and by 12 % for a notch of the wheel.
+function zoom(factor) {
+  const controls = viser.controls();
+  const distance = controls.distance * factor;
+  const { minDistance, maxDistance } = controls;
+  controls.dollyTo(Math.min(Math.max(distance, minDistance), maxDistance), false);
+}
+
+function notches({ deltaY, deltaMode }) {
+  return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
+}
+
+// The nearest thing under the mouse, or else the ground, in three.js' coordinates.
+export function pick([x, y]) {
+  const [camera, controls, canvas] = [viser.camera(), viser.controls(), viser.canvas()];
+  const world = viser.node(ROOT);
+  const box = canvas.getBoundingClientRect();
+  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
+  const point = { x: across * 2 - 1, y: 1 - down * 2 };
+  const ray = new (viser.Raycaster())();
+  ray.setFromCamera(point, camera);
+  const pixel = (2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360)) / box.height;
+  ray.params.Points.threshold = NEAR_PX * pixel;
+  ray.params.Line2 = { threshold: NEAR_PX };
+  const things = [];
+  world.traverseVisible((thing) => {
+    if (thing.isPoints && thing.geometry) thing.geometry.boundingSphere = null;
+    if (thing.isMesh || thing.isPoints) things.push(thing);
+  });
+  const [hit] = ray.intersectObjects(things, false);
+  // Not its point, which is wrong for instanced meshes.
+  if (hit) return ray.ray.at(hit.distance, camera.position.clone());
+  const { origin, direction } = ray.ray;
+  const steps = -origin.y / direction.y;
+  return steps > 0 && steps < 1e6 ? origin.addScaledVector(direction, steps) : null;
+}
+
+// RViz turns the camera to the point, and moves a view that cannot turn.
+function focus(point) {
+  const controls = viser.controls();
+  const at = point.applyMatrix4(views.followed().clone().invert());
+  if (slides() || views.type() === "TopDownOrtho") {
+    at.add(views.raised());
+    controls.moveTo(at.x, at.y, at.z, slides());
+  } else if (isFPS()) {
+    const eye = controls.getPosition(at.clone());
+    at.sub(eye).setLength(EYE).add(eye);
+    controls.setLookAt(eye.x, eye.y, eye.z, at.x, at.y, at.z, true);
+  } else {
+    controls.setTarget(at.x, at.y, at.z, true);
+  }
+}
+
+export function install() {
+  const events = viser.canvas().parentElement;
+  window.addEventListener("pointerdown", arm, true);
+  events.addEventListener("wheel", (event) => {
+    event.preventDefault();  // else the browser enlarges its page with Ctrl, or by a pinch
+    const steps = notches(event);
+    if (isFPS()) walk(-1.2 * steps);
+    else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
+  }, { passive: false });
+  events.addEventListener("pointermove", (event) => {
+    mouse = [event.clientX, event.clientY];
+    if (event.buttons !== 2 || event.pointerType === "touch") return;
+    if (isFPS()) walk(-0.1 * event.movementY);
+    else zoom(Math.pow(1.01, event.movementY));
+  });
+  events.addEventListener("pointerleave", () => (mouse = null));
+  window.addEventListener("keydown", (event) => {
+    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    if (event.key !== "f" || isTyping || !isPlain || mouse === null) return;
+    const point = pick(mouse);
+    if (point) focus(point);
+  });
+  views.onShow(arm);
+  arm();
+}

@@ -1,0 +1,232 @@
+// The view of the page: where its camera is, and what it follows.
+//
+// A view follows its target frame by a pose that is put before the camera's own when a frame is
+// drawn, read from the node of that frame at that very moment: robot and camera move in the same
+// picture, and whoever turns the camera meanwhile turns it relative to the frame. TopDownOrtho is
+// viser's camera far above with a narrow field of view, so that all that asks for these two
+// (dragging, sizes of points and labels) stays right, and the projection of the picture and of rays
+// is replaced by a parallel one.
+
+import * as channel from "./channel.js";
+import constants from "./constants.js";
+import * as viser from "./viser_page.js";
+
+const { ROOT, RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
+const SENT_MS = 100; // after which viser has told where the camera is
+
+const listeners = [];
+let camera = null;
+let canvas = null;
+let world = null;
+let cross = null;
+let view = null;
+let rig = null;
+let height = 0;
+let place = null;
+let isLost = false;
+let focal = null;
+let aimed = null;
+
+/** The type of the view, "" before there is one. */
+export const type = () => (view === null ? "" : view.view);
+/** What is put before the camera's own pose. */
+export const followed = () => (rig === null ? matrix() : rig);
+/** How far the point that the camera looks at is from the focal point of the view. */
+export const raised = () => (isRaised() ? raise() : vector([0, 0, 0]));
+/** Calls `listener` whenever another view is shown. */
+export const onShow = (listener) => listeners.push(listener);
+
+const vector = (xyz) => camera.position.clone().fromArray(xyz);
+const matrix = () => camera.matrixWorld.clone().identity();
+const isFlat = () => view !== null && view.view === "TopDownOrtho";
+
+// The world of viser has z up, that of three.js y up.
+const toThree = () => {
+  world.updateWorldMatrix(true, false);
+  return world.matrixWorld;
+};
+
+// Where the target frame is: its position, and its yaw for a view that turns with it.
+function follow() {
+  const node = view !== null && view.frame && viser.node(view.frame);
+  if (!node) return;
+  const up = toThree();
+  const m = up.clone().invert().multiply(node.matrixWorld).elements;
+  const yaw = view.turns ? Math.atan2(m[1], m[0]) : 0;
+  rig = matrix().makeRotationZ(yaw).setPosition(m[12], m[13], m[14]);
+  rig.premultiply(up).multiply(up.clone().invert());
+}
+
+// A parallel projection as large as the camera's own is where it looks at.
+function flatten(camera) {
+  const distance = viser.controls().distance;
+  const top = distance * Math.tan((camera.fov * Math.PI) / 360);
+  const right = top * camera.aspect;
+  camera.projectionMatrix.makeOrthographic(
+    -right, right, top, -top, distance / 100, distance * 2,
+    camera.coordinateSystem, camera.reversedDepth,
+  );
+  camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+}
+
+function adopt(camera) {
+  if (camera.webviz) return;
+  camera.webviz = true;
+  const { updateProjectionMatrix, updateMatrixWorld } = camera;
+  camera.updateProjectionMatrix = function () {
+    updateProjectionMatrix.call(this);
+    if (isFlat()) flatten(this);
+  };
+  camera.updateMatrixWorld = function (force) {
+    updateMatrixWorld.call(this, force);
+    if (rig === null) return;
+    this.matrixWorld.premultiply(rig);
+    this.matrixWorldInverse.copy(this.matrixWorld).invert();
+  };
+}
+
+function remember() {
+  if (viser.isFirstBatch()) isLost = true;
+  if (isLost || view === null) return;
+  const controls = viser.controls();
+  place = [controls.getPosition(vector([0, 0, 0])), controls.getTarget(vector([0, 0, 0]))];
+}
+function rejoin() {
+  const [position, target] = place;
+  viser.controls().setLookAt(...position.toArray(), ...target.toArray(), false);
+  viser.sendCamera();
+  setTimeout(report, SENT_MS);
+}
+
+// What viser keeps before the camera, and the cross where it turns about, without knowing rigs.
+function dress(camera) {
+  if (cross) cross.visible = rig === null;
+  for (const child of viser.scene().children) {
+    if (child.material && child.material === viser.backgroundMaterial()) {
+      const depth = isFlat() ? viser.controls().distance : 1;
+      const tall = 2 * depth * Math.tan((camera.fov * Math.PI) / 360);
+      const scale = matrix().makeScale(tall * camera.aspect, tall, 1).setPosition(0, 0, -depth);
+      child.matrixWorld.multiplyMatrices(camera.matrixWorld, scale);
+    }
+  }
+}
+
+// XYOrbit looks at a point that is as far from its focal point, along the camera's own up, as the
+// camera is far away. Turning and zooming leave the focal point, moving moves it on the ground.
+const isRaised = () =>
+  view !== null && (view.view === "XYOrbit" || view.view === "ThirdPersonFollower");
+function raise() {
+  const { azimuthAngle, polarAngle, distance } = viser.controls();
+  const back = -Math.cos(polarAngle);
+  return vector([
+    back * Math.sin(azimuthAngle), Math.sin(polarAngle), back * Math.cos(azimuthAngle),
+  ]).multiplyScalar(RAISED * distance);
+}
+function settle() {
+  if (!isRaised() || focal === null) return;
+  const controls = viser.controls();
+  const target = controls.getTarget(vector([0, 0, 0]));
+  focal.add(target).sub(aimed).setY(0);
+  const wanted = focal.clone().add(raise());
+  aimed = target;
+  if (target.distanceTo(wanted) < 1e-9 * (1 + wanted.length())) return;
+  controls.moveTo(wanted.x, wanted.y, wanted.z, false);
+  aimed = wanted;
+}
+
+function report() {
+  channel.send({
+    type: "ViewReport",
+    number: view.number,
+    view: view.view,
+    target_frame: view.target_frame,
+    width: canvas.clientWidth,
+    height: canvas.clientHeight,
+  });
+}
+
+function show(wanted) {
+  if (view === null || view.frame !== wanted.frame) rig = null;
+  view = wanted;
+  height = canvas.clientHeight;
+  const controls = viser.controls();
+  const up = toThree();
+  const target = vector(view.look_at);
+  const offset = vector(view.position).sub(target);
+  const fov = isFlat() ? FLAT_FIELD_OF_VIEW : FIELD_OF_VIEW;
+  if (isFlat()) offset.setLength(height / view.scale / 2 / Math.tan(fov / 2));
+  const position = target.clone().add(offset).applyMatrix4(up);
+  target.applyMatrix4(up);
+  controls.minDistance = view.view === "FPS" ? EYE : 0.01;
+  controls.maxDistance = Infinity;
+  viser.setMaxOrbitDistance(1e7);
+  controls.minPolarAngle = 0;
+  controls.maxPolarAngle = Math.PI;
+  camera.fov = (fov * 180) / Math.PI;
+  adopt(camera);
+  controls.setLookAt(...position.toArray(), ...target.toArray(), false);
+  controls.update(0);
+  aimed = controls.getTarget(vector([0, 0, 0]));
+  focal = isRaised() ? aimed.clone().sub(raise()) : null;
+  if (isFlat()) controls.minPolarAngle = controls.maxPolarAngle = controls.polarAngle;
+  camera.updateProjectionMatrix();
+  for (const listener of listeners) listener();
+  viser.sendCamera();
+  viser.requestRender();
+  setTimeout(report, SENT_MS);
+}
+
+function join(start) {
+  isLost = false;
+  if (place === null) show(start);
+  else rejoin();
+}
+
+export function install() {
+  camera = viser.camera();
+  canvas = viser.canvas();
+  world = viser.node(ROOT);
+  height = canvas.clientHeight;
+  cross = viser.scene().children.find((child) => {
+    let found = false;
+    child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
+    return found;
+  });
+
+  const rays = viser.Raycaster().prototype;
+  const fromCamera = rays.setFromCamera;
+  rays.setFromCamera = function (point, camera) {
+    fromCamera.call(this, point, camera);
+    if (!isFlat() || !camera.webviz) return;
+    const near = camera.reversedDepth ? 1 : -1;
+    this.ray.origin.set(point.x, point.y, near).unproject(camera);
+    this.ray.direction.set(0, 0, -1).transformDirection(camera.matrixWorld);
+  };
+
+  // Labels stand where their parents were in the frame before, unless that is brought up to date
+  // between viser's placing of nodes and of labels.
+  viser.eachFrame(-900, () => rig !== null && viser.scene().updateMatrixWorld());
+  // When a lost connection is back, viser puts the camera where browsers begin: it goes back from
+  // there to where it was before the first messages came.
+  viser.eachFrame(-1e6, remember);
+
+  viser.beforeRender((gl, scene, camera) => {
+    adopt(camera);
+    if (isFlat()) flatten(camera);
+    follow();
+    camera.updateMatrixWorld();
+    dress(camera);
+    settle();
+  });
+
+  new ResizeObserver(() => {
+    const tall = canvas.clientHeight;
+    if (view === null || tall === 0 || tall === height) return;
+    if (isFlat()) viser.controls().dollyTo((viser.controls().distance * tall) / height, false);
+    height = tall;
+    setTimeout(report, SENT_MS);
+  }).observe(canvas);
+
+  channel.on("ShowView", show);
+  channel.on("StartView", join);
+}

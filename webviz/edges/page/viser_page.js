@@ -1,0 +1,125 @@
+// The only module that touches viser's page: its objects, its three.js scene, its messages.
+//
+// Written for the version in `VISER`. tests/scene/test_viser_page.py holds what is accessed here:
+// another version of viser fails there, and says which access it lacks and what needs it.
+
+export const VISER = "1.1.1";
+
+const page = () => window.__viserMutable;
+
+// What has to be there, and what for. A path of a function ends with ().
+const NEEDS = {
+  "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
+  "scene.__r3f.root.getState()": "everything of three.js",
+  "scene.__r3f.root.getState().gl.renderBufferDirect()": "surfaces that are transparent",
+  "scene.__r3f.root.getState().raycaster.setFromCamera()": "picking what is under the mouse",
+  "scene.__r3f.root.getState().internal.subscribe()": "views that follow a frame",
+  "canvas.clientHeight": "views without perspective",
+  "camera.projectionMatrix.makeOrthographic()": "views without perspective",
+  "cameraControl.setLookAt()": "views",
+  "cameraControl.getPosition()": "views",
+  "cameraControl.getTarget()": "views",
+  "cameraControl.moveTo()": "views",
+  "cameraControl.dollyTo()": "zooming",
+  "cameraControl.mouseButtons.left": "the mouse",
+  "cameraControl.constructor.ACTION.TRUCK": "the mouse",
+  "configuredMaxOrbitDistance": "views from far away",
+  "backgroundMaterial.uniforms": "the background of views that follow a frame",
+  "nodeRefFromName": "nodes of the scene by their names",
+  "messageQueue.push()": "controls that go, and noticing that the server is silent",
+  "firstMessageBatch": "poses and data in one step, and views after a lost connection",
+  "drainMessageQueue()": "poses and data in one step",
+  "requestRender()": "drawing what has changed",
+  "sendCamera()": "telling the server where a camera is",
+};
+
+/** What this page lacks of what is accessed here: sentences, none if it is viser's of `VISER`. */
+export function missing() {
+  const lacks = [];
+  for (const [path, use] of Object.entries(NEEDS)) {
+    let owner = null;
+    let value = page();
+    for (const part of path.split(".")) {
+      owner = value;
+      value = value?.[part.replace("()", "")];
+      if (part === "getState()") value = value?.call(owner);
+    }
+    const isThere = path.endsWith("()") ? value !== undefined && value !== null : value !== undefined;
+    if (!isThere) lacks.push(`viser's page has no ${path}, which is needed for ${use}.`);
+  }
+  return lacks;
+}
+
+/** Resolves when a condition holds, which is looked at before each frame. */
+export function until(condition) {
+  return new Promise((resolve) => {
+    (function look() {
+      if (condition()) resolve();
+      else requestAnimationFrame(look);
+    })();
+  });
+}
+
+export const hasScene = () => Boolean(page()?.scene?.__r3f?.root && page().canvas);
+export const hasCamera = () => Boolean(page()?.cameraControl && page().camera);
+
+export const scene = () => page().scene;
+export const canvas = () => page().canvas;
+export const camera = () => page().camera;
+export const controls = () => page().cameraControl;
+export const actions = () => page().cameraControl.constructor.ACTION;
+export const gl = () => three().gl;
+export const Raycaster = () => three().raycaster.constructor;
+export const backgroundMaterial = () => page().backgroundMaterial;
+
+/** All nodes of the scene by their names; some may be undefined. */
+export const nodes = () => page().nodeRefFromName;
+export const node = (name) => page().nodeRefFromName[name];
+
+export const requestRender = () => page().requestRender();
+export const sendCamera = () => page().sendCamera();
+export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistance = meters);
+
+/** Whether the messages are yet to be handled that make the scene after connecting. */
+export const isFirstBatch = () => page().firstMessageBatch;
+
+/** Handles the messages that have come, as viser does when it draws a frame. */
+export function takeMessages() {
+  if (page().messageQueue.length && page().drainMessageQueue) page().drainMessageQueue();
+}
+
+/** Passes messages as they come to `pass`, with those that wait; what it returns is handled. */
+export function filterMessages(pass) {
+  const queue = page().messageQueue;
+  const { push } = queue;
+  queue.push = function (...messages) {
+    return push.apply(this, pass(messages, queue));
+  };
+}
+
+/** Calls `act(gl, scene, camera, target)` each time before the scene is drawn. */
+export function beforeRender(act) {
+  const before = scene().onBeforeRender;
+  scene().onBeforeRender = function (...args) {
+    before.apply(this, args);
+    act(...args);
+  };
+}
+
+/** Calls `act` in each frame; viser places nodes at -1000 and labels at 0. */
+export function eachFrame(priority, act) {
+  const { root } = scene().__r3f;
+  root.getState().internal.subscribe({ current: act }, priority, root);
+}
+
+/** Calls `act(material)` before anything is drawn with it. */
+export function beforeDraw(act) {
+  const renderer = gl();
+  const draw = renderer.renderBufferDirect;
+  renderer.renderBufferDirect = function (camera, fog, geometry, material, ...rest) {
+    act(material);
+    draw.call(this, camera, fog, geometry, material, ...rest);
+  };
+}
+
+const three = () => scene().__r3f.root.getState();

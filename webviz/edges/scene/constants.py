@@ -1,0 +1,19 @@
+"""What Python shares with the modules of the page."""
+
+from __future__ import annotations
+
+from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
+from webviz.edges.scene.names import ROOT, TILE_PREFIX
+
+DARKEST = 0.3
+"""Share of its colour that a surface has which is seen edge on; in RViz it is black."""
+
+CONSTANTS = {
+    "ROOT": ROOT,
+    "TILE_PREFIX": TILE_PREFIX,
+    "DARKEST": DARKEST,
+    "RAISED": RAISED,
+    "EYE": EYE,
+    "FIELD_OF_VIEW": FIELD_OF_VIEW,
+    "FLAT_FIELD_OF_VIEW": FLAT_FIELD_OF_VIEW,
+}
