@@ -24,7 +24,7 @@ QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages
 # A long file that comes last would leave one of the processes without work.
 FIRST := $(addprefix tests/,benchmarks e2e gui capture)
 
-.PHONY: install test quick check bench browser
+.PHONY: install test quick check bench browser docs
 
 install: $(VENV)/ready
 
@@ -48,6 +48,10 @@ check: $(VENV)/ready-to-test
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.
 bench: $(VENV)/ready-to-bench
 	@PYTHONPATH=tests/benchmarks:tests/support $(VENV)/bin/python -m side_by_side $(ARGS)
+
+# All that is generated from declarations; RVIZ="a.rviz b.rviz" counts what is carried over of them.
+docs: $(VENV)/ready
+	@$(VENV)/bin/python -m webviz.shell.docs $(RVIZ)
 
 browser:
 	@for b in chromium chromium-browser google-chrome; do command -v $$b >/dev/null && exit 0; done; \

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from webviz.api.registry import display_types
-from webviz.edges.gui import docs
+from webviz.shell import docs
 
 DOCUMENTS = sorted(
     [*docs.PAGES.rglob("*.md"), docs.ROOT / "README.md", docs.ROOT / "CONTRIBUTING.md"]

@@ -29,8 +29,10 @@ if TYPE_CHECKING:
         Rgb,
         Solid,
     )
+    from webviz.api.panel import Panel, Send, Ui
     from webviz.api.sample import Sample
     from webviz.api.status import Level, Status
+    from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
     from webviz.shell.pictures.capture import capture
 
@@ -54,16 +56,20 @@ __all__ = [
     "Lines",
     "Mesh",
     "Node",
+    "Panel",
     "Placement",
     "Points",
     "Pose",
     "Prop",
     "Rgb",
     "Sample",
+    "Send",
     "Solid",
+    "State",
     "Status",
     "Sync",
     "Topic",
+    "Ui",
     "Viewer",
     "capture",
     "compose",
@@ -91,8 +97,10 @@ _HOMES = {
         "Rgb",
         "Solid",
     ),
+    "webviz.api.panel": ("Panel", "Send", "Ui"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Status"),
+    "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),
 }
 """Where each name comes from: imported when it is asked for, since all of it takes a while."""

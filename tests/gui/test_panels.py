@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from webviz.api import registry
 from webviz.api.panel import Panel, Send, Ui
-from webviz.engine.commands import Reset
-from webviz.engine.state import State
+from webviz.api.registry import plugin_types
+from webviz.engine.commands import InspectTopic, Reset
+from webviz.engine.plugins import load
+from webviz.engine.state import State, Traffic
 
+EXAMPLE = Path(__file__).parents[2] / "displays/docs/examples/quiet_topics.py"
 TABS = ["Displays", "Views", "Time", "TF tree", "Topics"]
 HOSTILE = "<img src=x onerror=alert(1)>"
 
@@ -112,3 +116,22 @@ def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
     tab.wait_for(lambda: moody not in tab.text())
     tab.show_tab("Time")
     tab.wait_for(lambda: loop.turn() or "ROS Elapsed" in tab.text())
+
+
+def test_the_example_of_the_docs_works_from_its_file(loop: Any, tab: Any) -> None:
+    types = load(EXAMPLE)
+    try:
+        loop.show(traffic={"/scan": Traffic(0.0, 0.0), "/map": Traffic(2.0, 10.0)})
+        tab.show_tab("Quiet topics")
+        tab.wait_for(lambda: "no messages" in tab.text())
+        assert "/scan" in tab.text()
+        assert "/map" not in tab.text()
+        tab.click("Look into none")
+        assert loop.commands == [InspectTopic("")]
+        load(EXAMPLE)  # after a save: the same tab, of the new class
+        loop.show(traffic={})
+        assert plugin_types(Panel)["QuietTopics"] is not types["QuietTopics"]
+        tab.show_tab("Quiet topics")
+        tab.wait_for(lambda: loop.turn() or "has messages" in tab.text())
+    finally:
+        registry.register(str(EXAMPLE), {})

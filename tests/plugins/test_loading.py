@@ -69,8 +69,11 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
         ("\n\nimport nowhere_at_all\n", ":3 does not load: ModuleNotFoundError: No module named"),
         ("def f():\n    raise ValueError\nf()\n", ":2 does not load: ValueError."),
         ("import sys\nsys.exit('bye')\n", ":2 does not load: SystemExit: bye."),
-        ("x = 1\n", " has no display: no subclass of webviz.Display is defined in it."),
-        ("from webviz_displays.grid import Grid\n", " has no display: "),
+        (
+            "x = 1\n",
+            " has no plug-in: no subclass of Display, Tool or Panel ",
+        ),
+        ("from webviz_displays.grid import Grid\n", " has no plug-in: "),
         (
             f"{IMPORT}class Grid(Display): pass\n",
             " cannot be used: an installed package has a display named Grid; rename the class.",

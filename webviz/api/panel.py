@@ -133,8 +133,6 @@ class Panel(Declared, kw_only=True, dict=True):
     """Base of all panels. What it raises stands in its tab, and the other panels go on."""
 
     kind: ClassVar[str] = "panel"
-    title: ClassVar[str] = ""
-    """Of the tab; "" is the name of the class."""
     place: ClassVar[int] = 100
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 

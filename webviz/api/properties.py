@@ -10,17 +10,17 @@ from typing import Annotated, Any, Literal
 import msgspec
 import msgspec.inspect
 
-from webviz.api.display import Display, Input, inputs_of
+from webviz.api.display import Input
 
 FIRST = ("name", "enabled")
 
 
 @dataclass(frozen=True)
 class Property:
-    """One property of a display.
+    """One property of a display, tool or panel.
 
     Args:
-        path: dotted, from the display.
+        path: dotted, from the whole.
         label: RViz's name, with the unit.
         help: one sentence, or "".
         type: its type, bounds included.
@@ -41,33 +41,31 @@ class Property:
     choices: tuple[Any, ...]
     children: tuple[Property, ...]
 
-    def of(self, display: Display) -> Any:
+    def of(self, declared: msgspec.Struct) -> Any:
         """Its value."""
-        return value_at(display, self.path)
+        return value_at(declared, self.path)
 
-    def applies(self, display: Display) -> bool:
+    def applies(self, declared: msgspec.Struct) -> bool:
         """Whether it has a meaning as the other properties are."""
-        return all(value_at(display, path) in values for path, values in self.when)
+        return all(value_at(declared, path) in values for path, values in self.when)
 
 
-def value_at(display: Display, path: str) -> Any:
+def value_at(declared: msgspec.Struct, path: str) -> Any:
     """The value at a dotted path."""
-    value: Any = display
+    value: Any = declared
     for name in path.split("."):
         value = getattr(value, name)
     return value
 
 
 @functools.cache
-def properties_of(cls: type[Display]) -> tuple[Property, ...]:
-    """The properties of a display class, the name first."""
-    found = _properties(cls, "", "", inputs_of(cls))
+def properties_of(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
+    """The properties of a class, such as a display or tool; the name first."""
+    found = _properties(cls, "", "")
     return tuple(sorted(found, key=lambda each: each.path not in FIRST))
 
 
-def _properties(
-    cls: type[msgspec.Struct], prefix: str, group: str, inputs: dict[str, Input]
-) -> tuple[Property, ...]:
+def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Property, ...]:
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = typing.get_type_hints(cls, include_extras=True)
@@ -86,9 +84,9 @@ def _properties(
                 type=type_,
                 when=_conditions(name, prefix, declared, hints),
                 widget=known.get("widget", ""),
-                input=inputs.get(name),
+                input=_input(hints[name]),
                 choices=_choices(hints[name]),
-                children=_properties(nested, f"{prefix}{name}.", label, {}) if nested else (),
+                children=_properties(nested, f"{prefix}{name}.", label) if nested else (),
             )
         )
     return tuple(found)
@@ -119,6 +117,11 @@ def _conditions(
     choices = _choices(hints[other]) or values
     condition = prefix + other, tuple(value for value in values if value in choices)
     return (condition, *_conditions(other, prefix, declared, hints))
+
+
+def _input(hint: Any) -> Input | None:
+    marks = getattr(hint, "__metadata__", ())
+    return next((mark for mark in marks if isinstance(mark, Input)), None)
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:

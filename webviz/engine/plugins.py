@@ -1,4 +1,4 @@
-"""Displays from a file, `--plugin FILE.py`, that follow the file while it is edited.
+"""Plug-ins from a file, `--plugin FILE.py`, that follow the file while it is edited.
 
 A save that does not load changes nothing but a status. After a good one every display of the file
 goes on as an instance of its new class, with the values it had.
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from webviz.api import registry
-from webviz.api.declared import make, set_property, to_values
+from webviz.api.declared import Declared, make, set_property, to_values
 from webviz.api.display import Display, inputs_of
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
@@ -39,14 +39,14 @@ class PluginError(Error):
     """A file cannot be used as a plug-in; one sentence that names the file and the place in it."""
 
 
-def load(path: Path) -> dict[str, type[Display]]:
-    """Run a Python file and register the displays it defines, in place of those it had before.
+def load(path: Path) -> dict[str, type[Declared]]:
+    """Run a Python file and register the plug-ins it defines, in place of those it had before.
 
-    Every subclass of `Display` that the file itself defines counts, by the name of the class,
-    unless that begins with an underscore.
+    Every subclass of `Display`, `Tool` or `Panel` that the file itself defines counts, by the name
+    of the class, unless that begins with an underscore.
 
     Raises:
-        PluginError: the file is missing, no Python, raises, has no display, or has one that cannot
+        PluginError: the file is missing, no Python, raises, has no plug-in, or has one that cannot
             be made or whose name is taken. What was registered before stays.
     """
     name = _module_name(path)
@@ -82,8 +82,9 @@ def reload(path: Path, runners: Iterable[Runner]) -> None:
             runner.remarks[STATUS] = Status(Level.ERROR, str(error))
         return
     log.info("%s was loaded again.", path)
+    displays = {name: cls for name, cls in types.items() if issubclass(cls, Display)}
     for runner in own:
-        _renew(runner, types, path)
+        _renew(runner, displays, path)
 
 
 class Watcher:
@@ -149,19 +150,21 @@ def _compiled(path: Path) -> Any:
         raise PluginError(f"{path} is not valid Python: {error}.") from error
 
 
-def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Display]]:
+def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]:
     try:
         exec(code, vars(module))
-        types = _displays_of(module)
+        types = _classes_of(module)
         for cls in types.values():
-            inputs_of(cls)
+            if issubclass(cls, Display):
+                inputs_of(cls)
             make(cls, msgspec.to_builtins(cls()))  # defaults fit their own types and bounds
     except (Exception, SystemExit) as error:  # somebody else's code may raise anything
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)
         text = f"{type(error).__name__}: {error}".rstrip(": ").rstrip(".")
         raise PluginError(f"{place} does not load: {text}.") from error
     if not types:
-        raise PluginError(f"{path} has no display: no subclass of webviz.Display is defined in it.")
+        bases = "Display, Tool or Panel"
+        raise PluginError(f"{path} has no plug-in: no subclass of {bases} is defined in it.")
     try:
         registry.register(str(path), types)
     except ValueError as error:
@@ -169,12 +172,13 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Display]]:
     return types
 
 
-def _displays_of(module: ModuleType) -> dict[str, type[Display]]:
+def _classes_of(module: ModuleType) -> dict[str, type[Declared]]:
     return {
         value.__name__: value
         for value in vars(module).values()
         if isinstance(value, type)
-        and issubclass(value, Display)
+        and issubclass(value, Declared)
+        and value.kind
         and value.__module__ == module.__name__
         and not value.__name__.startswith("_")
     }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import ClassVar
 
 from webviz.api.panel import Panel, Send, Ui
 from webviz.engine.commands import InspectTransforms
@@ -17,7 +16,7 @@ NOTHING = "No transforms yet on /tf or /tf_static."
 class TFTree(Panel):
     """The tree of transforms: who publishes each frame, how often, and how old it is."""
 
-    title: ClassVar[str] = "TF tree"
+    title = "TF tree"
     place = 40
 
     def build(self, ui: Ui, send: Send) -> None:

@@ -1,11 +1,7 @@
-"""Writes the page on .rviz files: `python -m webviz.files.rviz.docs`.
-
-The files to count are given as arguments.
-"""
+"""The page on .rviz files, from those that are given to `make docs`."""
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -19,7 +15,7 @@ from webviz.files.rviz.report import Report, percent
 from webviz.files.rviz.rest import SAME_HERE, WHY_NOT
 
 PAGE = Path(__file__).parents[3] / "displays/docs/config/rviz.md"
-COMMAND = "`python -m webviz.files.rviz.docs FILE.rviz ...`"
+COMMAND = '`make docs RVIZ="FILE.rviz ..."`'
 
 INTRO = """\
 # RViz's files
@@ -85,7 +81,3 @@ def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str]:
 
 def _row(cells: tuple[str, ...]) -> str:
     return f"| {' | '.join(cells)} |"
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(map(Path, sys.argv[1:])), encoding="utf-8")

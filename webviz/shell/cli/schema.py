@@ -17,7 +17,7 @@ from webviz.shell.cli.options import File, Plugins
 
 SHIPPED = Path(__file__).parents[2] / "files" / "config" / "webviz.schema.json"
 """That of the displays and tools that come with webviz."""
-COMMAND = "`webviz schema -o webviz/files/config/webviz.schema.json`"
+COMMAND = "`make docs`"
 
 EXAMPLES = """\
 Examples:

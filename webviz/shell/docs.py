@@ -1,7 +1,9 @@
-"""Writes the pages about the displays from their declarations: `python -m webviz.edges.gui.docs`.
+"""Writes all that is generated from declarations: `make docs`.
 
-What a declaration cannot tell (what each status means, what differs from RViz2) stands in
-`notes.yaml` beside the pages; the pictures are those of `tests/pictures`.
+That is the pages about displays, tools and panels, the shipped schema of config files and, of the
+.rviz files given as arguments, the page on what is carried over. What a declaration cannot tell
+(what each status means, what differs from RViz2) stands in `notes.yaml` beside the pages; the
+pictures are those of `tests/pictures`.
 """
 
 from __future__ import annotations
@@ -16,15 +18,19 @@ import msgspec
 import msgspec.inspect as inspect
 from ruamel.yaml import YAML
 
-from webviz.api.declared import Color, Topic
+from webviz.api.declared import Color, Declared, P, Topic
 from webviz.api.display import Display, inputs_of
+from webviz.api.panel import Panel
 from webviz.api.properties import FIRST, Property, properties_of, value_at
-from webviz.api.registry import display_types
+from webviz.api.registry import plugin_types
+from webviz.api.tool import Tool, outputs_of
+from webviz.files.rviz import docs as rviz
+from webviz.shell.cli import schema
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "displays/docs"
 PICTURES = ROOT / "tests/pictures"
-COMMAND = "python -m webviz.edges.gui.docs"
+COMMAND = "make docs"
 BUILT_IN = ("webviz_displays", "webviz")
 
 COLOR = msgspec.inspect.type_info(Color)
@@ -51,11 +57,21 @@ class Notes(msgspec.Struct, forbid_unknown_fields=True):
 def pages() -> dict[str, str]:
     """The text of every generated page by its file name."""
     notes = read_notes()
-    types = {n: c for n, c in display_types().items() if c.__module__.split(".")[0] in BUILT_IN}
+    types = built_in(Display)
     found = {
         page_name(name): page(name, cls, notes.get(name, Notes())) for name, cls in types.items()
     }
-    return found | {"README.md": index(types, notes["every display"])}
+    return found | {
+        "README.md": index(types, notes["every display"]),
+        "tools.md": tools_page(built_in(Tool)),
+        "panels.md": panels_page(built_in(Panel)),
+    }
+
+
+def built_in(base: type[P]) -> dict[str, type[P]]:
+    """The classes of a kind that come with webviz, by name."""
+    types = plugin_types(base)
+    return {n: c for n, c in types.items() if c.__module__.split(".")[0] in BUILT_IN}
 
 
 def read_notes() -> Mapping[str, Notes]:
@@ -94,11 +110,33 @@ def page(name: str, cls: type[Display], notes: Notes) -> str:
     return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
 
 
+def tools_page(types: Mapping[str, type[Tool]]) -> str:
+    """Everything about the tools."""
+    lines = ["# The tools", "", "The toolbar of the page has a button for each.", ""]
+    for name, cls in types.items():
+        lines += [f"## {cls.title or name}", "", *paragraphs(cls), ""]
+        lines += [f"RViz2's `{cls.rviz}`. In a config file: `- type: {name}` of `tools`."]
+        lines += [f"Key: `{cls.shortcut}`." if cls.shortcut else "", ""]
+        rows = [(f"`{key}`", f"`{out.type}`") for key, out in outputs_of(cls).items()]
+        lines += [*table(("output", "message"), rows), "", *properties_table(cls), ""]
+    return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
+
+
+def panels_page(types: Mapping[str, type[Panel]]) -> str:
+    """Everything about the panels."""
+    in_order = sorted(types.items(), key=lambda item: (item[1].place, item[0]))
+    rows = [(c.title or name, next(iter(paragraphs(c)))) for name, c in in_order]
+    lines = ["# The panels", "", "Each is a tab of the page.", "", *table(("tab", "shows"), rows)]
+    return "\n".join([*lines, "", f"Written by `{COMMAND}`.", ""])
+
+
 def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     """The page that leads to all others."""
     lines = ["# The displays", ""]
     rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
     lines += table(("display", "shows"), rows)
+    lines += ["", "There are [tools](tools.md) and [panels](panels.md) besides, also "]
+    lines[-1] += "[of your own](examples/README.md)."
     lines += ["", "Where something looks wrong on a robot:", ""]
     for path in sorted((PAGES / "stories").glob("*.md")):
         title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
@@ -118,8 +156,8 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     return "\n".join([*lines, "", f"Written by `{COMMAND}`.", ""])
 
 
-def paragraphs(cls: type[Display]) -> list[str]:
-    """The docstring of a display, a line for each paragraph."""
+def paragraphs(cls: type[Declared]) -> list[str]:
+    """The docstring of a class, a line for each paragraph."""
     text = "\n".join(line.strip() for line in (cls.__doc__ or "").splitlines()).strip()
     return [" ".join(part.split()) for part in text.split("\n\n")]
 
@@ -149,38 +187,43 @@ def inputs_table(cls: type[Display]) -> list[str]:
     return [*table(("input", "message", "default topic", "QoS"), rows), ""] if rows else []
 
 
-def properties_table(cls: type[Display]) -> list[str]:
+def properties_table(cls: type[Declared]) -> list[str]:
     """All properties with what a declaration says of them."""
     rows = list(property_rows(properties_of(cls), cls()))
     return table(("property", "key", "values", "default", "what it does"), rows)
 
 
-def property_rows(found: tuple[Property, ...], display: Display) -> Iterator[tuple[str, ...]]:
+def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[tuple[str, ...]]:
     """A row for each property, those of nested settings after their group's."""
     for each in found:
         if each.path in FIRST:
             continue
-        if each.children and each.input is None:
-            yield from property_rows(each.children, display)
+        if each.children and not is_topic(each):
+            yield from property_rows(each.children, declared)
             continue
         when = ", ".join(
             f"`{path}` is {' or '.join(map(default_of, values))}" for path, values in each.when
         )
         note = f" Where {when}." if when else ""
-        default = each.of(display)
+        default = each.of(declared)
         told = default.name if isinstance(default, Topic) else default
         yield each.label, f"`{each.path}`", values(each), default_of(told), f"{each.help}{note}"
 
 
 def values(each: Property | inspect.Field) -> str:
     """What a property may be, in words."""
-    if isinstance(each, Property) and each.input is not None:
+    if isinstance(each, Property) and is_topic(each):
         return "topic"
     if isinstance(each, Property) and each.widget == "frame":
         return "frame"
     if isinstance(each, Property) and each.choices:
         return ", ".join(f"`{choice}`" for choice in each.choices)
     return type_words(each.type)
+
+
+def is_topic(each: Property) -> bool:
+    """Whether a property is a topic, of which its own table tells the rest."""
+    return isinstance(each.type, inspect.StructType) and each.type.cls is Topic
 
 
 def type_words(type_: inspect.Type) -> str:
@@ -238,12 +281,14 @@ def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
     return [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines]
 
 
-def main() -> int:
-    """Write all pages."""
+def main() -> None:
+    """Write everything."""
     for name, text in pages().items():
         (PAGES / name).write_text(text, encoding="utf-8")
-    return 0
+    schema.SHIPPED.write_text(schema.text(), encoding="utf-8")
+    if files := [Path(name) for name in sys.argv[1:]]:
+        rviz.PAGE.write_text(rviz.page(files), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
