@@ -270,8 +270,8 @@ def test_another_topic_in_the_file_is_listened_to(b: Any, plugin: Any) -> None:
 
 def test_work_of_the_old_code_is_not_drawn_by_the_new(b: Any, plugin: Any) -> None:
     plugin.edit(
-        ("        corners =", '        n = ctx.state.setdefault("n", WIDTH)\n        corners ='),
-        ("self.color)", "self.color, n)"),
+        ("    def draw(", "    def new_state(self):\n        return WIDTH\n\n    def draw("),
+        ("self.color)", "self.color, ctx.state)"),
         ("\n\nclass", "\nWIDTH = 3.0\n\n\nclass"),
     )
     shown(b, plugin)
