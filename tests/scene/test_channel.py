@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import http.client
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -241,3 +243,36 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     finally:
         page.close()
         again.stop()
+
+
+def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channel(
+    browser: playwright.Browser, server: Server, wait_until: Callable[[Callable[[], bool]], None]
+) -> None:
+    Scene(server)
+    answers: list[int] = []
+    server.channel.on(Answer, lambda browser, _: answers.append(browser))
+
+    async def forward(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        head = await reader.readuntil(b"\r\n\r\n")
+        to, out = await asyncio.open_connection("127.0.0.1", server.get_port())
+        out.write(head.replace(b"GET /robot", b"GET ", 1).replace(b"GET  ", b"GET / ", 1))
+
+        async def pump(source: asyncio.StreamReader, sink: asyncio.StreamWriter) -> None:
+            with contextlib.suppress(ConnectionError):
+                while data := await source.read(1 << 16):
+                    sink.write(data)
+                    await sink.drain()
+            sink.close()
+
+        await asyncio.gather(pump(reader, out), pump(to, writer))
+
+    loop = server.get_event_loop()
+    proxy = asyncio.run_coroutine_threadsafe(
+        asyncio.start_server(forward, "127.0.0.1", 0), loop
+    ).result(10)
+    port = proxy.sockets[0].getsockname()[1]
+    page = Page(browser, f"http://127.0.0.1:{port}/robot", 320, 240)
+    server.channel.send(Ask("below"))
+    page.wait_for(lambda: answers, "the page answers")
+    page.close()
+    loop.call_soon_threadsafe(proxy.close)
