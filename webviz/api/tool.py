@@ -83,7 +83,8 @@ class ToolContext:
     Args:
         frames: the transforms of this moment.
         now_ns: ROS time, which goes on while the page is paused.
-        publish: sends an encoded message from an output of the tool; returns what to report.
+        publish: sends an encoded message from an output of the tool, and reports what came of it.
+        tell: reports to the browser that made the stroke.
     """
 
     def __init__(
@@ -91,14 +92,14 @@ class ToolContext:
         tool: Tool,
         frames: Frames,
         now_ns: int,
-        publish: Callable[[str, bytes], Status],
+        publish: Callable[[str, bytes], None],
+        tell: Callable[[Status], None],
     ) -> None:
         self.frames = frames
         self.now_ns = now_ns
-        self.statuses: list[Status] = []
-        """What the browser is told, in order."""
         self._tool = tool
         self._publish = publish
+        self._tell = tell
 
     @property
     def fixed_frame(self) -> str:
@@ -122,19 +123,19 @@ class ToolContext:
             EncodeError: a value does not fit the definition of the message.
         """
         payload = encode(outputs_of(type(self._tool))[output].type, values)
-        self.statuses.append(self._publish(output, payload))
+        self._publish(output, payload)
 
     def ok(self, text: str) -> None:
         """Report a result to the browser that made the stroke."""
-        self.statuses.append(Status(Level.OK, text))
+        self._tell(Status(Level.OK, text))
 
     def warn(self, text: str) -> None:
         """Report what is doubtful, and what to do about it."""
-        self.statuses.append(Status(Level.WARN, text))
+        self._tell(Status(Level.WARN, text))
 
     def error(self, text: str) -> None:
         """Report what is wrong, and what to do about it."""
-        self.statuses.append(Status(Level.ERROR, text))
+        self._tell(Status(Level.ERROR, text))
 
 
 class Tool(Declared, kw_only=True):

@@ -20,6 +20,7 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
@@ -83,13 +84,15 @@ class FrameLoop:
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
         views = ViewsPart(core, settings, displays)
-        files = self._files = FilesPart(core, displays, settings, views, config, path)
+        tools = ToolsPart(core)
+        files = self._files = FilesPart(core, displays, settings, views, tools, config, path)
         all_parts = [
             transforms,
             self._time,
             displays,
             settings,
             views,
+            tools,
             files,
             TopicsPart(core),
             PluginsPart(core, displays, settings),

@@ -8,6 +8,7 @@ from typing import Any
 
 from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
+from webviz.api.tool import Gesture
 from webviz.api.views import View
 from webviz.engine.sources import Offer
 from webviz.files.config import Settings
@@ -114,6 +115,25 @@ class Inspected:
     age_s: float | None = None
 
 
+@dataclass(frozen=True)
+class ToolButton:
+    """One tool in the toolbar.
+
+    Args:
+        id: for commands.
+        name: as shown.
+        tooltip: one sentence.
+        shortcut: the key that selects it, "" for none.
+        gesture: that the page follows.
+    """
+
+    id: str
+    name: str
+    tooltip: str
+    shortcut: str
+    gesture: Gesture
+
+
 @dataclass(frozen=True, kw_only=True)
 class State:
     """A viewer at one moment; each part of it fills in the fields that it owns.
@@ -133,6 +153,7 @@ class State:
         inspected: a topic that somebody looks into.
         transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
         views: what each browser shows, by its id.
+        tools: in the order of the toolbar.
         more: what parts that are not webviz's own return, by name.
     """
 
@@ -150,4 +171,5 @@ class State:
     inspected: Inspected | None = None
     transforms: str = ""
     views: Mapping[int, View] = field(default_factory=dict)
+    tools: tuple[ToolButton, ...] = ()
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -11,6 +11,7 @@ import * as page from "./page.js";
 import * as saveImage from "./save_image.js";
 import * as shade from "./shade.js";
 import * as tiles from "./tiles.js";
+import * as tools from "./tools.js";
 import * as typing from "./typing.js";
 import * as view from "./view.js";
 import * as viser from "./viser_page.js";
@@ -20,7 +21,7 @@ async function install() {
   await viser.until(viser.hasScene);
   for (const part of [page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, saveImage]) part.install();
+  for (const part of [view, mouse, saveImage, tools]) part.install();
 }
 
 const answer = (token) => channel.send({ type: "Answer", token });

@@ -105,3 +105,37 @@ class Typed(FromPage, frozen=True):
 
     uuid: str
     text: str
+
+
+class ToolButton(msgspec.Struct, frozen=True):
+    """A button of the toolbar; see `webviz.engine.state.ToolButton`."""
+
+    id: str
+    name: str
+    tooltip: str
+    shortcut: str
+    gesture: str
+
+
+class Tools(ToPage, frozen=True):
+    """The toolbar, in order."""
+
+    kept = True
+
+    tools: tuple[ToolButton, ...]
+
+
+class Told(ToPage, frozen=True):
+    """What came of a stroke: a sentence, and its level "ok", "warn" or "error"."""
+
+    level: str
+    text: str
+
+
+class StrokeDone(FromPage, frozen=True):
+    """A finished gesture; see `webviz.api.tool.Stroke`."""
+
+    tool: str
+    points: tuple[tuple[float, float, float], ...]
+    yaw: float
+    keys: tuple[str, ...]

@@ -15,6 +15,7 @@ from webviz.engine.commands.panel import Refresh
 from webviz.engine.commands.plugins import ReloadPlugin
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.commands.time import Pause, Reset
+from webviz.engine.commands.tools import SetToolProperty, UseTool
 from webviz.engine.commands.topics import InspectTopic
 from webviz.engine.commands.transforms import InspectTransforms
 from webviz.engine.commands.views import (
@@ -60,9 +61,11 @@ __all__ = [
     "SetFixedFrame",
     "SetFrameRate",
     "SetProperty",
+    "SetToolProperty",
     "ShowView",
     "StartWithView",
     "TraceDisplay",
+    "UseTool",
     "ViewCommand",
     "nobody",
 ]

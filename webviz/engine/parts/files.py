@@ -15,6 +15,7 @@ from webviz.engine.commands import Command, Export, Load, Open, Save, Sender
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import File
@@ -38,6 +39,7 @@ class FilesPart(Part):
         displays: to fill; empty.
         settings: to fill.
         views: begin anew when another config is shown.
+        tools: to fill.
         config: what to begin with.
         path: the file it came from, None for none.
     """
@@ -50,6 +52,7 @@ class FilesPart(Part):
         displays: DisplaysPart,
         settings: SettingsPart,
         views: ViewsPart,
+        tools: ToolsPart,
         config: Config,
         path: Path | None = None,
     ) -> None:
@@ -57,6 +60,7 @@ class FilesPart(Part):
         self._displays = displays
         self._settings = settings
         self._views = views
+        self._tools = tools
         self._path = path
         self._folder = path.absolute().parent if path else Path.cwd()
         self._report: list[str] = []
@@ -75,7 +79,7 @@ class FilesPart(Part):
 
     def config(self) -> Config:
         """What to save to come back to this: a snapshot, for any thread."""
-        return Config(self._settings.settings, self._displays.list.items(), list(self._tools))
+        return Config(self._settings.settings, self._displays.list.items(), self._tools.items())
 
     def keep_up(self, commanded: bool) -> None:
         """Find out whether something was changed since it was saved, and what the folder has."""
@@ -154,7 +158,7 @@ class FilesPart(Part):
         for item in config.displays:
             self._displays.list.add(item)
         self._settings.settings = config.settings
-        self._tools = config.tools
+        self._tools.show(config.tools)
         self._report = config.report
         self._saved = config_file.document(self.config())
         self._is_changed = False

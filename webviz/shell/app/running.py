@@ -78,6 +78,7 @@ class Running:
             # viser takes a while to import; mistakes in files are told before.
             shown = read(path) if path is not None else None
             from webviz.edges.gui import Panels, take_typed
+            from webviz.edges.page.toolbar import Toolbar
             from webviz.edges.scene import CannotListen, Scene, on_typed, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
@@ -101,6 +102,7 @@ class Running:
             scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._panel = Panels(server, self._enqueue)
+            self._toolbar = Toolbar(server.channel, self._loop.enqueue)
             on_typed(scene.link, take_typed)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
@@ -249,6 +251,7 @@ class Running:
     def _show(self, state: State) -> None:
         self._state = state
         self._panel.update(state)
+        self._toolbar.update(state)
 
 
 def _end(what: str, close: Callable[[], object]) -> None:

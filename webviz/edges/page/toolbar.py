@@ -1,0 +1,43 @@
+"""The toolbar of every page: tells pages the tools, and the frame loop their strokes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+
+from webviz.api.status import Level, Status
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import StrokeDone, Told, ToolButton, Tools
+from webviz.engine.commands import Command, Sender, UseTool
+from webviz.engine.state import State
+
+
+class Toolbar:
+    """The tools on every page. Which one is active, only the page itself knows.
+
+    Args:
+        channel: to the pages.
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], object]) -> None:
+        self._channel = channel
+        self._enqueue = enqueue
+        self._shown: Tools | None = None
+        channel.on(StrokeDone, self._use)
+
+    def update(self, state: State) -> None:
+        """Show the tools of a viewer; sends only what is new."""
+        tools = Tools(msgspec.convert(state.tools, tuple[ToolButton, ...], from_attributes=True))
+        if tools != self._shown:
+            self._shown = tools
+            self._channel.send(tools)
+
+    def _use(self, browser: int, stroke: StrokeDone) -> None:
+        def tell(status: Status) -> None:
+            self._channel.send(Told(Level(status.level).name.lower(), status.text), browser)
+
+        keys = frozenset(stroke.keys)
+        command = UseTool(stroke.tool, stroke.points, stroke.yaw, keys, tell)
+        self._enqueue(command, Sender(browser))

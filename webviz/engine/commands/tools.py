@@ -1,0 +1,41 @@
+"""What is about tools."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from webviz.api.status import Status
+from webviz.api.tool import Position
+from webviz.engine.commands.command import Command
+
+
+def tell_nobody(status: Status) -> None:
+    """Report to nobody what came of a stroke."""
+
+
+@dataclass(frozen=True)
+class UseTool(Command):
+    """Let a tool act on a finished gesture; see `webviz.api.tool.Stroke`.
+
+    Args:
+        tool: id of the tool, or its name.
+        points, yaw, keys: of the stroke.
+        tell: called with what came of it, from any thread, so it must not block.
+    """
+
+    tool: str
+    points: tuple[Position, ...]
+    yaw: float = 0.0
+    keys: frozenset[str] = frozenset()
+    tell: Callable[[Status], None] = tell_nobody
+
+
+@dataclass(frozen=True)
+class SetToolProperty(Command):
+    """Change a property of a tool; nested ones have a dotted path, such as `topic.name`."""
+
+    tool: str
+    path: str
+    value: Any

@@ -1,0 +1,163 @@
+"""The tools of the toolbar, and what they publish."""
+
+from __future__ import annotations
+
+import copy
+import functools
+import inspect
+import logging
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import CancelledError, Future
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import Topic, set_property
+from webviz.api.errors import Error
+from webviz.api.status import Level, Status
+from webviz.api.tool import Output, Stroke, Tool, ToolContext, outputs
+from webviz.data.transforms.geometry import REACH_M
+from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.sources.graph import Outlet
+from webviz.engine.state import ToolButton
+from webviz.files.config import ConfigError, ToolItem, Unreadable, explain, nearest, sentences
+
+log = logging.getLogger("webviz")
+
+MAX_POINTS = 1000
+"""Of a stroke."""
+DEPTH = 5
+"""Of a publisher, as RViz has it."""
+Tell = Callable[[Status], None]
+
+
+class ToolsPart(Part):
+    """All tools; each browser has its own active one, which only its page knows."""
+
+    name = "Tools"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self._items: dict[str, ToolItem] = {}
+        self._made = 0
+        self._advertised: set[Outlet] = set()
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {UseTool: self._use, SetToolProperty: self._set}
+
+    def show(self, items: Sequence[ToolItem]) -> None:
+        """Have these tools instead of those before."""
+        self._items = {}
+        for item in items:
+            self._made += 1
+            self._items[f"tool{self._made}"] = item
+            if isinstance(item, Unreadable):
+                log.warning("%s", item.reason)
+
+    def items(self) -> list[ToolItem]:
+        """What to save: a snapshot, for any thread."""
+        return [copy.copy(item) for item in self._items.values()]
+
+    def keep_up(self, commanded: bool) -> None:
+        """Make publishers in time, so that subscriptions know them before the first message."""
+        wanted = {
+            outlet
+            for tool in self._tools().values()
+            for _, output, topic in outputs(tool)
+            if (outlet := self._outlet(output, topic))
+        }
+        for outlet in wanted - self._advertised:
+            self.core.source.graph.advertise(outlet)
+        self._advertised = wanted
+
+    def state(self) -> Mapping[str, Any]:
+        """What the toolbar shows."""
+        return {"tools": tuple(_button(id, tool) for id, tool in self._tools().items())}
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Which tools cannot be used."""
+        faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
+        return {"Tools": Status(Level.ERROR, " ".join(faults))} if faults else {}
+
+    def _tools(self) -> dict[str, Tool]:
+        return {id: item for id, item in self._items.items() if isinstance(item, Tool)}
+
+    def _find(self, wanted: str) -> Tool:
+        tools = self._tools()
+        if wanted in tools:
+            return tools[wanted]
+        names = {tool.name: tool for tool in tools.values()}
+        if wanted not in names:
+            raise ConfigError(f"There is no tool `{wanted[:80]}`: {nearest(wanted, names)}")
+        return names[wanted]
+
+    def _use(self, command: UseTool, sender: Sender) -> None:
+        tool = self._find(command.tool)
+        numbers = [number for point in command.points for number in point]
+        is_finite = all(math.isfinite(n) and abs(n) <= REACH_M for n in [*numbers, command.yaw])
+        if not 1 <= len(command.points) <= MAX_POINTS or not is_finite:
+            raise ConfigError(
+                f"{tool.name}: a stroke has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
+            )
+        stroke = Stroke(command.points, command.yaw, command.keys, sender.browser)
+        ports = {name: (output, topic) for name, output, topic in outputs(tool)}
+
+        def publish(name: str, payload: bytes) -> None:
+            self._publish(*ports[name], payload, command.tell)
+
+        context = ToolContext(tool, self.core.frames, self.core.now_ns, publish, command.tell)
+        tool.done(stroke, context)
+
+    def _publish(self, output: Output, topic: Topic, payload: bytes, tell: Tell) -> None:
+        outlet = self._outlet(output, topic)
+        if outlet is None:
+            tell(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
+            return
+        sent = self.core.source.graph.publish(outlet, payload)
+        sent.add_done_callback(lambda sent: tell(_outcome(topic.name, sent)))
+
+    def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
+        """Where an output goes; None if the name of its topic is not valid."""
+        try:
+            name = self.core.source.resolve(topic.name) if topic.name else ""
+        except ValueError:
+            return None
+        if not name:
+            return None
+        return Outlet(
+            name,
+            output.type,
+            "best_effort" if topic.reliability == "best_effort" else "reliable",
+            "transient_local" if topic.durability == "transient_local" else "volatile",
+            topic.depth or DEPTH,
+        )
+
+    def _set(self, command: SetToolProperty, sender: Sender) -> None:
+        tool, path, value = self._find(command.tool), command.path, command.value
+        try:
+            set_property(tool, path, value)
+        except msgspec.ValidationError as error:
+            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
+            found = explain(error, type(tool), nested)
+            raise ConfigError(f"Not changed: {sentences([found])}") from error
+
+
+def _button(id: str, tool: Tool) -> ToolButton:
+    tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
+    return ToolButton(id, tool.name, tooltip, tool.shortcut, tool.gesture)
+
+
+def _outcome(topic: str, sent: Future[int]) -> Status:
+    """What to report of a message that was published."""
+    try:
+        count = sent.result()
+    except (Error, CancelledError) as error:
+        return Status(Level.ERROR, str(error) or "The viewer has ended.")
+    if count == 0:
+        text = f"Nothing subscribes to {topic}. Start what listens to it or choose another topic."
+        return Status(Level.WARN, text)
+    return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")
