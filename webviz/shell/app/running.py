@@ -102,7 +102,7 @@ class Running:
             scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._panel = Panels(server, self._enqueue)
-            self._toolbar = Toolbar(server.channel, self._loop.enqueue)
+            self._toolbar = Toolbar(server.channel, self._enqueue)
             on_typed(scene.link, take_typed)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
