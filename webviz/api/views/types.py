@@ -11,12 +11,16 @@ from typing import Annotated, Any
 
 import msgspec
 
+from webviz.api.declared import Prop
+
 FIXED_FRAME = "<Fixed Frame>"
 """Target frame of a view that follows nothing."""
 
 Length = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 Angle = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
-Pitch = Annotated[float, msgspec.Meta(ge=-1.5698, le=1.5698)]
+Yaw = Annotated[Angle, Prop(help="Direction of the camera, in rad.")]
+Pitch = Annotated[float, Prop(ge=-1.5698, le=1.5698, help="In rad; positive looks down.")]
+Middle = Annotated[Length, Prop(help="In the middle of the picture, in m.")]
 Point = tuple[Length, Length, Length]
 
 
@@ -31,10 +35,12 @@ class _View(
 
 
 class _AroundAPoint(_View, frozen=True, kw_only=True):
-    distance: Annotated[float, msgspec.Meta(gt=0, le=1e6)] = 10.0
-    yaw: Angle = 0.785398
+    distance: Annotated[
+        float, Prop(gt=0, le=1e6, help="From the camera to the focal point, in m.")
+    ] = 10.0
+    yaw: Yaw = 0.785398
     pitch: Pitch = 0.785398
-    focal_point: Point = (0.0, 0.0, 0.0)
+    focal_point: Annotated[Point, Prop(help="What the camera turns about, in m.")] = (0.0, 0.0, 0.0)
 
 
 class Orbit(_AroundAPoint, frozen=True, kw_only=True, tag="Orbit"):
@@ -52,18 +58,18 @@ class ThirdPersonFollower(_AroundAPoint, frozen=True, kw_only=True, tag="ThirdPe
 class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
     """Looks around from a position; a positive pitch looks down."""
 
-    yaw: Angle = 0.0
+    yaw: Yaw = 0.0
     pitch: Pitch = 0.0
-    position: Point = (5.0, 5.0, 10.0)
+    position: Annotated[Point, Prop(help="Of the camera, in m.")] = (5.0, 5.0, 10.0)
 
 
 class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
     """Looks straight down without perspective; `x`, `y` is in the middle, `scale` in px/m."""
 
-    scale: Annotated[float, msgspec.Meta(ge=1e-5, le=1e6)] = 10.0
-    angle: Angle = 0.0
-    x: Length = 0.0
-    y: Length = 0.0
+    scale: Annotated[float, Prop(ge=1e-5, le=1e6, help="In px/m.")] = 10.0
+    angle: Annotated[Angle, Prop(help="The picture is turned by it, in rad.")] = 0.0
+    x: Middle = 0.0
+    y: Middle = 0.0
 
 
 View = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho

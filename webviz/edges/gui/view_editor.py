@@ -6,27 +6,15 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import msgspec
 import viser
 
+from webviz.api.properties import Property, properties_of
 from webviz.api.views import FIXED_FRAME, VIEW_TYPES, View, type_of
 from webviz.edges.gui.control import Choice, Control
 from webviz.engine.commands import ChangeView, Command
 
 DIGITS = 3
 """Decimals that are shown; a view that somebody moves has more."""
-
-HINTS = {
-    "distance": "From the camera to the focal point, in m.",
-    "yaw": "Direction of the camera, in rad.",
-    "pitch": "In rad; positive looks down.",
-    "focal_point": "What the camera turns about, in m.",
-    "position": "Of the camera, in m.",
-    "scale": "In px/m.",
-    "angle": "The picture is turned by it, in rad.",
-    "x": "In the middle of the picture, in m.",
-    "y": "In the middle of the picture, in m.",
-}
 
 
 class ViewEditor:
@@ -76,13 +64,13 @@ class ViewEditor:
             control.widget.remove()
         with self._box:
             self._numbers = {
-                field.name: self._add(field.name, getattr(view, field.name))
-                for field in msgspec.structs.fields(type(view))
-                if field.name != "target_frame"
+                each.path: self._add(each, each.of(view))
+                for each in properties_of(type(view))
+                if each.path != "target_frame"
             }
 
-    def _add(self, name: str, value: Any) -> Control:
-        label, edit, hint = name.replace("_", " ").title(), self._edit(name), HINTS[name]
+    def _add(self, declared: Property, value: Any) -> Control:
+        label, edit, hint = declared.label, self._edit(declared.path), declared.help
         if isinstance(value, tuple):
             point: Any = self._gui.add_vector3(label, _rounded(value), step=0.1, hint=hint)
             return Control(point, edit, _rounded, tuple)

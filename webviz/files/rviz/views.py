@@ -7,6 +7,7 @@ from typing import Any
 
 import msgspec
 
+from webviz.api.properties import properties_of
 from webviz.api.views import FIXED_FRAME, VIEW_TYPES, Orbit, View, type_of
 from webviz.files.rviz import values
 from webviz.files.rviz.report import Report
@@ -17,18 +18,7 @@ PREFIX = "rviz_default_plugins/"
 NEAR_CLIP_DISTANCE = 0.01
 """RViz's default; here the nearest thing that is drawn follows from the distance."""
 
-KEYS = {
-    "distance": "Distance",
-    "yaw": "Yaw",
-    "pitch": "Pitch",
-    "focal_point": "Focal Point",
-    "position": "Position",
-    "scale": "Scale",
-    "angle": "Angle",
-    "x": "X",
-    "y": "Y",
-    "target_frame": "Target Frame",
-}
+KEYS = {each.path: each.label for cls in VIEW_TYPES.values() for each in properties_of(cls)}
 """RViz's keys of the fields of views."""
 BOUNDS = {
     "distance": (0.01, 1e6),
