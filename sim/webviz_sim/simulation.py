@@ -17,6 +17,7 @@ REST = 1.0  # s at each place of the tour
 REST_AT_GOAL = 5.0  # s at a goal somebody gave, before the tour goes on
 PATIENCE = 6.0  # s without progress after which a path is given up
 PROGRESS = 0.05  # m
+BESIDE_GOAL = 0.5  # m from a goal without room for the robot to a place that will do
 
 
 @dataclass
@@ -89,7 +90,7 @@ class Simulation:
     def go_to(self, goal: Pose2D) -> bool:
         """Plans a path to a goal in the map frame and follows it; False if there is none."""
         path = self.planner.plan(self.robot.pose, goal)
-        if path is None:
+        if path is None or math.dist(path[-1], goal[:2]) > BESIDE_GOAL:
             return False
         self._follow(Follower(path, goal.yaw), touring=False)
         self._commanded_at = -math.inf

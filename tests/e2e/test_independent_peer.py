@@ -65,6 +65,18 @@ def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
 
 
 @pytest.fixture
+def echo(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
+    """What the peer hears of goals."""
+    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
+    command = [peer_python, "-u", str(PEER), "echo", "goal_pose"]
+    program = Program(
+        [*command, "--seconds", "120", "--domain", domain], env, tmp_path / "echo.txt"
+    )
+    yield program
+    program.end(signal.SIGTERM)
+
+
+@pytest.fixture
 def url(domain: str, tmp_path: Path) -> Iterator[str]:
     config = tmp_path / "peer.yaml"
     config.write_text(CONFIG)
@@ -94,3 +106,24 @@ def test_it_sees_everything_the_peer_publishes(
         page.tab.get_by_role("button", name=name).first.click()
         page.wait_for(lambda: "✖" not in page.text(), f"no error on {name}")
     page.wait_for(lambda: "from a DDS program (best effort, volatile)" in page.text(), "its name")
+
+
+def test_the_peer_receives_the_goal_that_is_dragged_on_the_page(
+    echo: Program, url: str, open_page: Callable[..., Page]
+) -> None:
+    page = open_page(url)
+    answer = page.tab.locator(".webviz-tools output")
+    page.tab.locator(".webviz-tools button").wait_for(timeout=60_000)
+
+    def publish() -> bool:
+        """Send a goal, again until the two programs know each other."""
+        page.tab.keyboard.press("g")
+        page.tab.mouse.move(600, 250)
+        page.tab.mouse.down()
+        page.tab.mouse.move(700, 250, steps=3)
+        page.tab.mouse.up()
+        page.wait_for(lambda: "/goal_pose" in answer.inner_text(), "the answer")
+        return answer.inner_text() == "Published to /goal_pose, 1 subscription."
+
+    page.wait_for(publish, "a subscription", 60)
+    echo.wait_for(r"goal_pose PoseStamped\(header=Header\(.*frame_id='map'\).*z=0\.0")

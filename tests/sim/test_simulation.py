@@ -125,6 +125,12 @@ def test_a_goal_without_a_way_is_refused_and_changes_nothing(draw):
     assert simulation.robot.pose == Pose2D(1.0, 1.0)
 
 
+def test_a_goal_far_from_any_free_place_is_refused(simulate):
+    simulation = simulate()
+    assert not simulation.go_to(import Pose(1000.0, 0.0))
+    assert len(simulation.path) == 0
+
+
 def test_putting_the_robot_elsewhere_does_not_move_its_odometry(simulate):
     simulation = simulate()
     simulation.command(0.3, 0.0)
