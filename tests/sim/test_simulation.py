@@ -127,7 +127,7 @@ def test_a_goal_without_a_way_is_refused_and_changes_nothing(draw):
 
 def test_a_goal_far_from_any_free_place_is_refused(simulate):
     simulation = simulate()
-    assert not simulation.go_to(import Pose(1000.0, 0.0))
+    assert not simulation.go_to(Pose2D(1000.0, 0.0))
     assert len(simulation.path) == 0
 
 
