@@ -19,7 +19,7 @@ from webviz.api.status import Status
 from webviz.edges.gui import Panels, take_typed
 from webviz.edges.scene import on_typed, open_server
 from webviz.edges.scene.adapter import Adapter
-from webviz.engine.commands import Command, Refresh, SetProperty
+from webviz.engine.commands import Command, Refresh, Sender, SetProperty
 from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 700, 900
@@ -58,9 +58,10 @@ class Loop:
 
     def __init__(self, server: viser.ViserServer) -> None:
         self.commands: list[Command] = []
+        self.senders: list[Sender] = []
         self.state = State()
-        self._queue: queue.SimpleQueue[Command] = queue.SimpleQueue()
-        self.panel = Panels(server, lambda command, sender: self._queue.put(command))
+        self._queue: queue.SimpleQueue[tuple[Command, Sender]] = queue.SimpleQueue()
+        self.panel = Panels(server, lambda *request: self._queue.put(request))
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""
@@ -70,11 +71,12 @@ class Loop:
     def drain(self) -> None:
         """Collect what was enqueued, and answer what only asks for a new state."""
         while not self._queue.empty():
-            command = self._queue.get()
+            command, sender = self._queue.get()
             if isinstance(command, Refresh):
                 self.panel.update(self.state)
             else:
                 self.commands.append(command)
+                self.senders.append(sender)
 
     def turn(self) -> None:
         """Obey the property changes that are valid, and update the panel."""

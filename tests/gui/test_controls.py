@@ -38,7 +38,7 @@ PROPERTIES = {each.path: each for each in properties_of(Lists)}
 def test_lists_and_mappings_have_an_entry_per_line(
     server: viser.ViserServer, path: str, value: Any, text: str
 ) -> None:
-    control = add_control(server.gui, PROPERTIES[path], value, lambda _: None)
+    control = add_control(server.gui, PROPERTIES[path], value, lambda *_: None)
     assert control.widget.value == text
     decoded = control.decode(text)
     assert type(value)(decoded) == value
@@ -46,7 +46,7 @@ def test_lists_and_mappings_have_an_entry_per_line(
 
 @pytest.mark.parametrize("text", ["base_link", "base_link: yes", ":"])
 def test_a_line_that_means_nothing_is_refused(server: viser.ViserServer, text: str) -> None:
-    control = add_control(server.gui, PROPERTIES["shown"], {}, lambda _: None)
+    control = add_control(server.gui, PROPERTIES["shown"], {}, lambda *_: None)
     with pytest.raises(ValueError, match="is no value"):
         control.decode(text)
 
@@ -54,7 +54,7 @@ def test_a_line_that_means_nothing_is_refused(server: viser.ViserServer, text: s
 def test_a_choice_offers_the_current_value_even_if_nobody_knows_it(
     server: viser.ViserServer,
 ) -> None:
-    choice = Choice(server.gui, "Frame", "map", lambda _: None)
+    choice = Choice(server.gui, "Frame", "map", lambda *_: None)
     choice.offer(("base_link", "odom"), "map")
     assert choice.dropdown.options == ("base_link", "odom", "map")
     choice.offer(("base_link", "map", "odom"), "map")
@@ -63,7 +63,7 @@ def test_a_choice_offers_the_current_value_even_if_nobody_knows_it(
 
 
 def test_an_empty_choice_can_be_read(server: viser.ViserServer) -> None:
-    choice = Choice(server.gui, "Topic", "", lambda _: None)
+    choice = Choice(server.gui, "Topic", "", lambda *_: None)
     assert choice.dropdown.value == "(none)"
     assert choice.decode("(none)") == ""
 
@@ -73,5 +73,5 @@ def test_a_mapping_may_hold_settings_that_have_colons_themselves(
 ) -> None:
     text = 'base_link: {"alpha":0.5,"show_axes":true}'
     property_ = {each.path: each for each in properties_of(RobotModel)}["links"]
-    control = add_control(server.gui, property_, {}, lambda _: None)
+    control = add_control(server.gui, property_, {}, lambda *_: None)
     assert control.decode(text) == {"base_link": {"alpha": 0.5, "show_axes": True}}

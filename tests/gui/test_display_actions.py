@@ -19,6 +19,7 @@ from webviz.engine.commands import (
     Reset,
     Save,
     SaveImage,
+    Sender,
     SetBackground,
     SetFrameRate,
     SetProperty,
@@ -60,7 +61,8 @@ def test_a_look_and_a_picture_are_for_the_browser_that_asks(
     (second,) = set(server.get_clients()) - first
     other.click("Focus")
     other.click("Image")
-    assert loop.commands == [FocusDisplay("a", second), SaveImage(second)]
+    assert loop.commands == [FocusDisplay("a"), SaveImage()]
+    assert loop.senders == [Sender(second)] * 2
 
 
 def test_a_display_is_renamed_where_its_name_is_read(

@@ -90,7 +90,7 @@ def test_every_property_of_every_display_has_a_control_that_keeps_its_value(
 ) -> None:
     display = make(cls, {})
     value = declared.of(display)
-    control = add_control(server.gui, declared, value, lambda _: None)
+    control = add_control(server.gui, declared, value, lambda *_: None)
     assert control.widget.value == control.encode(value)
     set_property(display, declared.path, control.decode(control.widget.value))
     assert declared.of(display) == value

@@ -71,7 +71,7 @@ class Displays(Panel):
     def focus(self, browser: int | None) -> None:
         """Let a browser look at the selected display."""
         if self.selection.id is not None and browser is not None:
-            self._send(FocusDisplay(self.selection.id, browser), browser)
+            self._send(FocusDisplay(self.selection.id), browser)
 
     def duplicate(self, browser: int | None) -> None:
         """Add a copy of the selected display, and select it."""

@@ -72,10 +72,10 @@ class Views(Panel):
                 self._show_saved()
 
     def _zero(self, browser: int | None) -> None:
-        self._send(ResetView(browser), browser)
+        self._send(ResetView(), browser)
 
     def _start_with(self, browser: int | None) -> None:
-        self._send(StartWithView(browser), browser)
+        self._send(StartWithView(), browser)
 
     def _show_saved(self) -> None:
         for line in self._lines:
@@ -92,8 +92,7 @@ class Views(Panel):
                 self._lines += [show, remove]
 
     def _look(self, name: str, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        browser = browser_of(event)
-        self._send(ShowView(name, browser), browser)
+        self._send(ShowView(name), browser_of(event))
 
     def _remove(self, name: str, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         self._send(RemoveView(name), browser_of(event))
@@ -103,5 +102,4 @@ class Views(Panel):
         free = next(name for name in names if name not in self._saved)
         name = self._name.value.strip() or free
         self._name.value = ""
-        browser = browser_of(event)
-        self._send(SaveView(name, browser), browser)
+        self._send(SaveView(name), browser_of(event))

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 
 import viser
 
+from webviz.api.panel import Send
 from webviz.api.registry import display_types
 from webviz.edges.gui.by_topic import Pick, matching, picks
 from webviz.edges.gui.dialogs import Dialog
 from webviz.edges.gui.style import picks_style
 from webviz.edges.gui.text import note_html, plain
-from webviz.engine.commands import Command
 from webviz.engine.state import State
 
 MAX_SHOWN = 40
@@ -29,18 +29,19 @@ class AddByTopic(Dialog):
 
     Args:
         client: the browser that asked.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         expect_new: called before displays are added.
     """
 
     def __init__(
         self,
         client: viser.ClientHandle,
-        enqueue: Callable[[Command], None],
+        send: Send,
         expect_new: Callable[[], None],
     ) -> None:
         super().__init__(client.gui, "Add displays by topic")
-        self._enqueue = enqueue
+        self._send = send
+        self._browser = client.client_id
         self._expect_new = expect_new
         self._boxes: dict[Pick, viser.GuiCheckboxHandle] = {}
         self._checked: set[Pick] = set()
@@ -104,5 +105,5 @@ class AddByTopic(Dialog):
         if chosen:
             self._expect_new()
         for pick in chosen:
-            self._enqueue(pick.command())
+            self._send(pick.command(), self._browser)
         self.finish()

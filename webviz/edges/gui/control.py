@@ -10,6 +10,7 @@ from weakref import WeakValueDictionary
 
 import viser
 
+from webviz.api.panel import Edit
 from webviz.edges.gui.text import plain
 
 SETTLE_S = 0.5
@@ -31,7 +32,7 @@ class Control:
 
     Args:
         widget: an input of viser.
-        edit: called with what a browser entered, in viser's event loop.
+        edit: called with what a browser entered, and its id, in viser's event loop.
         encode: from the value to what the widget holds.
         decode: the inverse; ValueError with a sentence if the text means nothing.
         wait: seconds without a further edit after which an edit counts.
@@ -40,7 +41,7 @@ class Control:
     def __init__(
         self,
         widget: viser.GuiInputHandle[Any],
-        edit: Callable[[Any], None],
+        edit: Edit,
         encode: Callable[[Any], Any] = lambda value: value,
         decode: Callable[[Any], Any] = lambda value: value,
         wait: float = 0.0,
@@ -99,7 +100,7 @@ class Control:
                 "Not changed", plain(str(error)), auto_close_seconds=REASON_S, color="red"
             )
             return
-        self._edit(value)
+        self._edit(value, client.client_id)
 
 
 MAX_TYPED = 1000
@@ -109,10 +110,10 @@ _FREE: WeakValueDictionary[int, Choice] = WeakValueDictionary()
 """The dropdowns that take any text, by the `id` of their widget, which lives as long."""
 
 
-def take_typed(widget: viser.GuiInputHandle[Any], text: str) -> None:
+def take_typed(widget: viser.GuiInputHandle[Any], text: str, browser: int) -> None:
     """Let a dropdown take what a browser typed, if it takes any text; in viser's event loop."""
     if (choice := _FREE.get(id(widget))) and len(text) <= MAX_TYPED:
-        choice.take_typed(text)
+        choice.take_typed(text, browser)
 
 
 class Choice(Control):
@@ -122,7 +123,7 @@ class Choice(Control):
         gui: viser's GUI.
         label: of the widget.
         value: what is chosen at first.
-        edit: called with the value that a browser chose.
+        edit: called with the value that a browser chose, and its id.
         hint: tooltip.
         free: it takes any text, as RViz's fields for frames do.
     """
@@ -132,7 +133,7 @@ class Choice(Control):
         gui: viser.GuiApi,
         label: str,
         value: str,
-        edit: Callable[[Any], None],
+        edit: Edit,
         hint: str | None = None,
         free: bool = False,
     ) -> None:
@@ -143,9 +144,9 @@ class Choice(Control):
         if free:
             _FREE[id(self.dropdown)] = self
 
-    def take_typed(self, text: str) -> None:
+    def take_typed(self, text: str, browser: int) -> None:
         """Take a text that a browser typed; one that was offered means its value."""
-        self._edit(self._values.get(text, text))
+        self._edit(self._values.get(text, text), browser)
 
     def offer(self, values: Sequence[str], current: str) -> None:
         """Offer these values, and the current one even if it is not among them."""

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import msgspec
 import msgspec.inspect as inspect
 import viser
 
+from webviz.api.panel import Edit
 from webviz.api.properties import Property
 from webviz.edges.gui.control import TYPING_S, Choice, Control
 from webviz.edges.gui.text import plain
-
-Edit = Callable[[Any], None]
 
 MAX_TEXT = 100_000
 
@@ -29,7 +28,7 @@ def add_control(gui: viser.GuiApi, declared: Property, value: Any, edit: Edit) -
         gui: viser's GUI; the widget goes into the folder that is open.
         declared: the property.
         value: what it has now.
-        edit: called with a new value of the property's type.
+        edit: called with a new value of the property's type, and the id of the browser.
     """
     label, hint, type_ = declared.label, declared.help or None, declared.type
     if declared.widget == "frame":

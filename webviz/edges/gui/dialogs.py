@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import viser
 
-from webviz.engine.commands import Command, Refresh
+from webviz.api.panel import Send
+from webviz.engine.commands import Refresh
 from webviz.engine.state import State
 
 
@@ -43,12 +44,12 @@ class Dialogs:
 
     Args:
         server: where the browsers are.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
     """
 
-    def __init__(self, server: viser.ViserServer, enqueue: Callable[[Command], None]) -> None:
+    def __init__(self, server: viser.ViserServer, send: Send) -> None:
         self._server = server
-        self._enqueue = enqueue
+        self._send = send
         self._asked: queue.SimpleQueue[tuple[int, MakeDialog]] = queue.SimpleQueue()
         self._open: dict[int, Dialog] = {}
 
@@ -56,7 +57,7 @@ class Dialogs:
         """Open a dialog in a browser instead of the one it has open, from any thread."""
         if browser is not None:
             self._asked.put((browser, make))
-            self._enqueue(Refresh())
+            self._send(Refresh(), browser)
 
     def update(self, state: State) -> None:
         """Open, update and close dialogs; to be called by the frame loop."""

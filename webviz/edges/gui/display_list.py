@@ -6,12 +6,13 @@ from collections.abc import Callable, Sequence
 
 import viser
 
+from webviz.api.panel import Send
 from webviz.api.status import Level
 from webviz.edges.gui.control import Control
 from webviz.edges.gui.moves import GROUP
 from webviz.edges.gui.style import Look, list_style
 from webviz.edges.gui.text import MARKS, plain
-from webviz.engine.commands import Command, SetProperty
+from webviz.engine.commands import SetProperty
 from webviz.engine.state import Row
 
 
@@ -22,7 +23,7 @@ class DisplayList:
 
     Args:
         gui: viser's GUI.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         select: called with the id of a display when somebody clicks on its name, in a thread of
             viser's.
     """
@@ -30,11 +31,11 @@ class DisplayList:
     def __init__(
         self,
         gui: viser.GuiApi,
-        enqueue: Callable[[Command], None],
+        send: Send,
         select: Callable[[str], None],
     ) -> None:
         self._gui = gui
-        self._enqueue = enqueue
+        self._send = send
         self._select = select
         self._rows: dict[str, _Line] = {}
         self._folded: set[str] = set()
@@ -76,7 +77,7 @@ class DisplayList:
         with self._folder:
             for row in rows:
                 if row.id not in self._rows:
-                    self._rows[row.id] = _Line(self._gui, row, self._enqueue, self._click)
+                    self._rows[row.id] = _Line(self._gui, row, self._send, self._click)
         for index, id_ in enumerate(self._ids):
             self._rows[id_].place(index)
 
@@ -93,12 +94,13 @@ class _Line:
         self,
         gui: viser.GuiApi,
         row: Row,
-        enqueue: Callable[[Command], None],
+        send: Send,
         click: Callable[[Row], None],
     ) -> None:
         self._box = gui.add_checkbox("", _enabled(row))
         self._control = Control(
-            self._box, lambda value: enqueue(SetProperty(row.id, "enabled", value))
+            self._box,
+            lambda value, browser: send(SetProperty(row.id, "enabled", value), browser),
         )
         self._button = gui.add_button("")
         self._button.on_click(lambda _: click(row))

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import viser
 
 from webviz.api.display import Display, Input
+from webviz.api.panel import Edit, Send
 from webviz.api.properties import Property, properties_of
 from webviz.edges.gui.control import Choice, Control
 from webviz.edges.gui.controls import add_control
 from webviz.edges.gui.text import StatusLines, plain
 from webviz.edges.gui.toolbar import Actions, Toolbar
-from webviz.engine.commands import Command, SetProperty
+from webviz.engine.commands import SetProperty
 from webviz.engine.state import Row, State
 
 FIXED_FRAME = "<Fixed Frame>"
@@ -29,7 +29,7 @@ class Editor:
     Args:
         gui: viser's GUI.
         row: the display.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         actions: what can be done with the display as a whole.
     """
 
@@ -37,11 +37,11 @@ class Editor:
         self,
         gui: viser.GuiApi,
         row: Row,
-        enqueue: Callable[[Command], None],
+        send: Send,
         actions: Actions,
     ) -> None:
         self._gui = gui
-        self._enqueue = enqueue
+        self._send = send
         self._id = row.id
         self._class = type(row.display)
         self._controls: list[tuple[Property, Control]] = []
@@ -49,7 +49,7 @@ class Editor:
         self._topics = Topics()
         self._folder = gui.add_folder(_title(row))
         with self._folder:
-            self._toolbar = Toolbar(gui, enqueue, actions)
+            self._toolbar = Toolbar(gui, send, actions)
             self._statuses = StatusLines(gui)
             if row.display is not None:
                 for declared in properties_of(type(row.display)):
@@ -115,8 +115,8 @@ class Editor:
             for child in declared.children:
                 self._add(child, display)
 
-    def _edit(self, path: str) -> Callable[[Any], None]:
-        return lambda value: self._enqueue(SetProperty(self._id, path, value))
+    def _edit(self, path: str) -> Edit:
+        return lambda value, browser: self._send(SetProperty(self._id, path, value), browser)
 
     def _offered(self, declared: Property, state: State) -> tuple[str, ...]:
         if declared.input is not None:

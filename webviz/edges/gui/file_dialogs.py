@@ -7,10 +7,11 @@ from pathlib import Path
 
 import viser
 
+from webviz.api.panel import Send
 from webviz.edges.gui.dialogs import Dialog
 from webviz.edges.gui.file_names import NEW_NAME, file_name
 from webviz.edges.gui.text import note_html, plain
-from webviz.engine.commands import Command, Export, Load, Open, Save
+from webviz.engine.commands import Export, Load, Open, Save
 from webviz.engine.state import File, State
 from webviz.files.config.files import SUFFIXES
 
@@ -22,16 +23,14 @@ class SaveAs(Dialog):
 
     Args:
         client: the browser that asked.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         file: what the viewer says of its file.
     """
 
-    def __init__(
-        self, client: viser.ClientHandle, enqueue: Callable[[Command], None], file: File
-    ) -> None:
+    def __init__(self, client: viser.ClientHandle, send: Send, file: File) -> None:
         super().__init__(client.gui, "Save as")
         self._client = client
-        self._enqueue = enqueue
+        self._send = send
         self._file = file
         self._confirmed = ""
         gui = self.gui
@@ -62,14 +61,18 @@ class SaveAs(Dialog):
             self._confirmed = name
             self._say(f"{name} exists already. Save again to replace it.")
             return
-        self._enqueue(Save(name))
+        self._send(Save(name), self._client.client_id)
         self.finish()
 
     def _download(self) -> None:
         if (name := self._checked_name()) is None:
             return
-        send = self._client.send_file_download
-        self._enqueue(Export(lambda text: send(name, text.encode(), save_immediately=True), name))
+        client = self._client
+
+        def deliver(text: str) -> None:
+            client.send_file_download(name, text.encode(), save_immediately=True)
+
+        self._send(Export(deliver, name), client.client_id)
         self.finish()
 
     def _checked_name(self) -> str | None:
@@ -147,15 +150,14 @@ class Discard(Dialog):
 
     Args:
         client: the browser that asked.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         command: opens the file.
     """
 
-    def __init__(
-        self, client: viser.ClientHandle, enqueue: Callable[[Command], None], command: Open | Load
-    ) -> None:
+    def __init__(self, client: viser.ClientHandle, send: Send, command: Open | Load) -> None:
         super().__init__(client.gui, "Unsaved changes")
-        self._enqueue = enqueue
+        self._browser = client.client_id
+        self._send = send
         self._command = command
         gui = self.gui
         name = command.path if isinstance(command, Open) else command.name
@@ -171,7 +173,7 @@ class Discard(Dialog):
     def _discard(self) -> None:
         if not self.is_done:
             self.finish()
-            self._enqueue(self._command)
+            self._send(self._command, self._browser)
 
 
 def _name_of(file: File) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import viser
 
+from webviz.api.panel import Send
 from webviz.edges.gui.control import TYPING_S, Choice, Control
 from webviz.edges.gui.text import StatusLines
-from webviz.engine.commands import Command, SetBackground, SetFixedFrame, SetFrameRate
+from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.state import State
 
 MIN_HZ, MAX_HZ = 1.0, 240.0
@@ -20,22 +20,24 @@ class GlobalOptions:
 
     Args:
         gui: viser's GUI; the widgets go into the tab that is open.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
     """
 
-    def __init__(self, gui: viser.GuiApi, enqueue: Callable[[Command], None]) -> None:
+    def __init__(self, gui: viser.GuiApi, send: Send) -> None:
         with gui.add_folder("Global Options"):
             self._fixed_frame = Choice(
                 gui,
                 "Fixed Frame",
                 "",
-                lambda frame: enqueue(SetFixedFrame(frame)),
+                lambda frame, browser: send(SetFixedFrame(frame), browser),
                 "The frame that everything is drawn in. Choose one, or type any name.",
                 free=True,
             )
             background: Any = gui.add_rgb("Background", (0, 0, 0), hint="Behind everything.")
             self._background = Control(
-                background, lambda color: enqueue(SetBackground(color)), decode=tuple
+                background,
+                lambda color, browser: send(SetBackground(color), browser),
+                decode=tuple,
             )
             rate = gui.add_number(
                 "Frame Rate",
@@ -46,7 +48,9 @@ class GlobalOptions:
                 hint="How often in a second the scene may change.",
             )
             self._frame_rate = Control(
-                rate, lambda hz: enqueue(SetFrameRate(float(hz))), wait=TYPING_S
+                rate,
+                lambda hz, browser: send(SetFrameRate(float(hz)), browser),
+                wait=TYPING_S,
             )
             self._statuses = StatusLines(gui)
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 import viser
 
+from webviz.api.panel import Send
 from webviz.edges.gui.moves import Moves
 from webviz.edges.gui.selection import Selection
 from webviz.edges.gui.style import row_style
 from webviz.edges.gui.ui import browser_of
-from webviz.engine.commands import Command, MoveDisplay
+from webviz.engine.commands import MoveDisplay
 
 
 class Actions(Protocol):
@@ -37,15 +37,13 @@ class Toolbar:
 
     Args:
         gui: viser's GUI; the buttons go into the folder that is open.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
         actions: of the tab.
     """
 
-    def __init__(
-        self, gui: viser.GuiApi, enqueue: Callable[[Command], None], actions: Actions
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, send: Send, actions: Actions) -> None:
         self._actions = actions
-        self._enqueue = enqueue
+        self._send = send
         gui.add_html(row_style("toolbar", (8, 8, 8, 6, 6, 6, 6)))
         focus = gui.add_button("Focus", color="gray", hint="Bring all of it into your view.")
         duplicate = gui.add_button("Duplicate", color="gray", hint="Add a copy behind it.")
@@ -57,10 +55,10 @@ class Toolbar:
         focus.on_click(lambda event: actions.focus(browser_of(event)))
         duplicate.on_click(lambda event: actions.duplicate(browser_of(event)))
         remove.on_click(lambda event: actions.remove(browser_of(event)))
-        self._up.on_click(lambda _: self._move(actions.selection.moves.up))
-        self._down.on_click(lambda _: self._move(actions.selection.moves.down))
-        self._into.on_click(lambda _: self._move(actions.selection.moves.into))
-        self._out.on_click(lambda _: self._move(actions.selection.moves.out))
+        self._up.on_click(lambda event: self._move(actions.selection.moves.up, event))
+        self._down.on_click(lambda event: self._move(actions.selection.moves.down, event))
+        self._into.on_click(lambda event: self._move(actions.selection.moves.into, event))
+        self._out.on_click(lambda event: self._move(actions.selection.moves.out, event))
         self._moves: Moves | None = None
 
     def update(self) -> None:
@@ -73,6 +71,6 @@ class Toolbar:
             self._into.disabled = moves.into is None
             self._out.disabled = moves.out is None
 
-    def _move(self, command: MoveDisplay | None) -> None:
+    def _move(self, command: MoveDisplay | None, event: viser.GuiEvent[Any]) -> None:
         if command is not None:
-            self._enqueue(command)
+            self._send(command, browser_of(event))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import viser
@@ -71,7 +71,7 @@ class TabUi:
         """Add a button."""
         self._spans.append(round(WHOLE * width))
         button = self._gui.add_button(plain(label), color="gray", hint=hint or None)
-        button.on_click(lambda event: self._do(label, act, event.client))
+        button.on_click(lambda event: self._do(label, act, browser_of(event)))
         return button
 
     def checkbox(self, label: str, value: bool, edit: Edit, hint: str = "") -> Control:
@@ -97,7 +97,7 @@ class TabUi:
         """Add a command to the palette, for every browser; not called while somebody types."""
         names: dict[str, Any] = {"hotkey": key or None, "icon": icon or None}
         command = self._gui.add_command(label, modifier=modifier, **names)
-        command.on_trigger(lambda event: self._do(label, act, event.client))
+        command.on_trigger(lambda event: self._do(label, act, browser_of(event)))
         self._commands.append(command)
 
     def arrange(self) -> None:
@@ -119,19 +119,19 @@ class TabUi:
         for command in self._commands:
             command.remove()
 
-    def _edited(self, label: str, edit: Edit) -> Callable[[Any], None]:
-        return lambda value: self._do(label, functools.partial(edit, value), None)
+    def _edited(self, label: str, edit: Edit) -> Edit:
+        return lambda value, browser: self._do(label, functools.partial(edit, value), browser)
 
-    def _do(self, label: str, act: Act, client: viser.ClientHandle | None) -> None:
+    def _do(self, label: str, act: Act, browser: int | None) -> None:
         """Do what a browser asks, and tell it if that fails."""
         try:
-            act(client.client_id if client else None)
+            act(browser)
         except (Exception, SystemExit) as error:  # somebody else's code may raise anything
             text = self._acts.note(label, error)
-            if client:
+            if client := self.viser.get_clients().get(-1 if browser is None else browser):
                 tell(client, Level.ERROR, text)
 
 
-def browser_of(event: viser.GuiEvent[Any]) -> int | None:
+def browser_of(event: viser.GuiEvent[Any] | viser.CommandEvent) -> int | None:
     """The id of the browser in which somebody did something."""
     return event.client.client_id if event.client else None

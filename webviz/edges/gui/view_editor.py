@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import viser
 
+from webviz.api.panel import Edit, Send
 from webviz.api.properties import Property, properties_of
 from webviz.api.views import FIXED_FRAME, VIEW_TYPES, View, type_of
 from webviz.edges.gui.control import Choice, Control
-from webviz.engine.commands import ChangeView, Command
+from webviz.engine.commands import ChangeView
 
 DIGITS = 3
 """Decimals that are shown; a view that somebody moves has more."""
@@ -24,7 +25,7 @@ class ViewEditor:
         client: that browser.
         box: where the widgets go.
         view: what it looks at.
-        enqueue: takes commands, from any thread.
+        send: takes commands, from any thread.
     """
 
     def __init__(
@@ -32,12 +33,12 @@ class ViewEditor:
         client: viser.ClientHandle,
         box: viser.GuiFolderHandle,
         view: View,
-        enqueue: Callable[[Command], None],
+        send: Send,
     ) -> None:
         self._gui = client.gui
         self._browser = client.client_id
         self._box = box
-        self._enqueue = enqueue
+        self._send = send
         self._type: type[View] | None = None
         self._numbers: dict[str, Control] = {}
         with box:
@@ -78,8 +79,8 @@ class ViewEditor:
         number.precision = DIGITS
         return Control(number, edit, _rounded, float)
 
-    def _edit(self, key: str) -> Callable[[Any], None]:
-        return lambda value: self._enqueue(ChangeView(key, value, self._browser))
+    def _edit(self, key: str) -> Edit:
+        return lambda value, _: self._send(ChangeView(key, value), self._browser)
 
 
 def _rounded(value: Any) -> Any:

@@ -9,15 +9,15 @@ from webviz.edges.page.messages import Typed
 from webviz.edges.scene.adapter import Adapter, gui_input
 
 
-def on_typed(link: Adapter, listener: Callable[[Any, str], None]) -> None:
-    """Call `listener` with an input widget and the text that a browser typed into it.
+def on_typed(link: Adapter, listener: Callable[[Any, str, int], None]) -> None:
+    """Call `listener` with an input widget, the text typed into it, and the id of the browser.
 
-    It runs on viser's event loop; nobody vouches for either.
+    It runs on viser's event loop; nobody vouches for widget and text.
     """
 
-    def hear(_: int, typed: Typed) -> None:
+    def hear(browser: int, typed: Typed) -> None:
         handle = gui_input(link.server, typed.uuid)
         if handle is not None:
-            listener(handle, typed.text)
+            listener(handle, typed.text, browser)
 
     link.channel.on(Typed, hear)

@@ -20,7 +20,7 @@ import PIL.Image
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
 from webviz.engine import plugins as plugin_files
-from webviz.engine.commands import Command, Refresh, Sender, ShowView, StartWithView
+from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
@@ -101,8 +101,8 @@ class Running:
                 shown.set_fixed_frame(fixed_frame)
             scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
-            self._panel = Panels(server, self._enqueue)
-            self._toolbar = Toolbar(server.channel, self._enqueue)
+            self._panel = Panels(server, self._loop.enqueue)
+            self._toolbar = Toolbar(server.channel, self._loop.enqueue)
             on_typed(scene.link, take_typed)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
@@ -235,9 +235,6 @@ class Running:
 
     def _look(self, view: View, browser: int) -> None:
         self.do(ShowView(view, browser))
-
-    def _enqueue(self, command: Command, sender: Sender) -> None:
-        self._loop.enqueue(command, sender)  # what comes of it stands in the state
 
     def _run(self) -> None:
         try:
