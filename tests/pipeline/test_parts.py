@@ -98,7 +98,7 @@ HOOKS = sorted(
     {name for name, hook in vars(Part).items() if inspect.isfunction(hook)} - {"__init__"}
 )
 PARTS = ["Answers", "Autosave", "Counter", "Displays", "Files", "Plugins", "Settings"]
-PARTS += ["Time", "Topics", "Transforms", "Views"]
+PARTS += ["Time", "Tools", "Topics", "Transforms", "Views"]
 
 
 @pytest.mark.parametrize("name", PARTS)
