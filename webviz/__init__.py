@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from webviz.api.panel import Panel, Send, Ui
     from webviz.api.sample import Sample
     from webviz.api.status import Level, Status
+    from webviz.api.tool import Output, Stroke, Tool, ToolContext
     from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
     from webviz.shell.pictures.capture import capture
@@ -56,6 +57,7 @@ __all__ = [
     "Lines",
     "Mesh",
     "Node",
+    "Output",
     "Panel",
     "Placement",
     "Points",
@@ -67,7 +69,10 @@ __all__ = [
     "Solid",
     "State",
     "Status",
+    "Stroke",
     "Sync",
+    "Tool",
+    "ToolContext",
     "Topic",
     "Ui",
     "Viewer",
@@ -100,6 +105,7 @@ _HOMES = {
     "webviz.api.panel": ("Panel", "Send", "Ui"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Status"),
+    "webviz.api.tool": ("Output", "Stroke", "Tool", "ToolContext"),
     "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),
 }

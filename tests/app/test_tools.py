@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from concurrent.futures import Future
-from dataclasses import dataclass, field
-from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from remembering_graph import RememberingGraph
 
 import webviz
-from webviz.data.messages import decode
 from webviz.engine.sources import Outlet
 from webviz.files.config import Config
 from webviz.files.opening import parse
@@ -22,29 +19,6 @@ from webviz.shell.testing.source import HandFedSource
 SCALE = 50.0
 """Pixels of a metre."""
 CONFIG = "fixed_frame: map\nview: {type: TopDownOrtho, scale: 50}\ndisplays: [{type: Grid}]\n"
-
-
-@dataclass
-class Graph:
-    """Remembers what is published; each topic has as many subscriptions as a test says."""
-
-    subscriptions: int = 1
-    published: list[tuple[Outlet, Any]] = field(default_factory=list)
-    advertised: list[Outlet] = field(default_factory=list)
-
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        self.advertised.append(outlet)
-        return done(None)
-
-    def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
-        self.published.append((outlet, decode(outlet.type, cdr)))
-        return done(self.subscriptions)
-
-
-def done(result: Any) -> Future[Any]:
-    future: Future[Any] = Future()
-    future.set_result(result)
-    return future
 
 
 @pytest.fixture(scope="module")
@@ -62,8 +36,8 @@ def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
 
 
 @pytest.fixture
-def graph(source: HandFedSource) -> Graph:
-    graph = Graph()
+def graph(source: HandFedSource) -> RememberingGraph:
+    graph = RememberingGraph()
     source.graph = graph  # pyright: ignore[reportAttributeAccessIssue]  # nothing calls services here
     return graph
 
@@ -116,7 +90,7 @@ def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> No
 
 
 def test_a_drag_publishes_the_pose_under_the_pointer(
-    page: Page, graph: Graph, source: HandFedSource
+    page: Page, graph: RememberingGraph, source: HandFedSource
 ) -> None:
     source.now = 12_000_000_345
     page.tab.keyboard.press("g")
@@ -139,7 +113,9 @@ def test_a_drag_publishes_the_pose_under_the_pointer(
     assert not is_active(page)
 
 
-def test_a_click_keeps_the_heading_of_the_stroke_before(page: Page, graph: Graph) -> None:
+def test_a_click_keeps_the_heading_of_the_stroke_before(
+    page: Page, graph: RememberingGraph
+) -> None:
     for end in ((60.0, 60.0), (0.0, 0.0)):
         page.tab.keyboard.press("g")
         drag(page, (0.0, 0.0), end)
@@ -150,7 +126,7 @@ def test_a_click_keeps_the_heading_of_the_stroke_before(page: Page, graph: Graph
 
 
 def test_the_camera_stays_and_the_preview_is_there_during_the_drag(
-    page: Page, graph: Graph
+    page: Page, graph: RememberingGraph
 ) -> None:
     camera = "window.__viserMutable.camera.matrixWorld.toArray().join()"
     before = page.tab.evaluate(camera)
@@ -172,7 +148,7 @@ def test_the_camera_stays_and_the_preview_is_there_during_the_drag(
 
 
 @pytest.mark.parametrize("back", ["g", "Escape"])
-def test_the_key_and_escape_go_back(page: Page, graph: Graph, back: str) -> None:
+def test_the_key_and_escape_go_back(page: Page, graph: RememberingGraph, back: str) -> None:
     page.tab.keyboard.press("g")
     assert is_active(page)
     page.tab.keyboard.press(back)
@@ -180,7 +156,7 @@ def test_the_key_and_escape_go_back(page: Page, graph: Graph, back: str) -> None
 
 
 def test_the_button_selects_the_tool_in_its_own_browser_only(
-    page: Page, pages: list[Page], graph: Graph
+    page: Page, pages: list[Page], graph: RememberingGraph
 ) -> None:
     page.tab.get_by_role("button", name="2D Goal Pose").click()
     assert is_active(page)
@@ -190,14 +166,14 @@ def test_the_button_selects_the_tool_in_its_own_browser_only(
     assert told(pages[1]) == ""
 
 
-def test_nobody_who_listens_is_reported(page: Page, graph: Graph) -> None:
+def test_nobody_who_listens_is_reported(page: Page, graph: RememberingGraph) -> None:
     graph.subscriptions = 0
     page.tab.keyboard.press("g")
     drag(page, (0.0, 0.0), (50.0, 0.0))
     page.wait_for(lambda: told(page).startswith("Nothing subscribes to /goal_pose. "), "the answer")
 
 
-def test_touch_makes_a_stroke_as_well(page: Page, graph: Graph) -> None:
+def test_touch_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> None:
     page.tab.get_by_role("button", name="2D Goal Pose").click()
     x, y = middle(page)
     session = page.tab.context.new_cdp_session(page.tab)
@@ -224,7 +200,7 @@ def test_touch_makes_a_stroke_as_well(page: Page, graph: Graph) -> None:
     ],
 )
 def test_a_stroke_that_is_not_valid_publishes_nothing(
-    page: Page, graph: Graph, viewer: webviz.Viewer, stroke: str
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, stroke: str
 ) -> None:
     text = stroke.replace("TOOL", viewer.state.tools[0].id)
     page.tab.evaluate(
@@ -233,14 +209,16 @@ def test_a_stroke_that_is_not_valid_publishes_nothing(
     drag_works(page, graph)
 
 
-def drag_works(page: Page, graph: Graph) -> None:
+def drag_works(page: Page, graph: RememberingGraph) -> None:
     page.tab.keyboard.press("g")
     drag(page, (0.0, 0.0), (50.0, 0.0))
     page.wait_for(lambda: len(graph.published) > 0, "a goal")
     assert len(graph.published) == 1
 
 
-def test_a_source_that_only_reads_says_so(page: Page, source: HandFedSource, graph: Graph) -> None:
+def test_a_source_that_only_reads_says_so(
+    page: Page, source: HandFedSource, graph: RememberingGraph
+) -> None:
     source.graph = HandFedSource().graph
     page.tab.keyboard.press("g")
     drag(page, (0.0, 0.0), (50.0, 0.0))

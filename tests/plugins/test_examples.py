@@ -8,9 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from remembering_graph import RememberingGraph
 
 from webviz.api import registry
 from webviz.api.display import Display
+from webviz.api.status import Status
+from webviz.engine.commands import UseTool
 from webviz.engine.plugins import load
 from webviz.shell.testing.messages import header
 
@@ -64,6 +67,24 @@ def test_camera_view_says_that_a_camera_is_not_calibrated(
     b.turn()
     text = "The CameraInfo has no focal length. Calibrate the camera."
     assert b.statuses()["Camera"] == ("ERROR", text)
+
+
+def test_publish_point_is_a_tool_that_publishes_what_is_clicked(bench: Callable[..., Any]) -> None:
+    path = EXAMPLES / "publish_point.py"
+    try:
+        load(path)
+        b = bench()
+        graph = b.source.graph = RememberingGraph()
+        told: list[Status] = []
+        answer = b.viewer.enqueue(UseTool("Publish Point", ((1.0, 2.0, 0.0),), tell=told.append))
+        b.turn()
+        assert answer.result() == ""
+    finally:
+        registry.register(str(path), {})
+    ((outlet, point),) = graph.published
+    assert (outlet.topic, outlet.type) == ("/clicked_point", "geometry_msgs/msg/PointStamped")
+    assert (point.header.frame_id, point.point.x, point.point.y) == ("map", 1.0, 2.0)
+    assert [status.text for status in told] == ["Published to /clicked_point, 1 subscription."]
 
 
 def test_every_example_is_listed() -> None:
