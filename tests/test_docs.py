@@ -1,4 +1,4 @@
-"""The pages about the displays are true to the displays, and their links lead somewhere."""
+"""The pages match the displays, and the links and files that they name exist."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ import pytest
 from webviz.api.registry import display_types
 from webviz.shell import docs
 
-DOCUMENTS = sorted(
-    [*docs.PAGES.rglob("*.md"), docs.ROOT / "README.md", docs.ROOT / "CONTRIBUTING.md"]
-)
+GUIDES = [docs.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
+DOCUMENTS = sorted([*docs.PAGES.rglob("*.md"), *GUIDES])
 GENERATED = docs.pages()
 DRAWING = [name for name, cls in display_types().items() if cls.__module__ != "webviz.api.group"]
 SOURCES = docs.ROOT / "displays/webviz_displays"
@@ -52,6 +51,14 @@ def test_every_link_leads_to_a_file_and_a_heading(path: Path) -> None:
         assert target.is_relative_to(docs.ROOT), f"{link} leads out of the project"
         if anchor:
             assert anchor in anchors(target.read_text(encoding="utf-8")), f"no heading {link}"
+
+
+@pytest.mark.parametrize("path", GUIDES, ids=lambda path: path.name)
+def test_every_file_that_a_guide_names_exists(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    named = re.findall(r"(?<![\w./-])((?:webviz|displays|urdf|sim|tests)/[\w./-]*)", text)
+    assert named
+    assert [name for name in named if not (docs.ROOT / name.rstrip(".")).exists()] == []
 
 
 def test_every_picture_of_a_display_is_shown() -> None:

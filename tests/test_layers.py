@@ -1,7 +1,8 @@
-"""Imports run downwards only, through the rooms in the order in which the README tells them."""
+"""Imports run downwards only, through the rooms in the order of the README's table."""
 
 import ast
 import graphlib
+import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -69,6 +70,12 @@ def _imports(path: Path) -> Iterator[str]:
 
 def is_within(name: str, *packages: str) -> bool:
     return any(name == package or name.startswith(f"{package}.") for package in packages)
+
+
+def test_the_readme_lists_the_rooms_in_the_order_of_their_imports() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    rooms = re.findall(r"^\| `webviz/(\w+)/`", text, re.MULTILINE)
+    assert [f"webviz.{room}" for room in rooms] == [room for room in ROOMS if room in MODULES]
 
 
 @pytest.mark.parametrize("room", ROOMS)

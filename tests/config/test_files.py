@@ -44,7 +44,7 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "sentence"),
     [
-        (b"\x89PNG\r\n\x1a\n\x00\xff", "is not UTF-8 text: no config file."),
+        (b"\x89PNG\r\n\x1a\n\x00\xff", "is not UTF-8 text: not a config file."),
         ("version: 1".encode("utf-16"), "is not UTF-8 text: it is UTF-16, save it as UTF-8."),
         (b"version: 1\x00", "is not valid YAML"),
         (b"# " * (2 << 20), "is not a config file: it is larger than 2 MB."),
@@ -244,7 +244,9 @@ def test_a_folder_that_somebody_blocks_is_told(path: Path) -> None:
     descriptor = os.open(path.parent, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
-        with pytest.raises(ConfigError, match="somebody else is saving in this folder, try again"):
+        with pytest.raises(
+            ConfigError, match="another program is saving in this folder; try again"
+        ):
             write_text("two", path)
     finally:
         os.close(descriptor)

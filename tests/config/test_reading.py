@@ -84,12 +84,12 @@ def test_what_is_said_once_can_be_used_again() -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "x.yaml is empty: a config has at least `version: 1`."),
-        ("# nothing\n", "x.yaml is empty: a config has at least `version: 1`."),
-        ("just words", "x.yaml holds no settings such as `fixed_frame: map`."),
+        ("", "x.yaml is empty: a config needs at least `version: 1`."),
+        ("# nothing\n", "x.yaml is empty: a config needs at least `version: 1`."),
+        ("just words", "x.yaml contains no settings such as `fixed_frame: map`."),
         ("Visualization Manager: {}", "x.yaml is RViz's config: its name must end with .rviz."),
         ("a: [", "x.yaml:1 is not valid YAML"),
-        ("a:\n\t- b", "x.yaml:2 is not valid YAML: a tab where YAML wants spaces."),
+        ("a:\n\t- b", "x.yaml:2 is not valid YAML: found a tab, expected spaces."),
         ("a: 1\n---\nb: 2", "x.yaml:2 is not valid YAML: but found another document."),
         ("fixed_frame: map\nfixed_frame: odom", "x.yaml:2 is not valid YAML: found duplicate key"),
         ("\nfixed_fram: map", "x.yaml:2: fixed_fram: unknown key, did you mean `fixed_frame`?"),
@@ -120,8 +120,8 @@ def test_a_mistake_is_one_sentence_with_its_line_and_place(text: str, sentence: 
 @pytest.mark.parametrize(
     ("entry", "reason"),
     [
-        ("{type: Lidar}", "displays[1].type: no display type `Lidar` here, known are: Axes"),
-        ("{type: LaserScann}", "no display type `LaserScann` here, did you mean `LaserScan`?"),
+        ("{type: Lidar}", "displays[1].type: unknown display type `Lidar`, known are: Axes"),
+        ("{type: LaserScann}", "unknown display type `LaserScann`, did you mean `LaserScan`?"),
         ("{size: 1}", "displays[1]: a display needs a `type`"),
         ("just text", "displays[1]: a display needs a `type`"),
         ("{type: LaserScan, size: -1}", "x.yaml:3: displays[1].size: expected > 0, got -1."),
@@ -137,10 +137,13 @@ def test_a_mistake_is_one_sentence_with_its_line_and_place(text: str, sentence: 
         ("{type: LaserScan, enabled: on}", "enabled: expected true or false, got `on`."),
         ("{type: Grid, plane_cell_count: 2.5}", "expected a whole number, got 2.5."),
         ("{type: TF, frames: {a b: 1}}", '.frames["a b"]: expected true or false, got 1.'),
-        ("{type: TF, frames: {0: true}}", 'frames: expected keys that are text, such as "0":'),
+        ("{type: TF, frames: {0: true}}", 'frames: expected text as keys, such as "0":'),
         ("{type: RobotModel, links: {b: {alpha: 2}}}", "links.b.alpha: expected <= 1, got 2."),
         ("{type: RobotModel, links: {b: {alfa: 2}}}", "links.b.alfa: unknown key, did you mean"),
-        ("{type: Group, displays: [{type: Gird}]}", "[1].displays[0].type: no display type `Gird`"),
+        (
+            "{type: Group, displays: [{type: Gird}]}",
+            "[1].displays[0].type: unknown display type `Gird`",
+        ),
         ("{type: Group, displays: 4}", "displays[1].displays: expected a list"),
     ],
 )
@@ -175,7 +178,7 @@ def test_all_mistakes_of_a_display_are_reported() -> None:
         "x.yaml:6: displays[1].name: expected text, got 5."
     )
     assert grid.count("unknown key") == 10
-    assert grid.endswith(" There are 2 more mistakes.")
+    assert grid.endswith(" 2 more errors.")
 
 
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:

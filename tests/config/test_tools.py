@@ -39,8 +39,8 @@ def test_what_a_file_says_of_tools_is_written_again() -> None:
 @pytest.mark.parametrize(
     ("entry", "reason"),
     [
-        ("{type: GoalPos}", "tools[0].type: no tool type `GoalPos` here, did you mean `GoalPose`?"),
-        ("{type: Grid}", "tools[0].type: no tool type `Grid` here, "),
+        ("{type: GoalPos}", "tools[0].type: unknown tool type `GoalPos`, did you mean `GoalPose`?"),
+        ("{type: Grid}", "tools[0].type: unknown tool type `Grid`, "),
         ("5", "tools[0]: a tool needs a `type`, such as `type: GoalPose`."),
         ("{type: GoalPose, topic: 5}", "tools[0].topic: expected the name of a topic, got 5."),
         ("{type: GoalPose, topics: /a}", "tools[0].topics: unknown key, did you mean `topic`?"),

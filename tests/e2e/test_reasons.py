@@ -153,7 +153,7 @@ def test_wall_time_against_simulated_time_is_recognised(robot: Robot, page: Page
 def test_an_empty_frame_id_is_named(robot: Robot, page: Page) -> None:
     robot.scans["/nameless"] = Scan("")
     select(page, "Nameless")
-    wait_for(page, "The frame_id is empty: the publisher has to name the frame")
+    wait_for(page, "The frame_id is empty. The publisher must name the frame")
     robot.scans["/nameless"] = Scan("base_link")
     wait_until_ok(page, "frame_id is empty")
 
@@ -186,7 +186,7 @@ def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, 
     robot.scans["/far"] = Scan("out", stamp_ns=stamp_ns)
     wait_for(
         page,
-        '"out" is more than 1e+12 m from "map", too far to be drawn. The longest link on the way '
+        '"out" is more than 1e+12 m from "map", too far to draw. The longest link on the way '
         'is "map" → "far" with 1e+308 m.',
     )
     select(page, "Slash")

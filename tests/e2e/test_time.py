@@ -190,9 +190,7 @@ def test_two_static_publishers_of_one_frame_are_told_with_both_parents_and_who_t
     first.links = {("map", "base_link"): 0.0, ("map", "mast"): 0.0}
     first.static("base_link", "laser")
     second.static("mast", "laser")
-    wait_for(
-        page, '"laser" is given two parents by static transforms', "/tf_static: /first, /second"
-    )
+    wait_for(page, '"laser" has two parents in static transforms', "/tf_static: /first, /second")
     assert '"base_link"' in page.text()
     assert '"mast"' in page.text()
     second.close()

@@ -249,7 +249,9 @@ def test_hostile_text_is_shown_as_it_is(loop: Any, tab: Any, make_row: MakeRow) 
 
 
 def test_an_entry_that_cannot_be_read_shows_why_and_nothing_to_edit(loop: Any, tab: Any) -> None:
-    reason = Status(Level.ERROR, "displays[0]: no display type `Grd` here, did you mean `Grid`?")
+    reason = Status(
+        Level.ERROR, "displays[0]: unknown display type `Grd` here, did you mean `Grid`?"
+    )
     loop.show(Row("a", "Grd", None, "Ground", {"Config": reason}))
     tab.wait_for(lambda: reason.text in tab.text())
     assert tab.names() == ["✖ Ground"]

@@ -51,7 +51,7 @@ def test_a_bad_entry_in_a_group_names_its_whole_path() -> None:
     assert isinstance(inner, Branch)
     bad = inner.displays[1]
     assert isinstance(bad, Unreadable)
-    assert bad.reason.startswith("x.yaml:13: displays[1].displays[1].displays[1].type: no")
+    assert bad.reason.startswith("x.yaml:13: displays[1].displays[1].displays[1].type: unknown")
 
 
 @pytest.mark.parametrize(

@@ -68,11 +68,11 @@ def test_what_does_not_compose_to_a_pose_within_reach_is_not_drawn_and_names_the
     assert [key for key, *_ in b.scene.visible("display1")] == []
     level, text = b.statuses(0)["Transform"]
     assert level == "ERROR"
-    assert '"b" is more than 1e+12 m from "map", too far to be drawn' in text
+    assert '"b" is more than 1e+12 m from "map", too far to draw' in text
     assert f'→ "b" with {far:.3g} m' in text or f'→ "a" with {far:.3g} m' in text
     level, text = b.statuses(1)["b"]
     assert level == "WARN"
-    assert "too far to be drawn" in text
+    assert "too far to draw" in text
     near = next(node for key, _, node in b.scene.visible("display2") if key == "axes")
     assert len(near.positions) == 1 + others + (far == REACH_M)
 
@@ -104,4 +104,4 @@ def test_a_view_does_not_follow_a_frame_out_of_reach(bench: Callable[..., Any]) 
     assert finite(b)
     b.viewer._next_panel = 0.0
     b.turn()
-    assert "too far to be drawn" in b.states[-1].statuses["Target Frame"].text
+    assert "too far to draw" in b.states[-1].statuses["Target Frame"].text

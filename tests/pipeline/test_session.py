@@ -322,7 +322,7 @@ def test_background_and_frame_rate_are_set(bench: Callable[..., Any]) -> None:
             "radius: expected a number, got `x`.",
         ),
         (SetProperty("display1", "lenth", 1.0), "Not changed: Axes has no property 'lenth'."),
-        (AddDisplay("Axis"), "There is no display type `Axis`: did you mean `Axes`?"),
+        (AddDisplay("Axis"), "Unknown display type `Axis`: did you mean `Axes`?"),
     ],
 )
 def test_what_is_refused_is_told_and_changes_nothing(

@@ -222,7 +222,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(bench: Callable[...,
         assert b.source.wanted["/tf_static"].asked > asked
     level, text = statuses(b)["Transforms"]
     assert level == "WARN"
-    assert '"laser" is given two parents by static transforms, "base" and "camera"' in text
+    assert '"laser" has two parents in static transforms, "base" and "camera"' in text
     assert "/tf_static: /first, /second" in text
     publishes(b, "/tf_static", "/second")
     b.turn()

@@ -12,7 +12,7 @@ class Polygon(Display):
     def draw(self, sample: Sample, ctx: Context) -> None:
         corners = sample.message.polygon.points  # float32 (N, 3)
         if len(corners) < 3:
-            ctx.warn("Polygon", f"A polygon needs three corners, this one has {len(corners)}.")
+            ctx.warn("Polygon", f"Expected at least 3 corners, got {len(corners)}.")
             return
         ctx.strip("outline", [*corners, corners[0]], self.color)
         ctx.ok("Polygon", f"{len(corners)} corners.")

@@ -94,7 +94,7 @@ def test_a_display_that_does_not_load_says_why_and_harms_no_other(
     place = "x.yaml:4: displays[1].type"
     assert f"{place}: acme_displays.gone:Gone does not load: ModuleNotFoundError" in gone
     assert "Torn does not load: TypeError: Torn.sync: 'image' is not an input" in torn
-    assert "no display type `Fenc` here, did you mean `Fence`?" in typo
+    assert "unknown display type `Fenc`, did you mean `Fence`?" in typo
 
 
 def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:

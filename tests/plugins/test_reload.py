@@ -234,7 +234,7 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
     publish(b)
     assert outlines(b) == [(GREEN, 7.0)]
     assert b.states[-1].rows[0].id == "display1"
-    assert "no display type `Nowhere`" in b.statuses(1)["Config"][1]
+    assert "unknown display type `Nowhere`" in b.statuses(1)["Config"][1]
 
 
 def test_a_node_that_cannot_be_drawn_is_a_status(b: Any, plugin: Any) -> None:

@@ -69,7 +69,7 @@ def test_mistakes_are_one_sentence(
     assert "No such file or directory." in capsys.readouterr().err
     (tmp_path / "bad.rviz").write_text("a: 1")
     assert convert(tmp_path / "bad.rviz", tmp_path / "a.yaml") == 1
-    assert "is no RViz config: it has no `Visualization Manager`." in capsys.readouterr().err
+    assert "is not an RViz config: it has no `Visualization Manager`." in capsys.readouterr().err
     assert convert(small, tmp_path / "no folder" / "a.yaml") == 1
     assert "Cannot write" in capsys.readouterr().err
 

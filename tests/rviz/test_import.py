@@ -211,7 +211,7 @@ def test_old_forms_are_understood() -> None:
     assert isinstance(robot, RobotModel)
     assert robot.description_topic.name == "/robot_description"
     assert isinstance(group, Branch)
-    assert "Old: rviz/LaserScan: this is ROS 1's class" in said(report)
+    assert "Old: rviz/LaserScan: ROS 1's class" in said(report)
 
 
 def test_groups_nest() -> None:
@@ -251,16 +251,16 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
 @pytest.mark.parametrize(
     ("text", "what"),
     [
-        ("Size (m): 0", "Size (m): 0 is out of range here, 0.0001 is used"),
-        ("Size (m): wide", "Size (m): `wide` is no number; the default is used"),
-        ("Size (m): .nan", "Size (m): `.nan` is no number"),
-        ("Style: Cones", "Style: `Cones` is none of Points, Squares"),
-        ("Color: loud", "Color: `loud` is no colour"),
+        ("Size (m): 0", "Size (m): 0 is out of range, clamped to 0.0001"),
+        ("Size (m): wide", "Size (m): expected a number, got `wide`; using the default"),
+        ("Size (m): .nan", "Size (m): expected a number, got `.nan`"),
+        ("Style: Cones", "Style: expected Points, Squares, Flat Squares, Spheres"),
+        ("Color: loud", "Color: expected a colour, got `loud`"),
         ("Use rainbow: [1]", "Use rainbow: it has no value"),
-        ("Alpha: 7", "Alpha: 7 is out of range here, 1 is used"),
-        ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: `deep` is no number"),
+        ("Alpha: 7", "Alpha: 7 is out of range, clamped to 1"),
+        ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: expected a number, got `deep`"),
         ("Glow: true", "Glow: unsupported"),
-        ("Selectable: false", "Selectable: nothing can be selected in the scene yet"),
+        ("Selectable: false", "Selectable: selecting in the scene is not supported yet"),
     ],
 )
 def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
@@ -323,7 +323,7 @@ def test_placeholders_are_names_like_others() -> None:
     assert one("Topic: {Value: <namespace>/scan}").topic.name == "<namespace>/scan"
     config, report = opened(manager="Global Options: {Fixed Frame: [PLANNING_FRAME]}\n")
     assert config.settings.fixed_frame == "base_link"
-    assert "Global Options: Fixed Frame: it has no value; base_link is used" in said(report)
+    assert "Global Options: Fixed Frame: it has no value; using base_link" in said(report)
 
 
 def test_panels_and_tools_are_told_once() -> None:
@@ -354,8 +354,8 @@ def test_panels_and_tools_are_told_once() -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "x.rviz is no RViz config: it has no `Visualization Manager`."),
-        ("fixed_frame: map", "x.rviz is no RViz config: it has no `Visualization Manager`."),
+        ("", "x.rviz is not an RViz config: it has no `Visualization Manager`."),
+        ("fixed_frame: map", "x.rviz is not an RViz config: it has no `Visualization Manager`."),
         ("a: [", "x.rviz:1 is not valid YAML"),
         ("[" * 200, "x.rviz"),
         ("a: &a [*a]", "x.rviz is nested deeper than 64 levels."),

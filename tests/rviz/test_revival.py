@@ -74,7 +74,7 @@ def test_kept_displays_are_read_once_their_type_is_there(install: Callable[[], N
     assert isinstance(other, Sonar)
     assert twin.beam_count == 3
     assert isinstance(radar, Unreadable)
-    assert "Twin: Beam Count: `many` is no number; the default is used." in after.report
+    assert "Twin: Beam Count: expected a number, got `many`; using the default." in after.report
     assert "Front, Twin: Glow: unsupported" in "\n".join(after.report)
 
 

@@ -105,6 +105,6 @@ def test_a_tool_without_its_topic_has_the_default_one() -> None:
 def test_a_fault_of_a_tool_is_reported_with_its_line() -> None:
     _, report = opened("[{Class: rviz/SetGoal, Topic: {Value: /a, Depth: deep}, Glow: 1}]")
     assert report.sentences() == [
-        "2D Goal Pose (line 2): Topic/Depth: `deep` is no number.",
+        "2D Goal Pose (line 2): Topic/Depth: expected a number, got `deep`.",
         "2D Goal Pose: Glow: unsupported; kept for export.",
     ]

@@ -96,8 +96,11 @@ def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
             "{Class: rviz_default_plugins/FrameAligned, Target Frame: base_link}",
             "rviz_default_plugins/FrameAligned: unsupported view type",
         ),
-        ("{Distance: far}", "current view: Distance: `far` is no number; the default is used"),
-        ("{Focal Point: 1}", "Focal Point: it needs X, Y, Z; the default is used"),
+        (
+            "{Distance: far}",
+            "current view: Distance: expected a number, got `far`; using the default",
+        ),
+        ("{Focal Point: 1}", "Focal Point: it needs X, Y, Z; using the default"),
         ("{Invert Z Axis: true}", "Invert Z Axis: the camera is always upright"),
     ],
 )

@@ -36,7 +36,7 @@ def test_a_leading_slash_is_named_with_the_right_spelling(
     put("map", "laser", 1.0)
     found = why(buffer, "/laser", 1.0)
     assert found.kind == Kind.LEADING_SLASH
-    assert 'call it "laser"' in found.sentence
+    assert 'use "laser"' in found.sentence
     assert why(buffer, "laser", 1.0, fixed="/map").kind == Kind.LEADING_SLASH
 
 
@@ -256,7 +256,7 @@ def test_a_single_sample_at_another_time_is_too_little(buffer: TransformBuffer, 
     put("odom", "base", 1.1)
     found = explain(buffer, "map", "base", 0)
     assert found.kind == Kind.NO_DATA
-    assert 'Only one transform "odom" → "base" has come' in found.sentence
+    assert 'Only one transform "odom" → "base" has arrived' in found.sentence
 
 
 def test_after_a_clear_the_silent_link_is_named(buffer: TransformBuffer, put: Put) -> None:
@@ -265,7 +265,7 @@ def test_after_a_clear_the_silent_link_is_named(buffer: TransformBuffer, put: Pu
     for stamp in (0.0, 1.0):
         found = why(buffer, "odom", stamp)
         assert found.kind == Kind.NO_DATA
-        assert '"odom" has come since the transforms were cleared' in found.sentence
+        assert '"odom" has arrived since the transforms were cleared' in found.sentence
 
 
 @pytest.mark.parametrize(

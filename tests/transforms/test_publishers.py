@@ -63,7 +63,7 @@ def test_static_publishers_that_agree_are_not_contested(buffer: TransformBuffer,
 @pytest.mark.parametrize(
     ("other", "x", "words"),
     [
-        ("camera", 1.0, 'two parents by static transforms, "base" and "camera"'),
+        ("camera", 1.0, 'two parents in static transforms, "base" and "camera"'),
         ("base", 1.25, 'two static poses in "base", 0.250 m apart'),
     ],
 )
@@ -115,7 +115,7 @@ def test_poses_that_leap_to_and_fro_betray_two_publishers_without_names(
     for i in range(20):
         put("map", "odom", 1.0 + i / 10, x=0.01 * i + (3.0 if i % 2 else 0.0))
     (sentence,) = quarrels(buffer, "odom")
-    assert "leaps to and fro between two poses" in sentence
+    assert "alternates between two poses" in sentence
 
 
 def test_neither_a_drive_nor_a_leap_nor_standing_still_is_a_quarrel(

@@ -25,8 +25,8 @@ def load(path: Path) -> Config:
     """Read a config file: YAML, or RViz's if its name ends with .rviz.
 
     Raises:
-        ConfigError: the file is missing, no YAML, or not a config; then the sentence shows nothing
-            of what it contains. A single display that does not fit is no error: it becomes an
+        ConfigError: the file is missing, not YAML, or not a config; the sentence does not
+            quote the file. A single invalid display is not an error: it becomes an
             `Unreadable`.
     """
     return parse(read_text(path), str(path))
@@ -36,7 +36,7 @@ def parse(text: str, where: str) -> Config:
     """A config from its text.
 
     Args:
-        text: RViz's if `where` ends with .rviz, else YAML.
+        text: in RViz's format if `where` ends with .rviz, else YAML.
         where: names the text in errors.
 
     Raises:
@@ -52,16 +52,16 @@ def parse(text: str, where: str) -> Config:
 
 
 def text_of(config: Config, name: str) -> str:
-    """The text of a config file; RViz's if `name` ends with .rviz, else YAML."""
+    """The text of a config file; in RViz's format if `name` ends with .rviz, else YAML."""
     return rviz.write(config)[0] if is_rviz(Path(name)) else dump(config)
 
 
 def save(config: Config, path: Path) -> None:
-    """Write a config file; a name that ends with .rviz makes it RViz's.
+    """Write a config file, in RViz's format if its name ends with .rviz.
 
-    The version before is kept, see `write_text`. Comments at the beginning of the file stay, such
-    as a licence or what tells an editor of the schema; other comments go, since the displays they
-    stood at may have moved or gone.
+    The previous version is kept, see `write_text`. Comments at the beginning of the file stay, such
+    as a licence or the reference to a schema; other comments are removed, since the displays they
+    belong to may have moved.
 
     Raises:
         ConfigError: it cannot be written.
@@ -71,7 +71,7 @@ def save(config: Config, path: Path) -> None:
 
 
 def _is_kept(item: Item) -> bool:
-    """Whether a display is kept of a .rviz file, or one in a group."""
+    """Whether the displays include unsupported ones of a .rviz file, in groups too."""
     if isinstance(item, Branch):
         return any(map(_is_kept, item.displays))
     return isinstance(item, Unreadable) and item.is_from_rviz

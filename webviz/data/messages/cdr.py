@@ -25,7 +25,7 @@ _TIME = {order: Struct(order + "iI").unpack_from for order in "<>"}
 
 
 class CdrError(MessageError):
-    """What is wrong with the bytes; `Reader.pos` says where."""
+    """Malformed bytes; `Reader.pos` says where."""
 
 
 class Reader:

@@ -52,9 +52,9 @@ def peek_header(type_name: str, cdr: Bytes) -> tuple[str, int] | None:
 
 
 def register(type_name: str, text: str) -> None:
-    """Learn a message type at run time, for example from its publisher.
+    """Register a message type at run time, for example from its publisher.
 
-    A definition that differs from the one known replaces it: the publisher is right.
+    A definition that differs from the known one replaces it: the publisher is right.
 
     Args:
         type_name: The type that `text` defines.
@@ -82,7 +82,7 @@ def _peek(reader: Reader) -> tuple[str, int]:
 
 
 def _read(type_name: str, cdr: Bytes, read: Callable[[Reader], T]) -> T:
-    """Call `read`, and say of what is wrong with the bytes where it is wrong."""
+    """Call `read`; errors name the place in the bytes."""
     pos = 0
     try:
         reader = Reader(cdr)

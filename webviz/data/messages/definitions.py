@@ -1,7 +1,7 @@
-"""Definitions of messages that displays understand and rosbags does not bring along.
+"""Definitions of messages that displays use and rosbags does not include.
 
-Field names and types are the interfaces of navigation_msgs, navigation2, octomap_msgs, grid_map
-and vision_msgs in ROS 2 Jazzy; without them in the right order nothing can be decoded.
+Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map
+and vision_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
 DEFINITIONS = {

@@ -1,4 +1,4 @@
-"""What can go wrong with a message, each as one sentence for the person watching."""
+"""Errors of messages, each with one sentence as text."""
 
 
 class MessageError(ValueError):
@@ -6,11 +6,11 @@ class MessageError(ValueError):
 
 
 class DecodeError(MessageError):
-    """The bytes are not a message of the type they are said to be."""
+    """The bytes are not a message of the given type."""
 
 
 class EncodeError(MessageError):
-    """A value does not fit the field of a message that it is meant for."""
+    """A value does not fit its field of a message."""
 
 
 class UnknownTypeError(MessageError):

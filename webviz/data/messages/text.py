@@ -1,4 +1,4 @@
-"""Messages as text for people, in the style of `ros2 topic echo`, never longer than asked."""
+"""Messages as text in the style of `ros2 topic echo`, with a limit on its length."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _STRING_HEAD = 120
 def to_text(message: Any, max_lines: int = 100) -> str:
     """Show a message as YAML-like text.
 
-    Long arrays, sequences and strings are abbreviated, and their full length is said.
+    Long arrays, sequences and strings are abbreviated, with their full length.
 
     Args:
         message: What `decode` returned.

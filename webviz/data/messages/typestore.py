@@ -1,4 +1,4 @@
-"""Which message types are known, and how they are laid out.
+"""The known message types and their layout.
 
 rosbags knows the ROS 2 core interfaces and reads .msg text; only its definitions are used, never
 the code it generates from them, because definitions may come from a stranger's publisher.
@@ -100,7 +100,7 @@ def definition(type_name: str) -> str:
 
 
 def type_hash(type_name: str) -> str:
-    """The hash by which ROS 2 tells versions of a type apart (REP 2016), "RIHS01_...".
+    """The hash by which ROS 2 distinguishes versions of a type (REP 2016), "RIHS01_...".
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -110,7 +110,7 @@ def type_hash(type_name: str) -> str:
 
 
 def add(type_name: str, text: str, fixed: Container[str]) -> None:
-    """Learn a type from its .msg text, but never change those in `fixed`.
+    """Register a type from its .msg text, but never change those in `fixed`.
 
     See `webviz.data.messages.register`.
     """
@@ -156,7 +156,7 @@ def described(type_name: str) -> list[Any]:
 
 
 def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
-    """Raise unless every type that `type_name` holds is known and none holds itself."""
+    """Raise unless all types that `type_name` contains are known and none contains itself."""
     if type_name in inside:
         raise DefinitionError(f"{type_name} cannot hold a {type_name}.")
     if type_name not in _store().fielddefs:

@@ -1,4 +1,4 @@
-"""Transforms between frames over time, as true as tf2."""
+"""Transforms between frames over time, equivalent to tf2."""
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.diagnosis import Diagnosis, FrameReport, diagnose, tree_text

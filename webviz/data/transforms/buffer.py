@@ -27,7 +27,7 @@ QUATERNION_TOLERANCE = 10e-3
 
 
 _SILENT = np.errstate(over="ignore", invalid="ignore")
-"""Huge transforms compose to infinity and NaN without a word, as floats do."""
+"""Huge transforms compose to infinity and NaN silently, as floats do."""
 
 
 class TransformBuffer:
@@ -44,10 +44,10 @@ class TransformBuffer:
         cache_time_ns: how much history each moving frame keeps (tf2's and RViz's default is 10 s).
 
     Attributes:
-        nodes: who stands behind an authority, where that is known, for sentences.
+        nodes: the node behind each authority, if known, for sentences.
         version: changes whenever something was stored or cleared.
         structure_version: changes when frames, parents, static poses or the kind of a frame did:
-            what follows from the shape of the tree alone can be kept while it stands.
+            results that depend only on the tree's shape can be cached until then.
     """
 
     def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
@@ -59,7 +59,7 @@ class TransformBuffer:
         self._publishers: dict[str, Publishers] = {}
         self._rejections: dict[str, Rejection] = {}
         self._topology: tuple[int, Topology] | None = None
-        """What the last question for many frames followed from, and at which structure version."""
+        """The cached shape of the last query for many frames, and its structure version."""
         self._largest: tuple[int, tuple[str, int]] | None = None
 
     @property
@@ -69,12 +69,12 @@ class TransformBuffer:
 
     @property
     def rejections(self) -> Mapping[str, Rejection]:
-        """Per child frame the last refusal; nothing where nothing was refused."""
+        """The last refusal per child frame; frames without one are missing."""
         return self._rejections
 
     @property
     def publishers(self) -> Mapping[str, Publishers]:
-        """Per child frame who published it."""
+        """The publishers per child frame."""
         return self._publishers
 
     def set_transform(
@@ -104,7 +104,7 @@ class TransformBuffer:
             received_ns: when it was received, for the diagnosis; 0 if not known.
 
         Returns:
-            Whether it was stored (a repeated sample counts as stored); if not, `rejections` tells
+            Whether it was stored (a repeated sample counts as stored); if not, `rejections` says
             why.
         """
         if parent[:1] == "/":
@@ -282,7 +282,7 @@ class TransformBuffer:
         self.structure_version += 1
 
     def forget_publishers(self) -> None:
-        """Forget who quarrelled over which frame, as when publishers came or went."""
+        """Forget conflicts over frames, such as after publishers came or went."""
         for publishers in self._publishers.values():
             publishers.forget()
 
@@ -303,7 +303,7 @@ class TransformBuffer:
         return self._tree.rigid_root(frame)
 
     def who(self, child: str) -> list[str]:
-        """Who published a child frame lately, as far as known, the current one last."""
+        """The recent publishers of a child frame, as far as known, the current one last."""
         publishers = self._publishers.get(child)
         names = publishers.names() if publishers else []
         return [self.nodes.get(name, name) for name in names if name]

@@ -1,4 +1,4 @@
-"""What is remembered of one child frame: its samples over time, or its one static pose."""
+"""The history of one child frame: its samples over time, or its one static pose."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from webviz.data.transforms.errors import (
 )
 from webviz.data.transforms.geometry import PoseTuple, interpolate
 
-# A bound on memory that tf2 lacks: a publisher whose clock stands still never lets data grow old.
+# A bound on memory that tf2 lacks: if a publisher's clock stands still, its data never expires.
 # 65536 samples are 10 s at 6.5 kHz.
 MAX_SAMPLES = 65_536
 

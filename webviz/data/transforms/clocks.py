@@ -1,4 +1,4 @@
-"""Whether the clocks of those who publish transforms agree with ours."""
+"""Whether the clocks of the publishers of transforms agree with ours."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, in_words
 
 TOLERANCE_NS = 1_500_000_000
-"""Offset that is no fault: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
+"""Tolerated offset: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
 RECENT_NS = 10 * NS_PER_S
 SHOWN = 3
 
 
 def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
-    """Say which transforms are stamped with another time than ours, and by how much.
+    """Report transforms whose stamps differ from our time, and by how much.
 
     Args:
         buffer: transforms inserted with the time at which they were received.

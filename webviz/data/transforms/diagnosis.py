@@ -1,4 +1,4 @@
-"""The state of the whole tree: who publishes what, how fast, how old, and what is broken."""
+"""The state of the whole tree: publishers, rates, ages and faults."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from webviz.data.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
 STALE_PERIODS = 5
-"""A moving frame is stale if nothing came for a second and for five of its periods."""
+"""A moving frame is stale after a second and five of its periods without a transform."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class FrameReport:
         frame: its id.
         parent: its parent now; empty if its samples were cleared.
         is_static: whether it holds at all times.
-        publishers: who was heard of lately, as far as known, the current one last.
+        publishers: the recent ones, as far as known, the current one last.
         rate_hz: samples per second of their stamps; 0 for a static frame or a single sample.
         newest_ns: stamp of the newest sample, 0 for a static frame.
         age_ns: now minus that; None for a static frame.
@@ -65,22 +65,22 @@ class Diagnosis:
 
     @property
     def problems(self) -> list[str]:
-        """All that is wrong, one sentence each."""
+        """All faults, one sentence each."""
         found = [
-            f"The frames form a loop: {' → '.join(loop)}. Two publishers disagree about who is "
-            "whose parent."
+            f"The frames form a loop: {' → '.join(loop)}. Two publishers disagree about the "
+            "parents; stop one of them."
             for loop in self.loops
         ]
         if len(self.roots) > 1:
             found.append(
-                f"There are {len(self.roots)} trees that no transform connects, with the roots "
+                f"No transform connects the {len(self.roots)} trees with the roots "
                 f"{', '.join(self.roots)}."
             )
         return found + [problem for report in self.frames for problem in report.problems]
 
 
 def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
-    """Look at every frame.
+    """Diagnose every frame.
 
     Args:
         buffer: the transforms.
@@ -164,11 +164,11 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache.stamps else None
     problems = [*quarrels(buffer, frame)]
     if newest is None:
-        problems.append(f'No transform of "{frame}" has come since the transforms were cleared.')
+        problems.append(f'No transform of "{frame}" has arrived since the transforms were cleared.')
     if age_ns is not None and age_ns > STALE_NS and age_ns * rate_hz > STALE_PERIODS * NS_PER_S:
         problems.append(
-            f'"{frame}" has stopped: its last transform is {in_words(age_ns)} old, before they '
-            f"came at {rate_hz:.1f} Hz. Is its publisher still running?"
+            f'"{frame}" has stopped: its last transform is {in_words(age_ns)} old, previously '
+            f"{rate_hz:.1f} Hz. Restart its publisher."
         )
     rejection = buffer.rejections.get(frame)
     if rejection:

@@ -6,7 +6,7 @@ NS_PER_S = 1_000_000_000
 
 
 class TransformException(Exception):
-    """A transform cannot be given; the base of all of tf2's exceptions."""
+    """A transform is not available; the base of tf2's exceptions."""
 
 
 class LookupException(TransformException):
@@ -14,7 +14,7 @@ class LookupException(TransformException):
 
 
 class ConnectivityException(TransformException):
-    """The two frames are in trees that nothing connects."""
+    """The two frames are in unconnected trees."""
 
 
 class InvalidArgumentException(TransformException):
@@ -49,5 +49,5 @@ def stamp_to_seconds(stamp_ns: int) -> float:
 
 
 def format_stamp(stamp_ns: int) -> str:
-    """A stamp as it stands in tf2's texts: seconds with six decimals."""
+    """A stamp in tf2's texts: seconds with six decimals."""
     return f"{stamp_to_seconds(stamp_ns):.6f}"

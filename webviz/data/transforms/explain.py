@@ -1,4 +1,4 @@
-"""Why a frame has no pose at a time, in words and numbers, and what to do about it."""
+"""Why a frame has no pose at a time, with numbers and a remedy."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.data.transforms.tree import FrameTree, ancestors
 
 SLIP = 0.85
-"""Similarity, by difflib, from which a name is taken for a slip of another."""
+"""Similarity, by difflib, from which a name counts as a misspelling of another."""
 
 
 def explain(
     buffer: TransformBuffer, fixed_frame: str, frame: str, stamp_ns: int, now_ns: int = 0
 ) -> Explanation:
-    """Say why `frame` has no pose in `fixed_frame` at a stamp.
+    """Explain why `frame` has no pose in `fixed_frame` at a stamp.
 
     Args:
         buffer: the transforms.
-        fixed_frame: frame that everything is shown in.
+        fixed_frame: frame in which everything is drawn.
         frame: frame of the data.
         stamp_ns: time of the data; 0 means the latest.
         now_ns: the current ROS time, 0 if it is not known.
@@ -47,29 +47,29 @@ def explain(
 
 
 def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanation | None:
-    """What is wrong with the names alone."""
+    """Faults of the names alone."""
     if not frame:
         return Explanation(
             Kind.EMPTY_FRAME,
-            "The frame_id is empty: the publisher has to name the frame its data is given in "
+            "The frame_id is empty. The publisher must name the frame of its data "
             "(header.frame_id).",
         )
     if not fixed_frame:
-        return Explanation(Kind.EMPTY_FRAME, "There is no fixed frame: choose one.")
+        return Explanation(Kind.EMPTY_FRAME, "No fixed frame. Choose one.")
     for name, what in ((frame, "The frame_id"), (fixed_frame, "The fixed frame")):
         if name[0] == "/":
             return Explanation(
                 Kind.LEADING_SLASH,
-                f'{what} "{name}" starts with a slash, which frame ids in ROS 2 must not: '
-                f'call it "{name.lstrip("/")}".',
+                f'{what} "{name}" starts with a slash, which ROS 2 does not allow in frame ids: '
+                f'use "{name.lstrip("/")}".',
             )
     names = buffer.tree.names
     if not names:
         return Explanation(
             Kind.NO_TRANSFORMS,
-            f'There is no transform at all, so "{frame}" has no place in "{fixed_frame}": is '
-            "anything publishing on /tf or /tf_static (robot_state_publisher, odometry, "
-            "localisation)?",
+            f'No transforms received, so "{frame}" has no pose in "{fixed_frame}". Start '
+            "a publisher on /tf or /tf_static (robot_state_publisher, odometry, "
+            "localisation).",
         )
     if fixed_frame not in names:
         sentence = unknown_fixed_frame(buffer, fixed_frame)
@@ -88,7 +88,7 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
 
 
 def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> str:
-    """Say that no transform names the fixed frame, and which one to use instead."""
+    """The fixed frame is unknown; suggests another one."""
     text = f'Fixed frame "{fixed_frame}" does not exist.'
     if near := _nearest(buffer, fixed_frame):
         return f'{text} Did you mean "{near}"?'
@@ -101,9 +101,9 @@ def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> str:
 
 
 def _nearest(buffer: TransformBuffer, name: str) -> str:
-    """The frame that a name is a slip of, "" if none is so near.
+    """The frame whose name is misspelled, "" if none is similar enough.
 
-    Frames that differ by a number, a namespace, left or right are frames of their own.
+    Frames that differ by a number, a namespace, left or right are distinct.
     """
     candidates = {frame.lower(): frame for frame in buffer.frames()}
     slip = name.lower()
@@ -125,7 +125,7 @@ def _out_of_reach(tree: FrameTree, fixed_frame: str, frame: str, stamp_ns: int) 
         sample = tree.caches[child].at(stamp_ns) if child in tree.caches else None
         if sample is not None:
             links.append((max(map(abs, sample[0][:3])), sample[1], child))
-    text = f'"{frame}" is more than {REACH_M:.0e} m from "{fixed_frame}", too far to be drawn.'
+    text = f'"{frame}" is more than {REACH_M:.0e} m from "{fixed_frame}", too far to draw.'
     if links:
         metres, parent, child = max(links)
         text += f' The longest link on the way is "{parent}" → "{child}" with {metres:.3g} m.'
@@ -140,7 +140,7 @@ def _loop(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:
             return Explanation(
                 Kind.LOOP,
                 f"The frames form a loop, each the child of the next: {loop}. Two publishers "
-                "disagree about who is whose parent: stop one of them.",
+                "disagree about the parents: stop one of them.",
             )
     return Explanation(Kind.LOOP, "The frames formed a loop at that time.")
 
@@ -150,13 +150,13 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
     if root == fixed_root:
         return Explanation(
             Kind.NOT_CONNECTED,
-            f'At that time nothing connected "{frame}" with "{fixed_frame}"; now it does.',
+            f'At that time no transform connected "{frame}" with "{fixed_frame}"; now one does.',
         )
     for top in (root, fixed_root):
         if top in tree.caches:
             return Explanation(
                 Kind.NO_DATA,
-                f'No transform of "{top}" has come since the transforms were cleared, so '
+                f'No transform of "{top}" has arrived since the transforms were cleared, so '
                 f'"{frame}" is not connected with "{fixed_frame}".',
             )
     return Explanation(
@@ -168,7 +168,7 @@ def _not_connected(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation
 
 
 def _missing_link(tree: FrameTree, root: str, fixed_root: str) -> str:
-    """What usually publishes the link between two trees (REP 105), or what to do about it."""
+    """The usual publisher of the link between two trees (REP 105), or a remedy."""
     if fixed_root == "map" and root == "odom":
         return 'Start localisation or SLAM, which publishes "map" → "odom", and initialise it.'
     if root.startswith("base") and "odom" in tree.names and tree.root("odom") == fixed_root:

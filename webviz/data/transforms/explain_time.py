@@ -1,4 +1,4 @@
-"""Why a frame has no pose at one time though it has one at others."""
+"""Why a frame has no pose at one time although it has one at others."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, Explanatio
 from webviz.data.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
-"""A link silent for so long has stopped; the slowest usual publisher, AMCL at rest, takes 1 s."""
+"""After this silence a link has stopped; the slowest usual publisher, AMCL at rest, takes 1 s."""
 
 
 def explain_time(
     buffer: TransformBuffer, fixed_frame: str, frame: str, stamp_ns: int, now_ns: int, text: str
 ) -> Explanation:
-    """Name the link of the chain that has no data at the stamp; `text` is what tf2 says."""
+    """Name the link of the chain without data at the stamp; `text` is tf2's."""
     tree = buffer.tree
     up, down = ancestors(tree, frame), ancestors(tree, fixed_frame)
     shared = set(up) & set(down)
@@ -26,7 +26,7 @@ def explain_time(
             links.append((name, cache))
     empty = [name for name, cache in links if not cache.stamps]
     if empty:
-        sentence = f'No transform of "{empty[0]}" has come since the transforms were cleared.'
+        sentence = f'No transform of "{empty[0]}" has arrived since the transforms were cleared.'
         return Explanation(Kind.NO_DATA, sentence)
     if stamp_ns == 0:
         alone = [name for name, cache in links if len(cache.stamps) == 1]
@@ -34,8 +34,8 @@ def explain_time(
             return Explanation(Kind.NO_DATA, f"{text}.")
         return Explanation(
             Kind.NO_DATA,
-            f"Only one transform {_link(buffer, alone[0])} has come, and it is newer than others "
-            "on the way: a second one is needed.",
+            f"Only one transform {_link(buffer, alone[0])} has arrived, newer than others "
+            "in the chain; a second one is needed.",
         )
     late = [(cache.stamps[-1], name) for name, cache in links if cache.stamps[-1] < stamp_ns]
     early = [(cache.stamps[0], name) for name, cache in links if cache.stamps[0] > stamp_ns]
@@ -104,14 +104,13 @@ def _ahead(
         return Explanation(
             Kind.CLOCKS,
             f"{text}, which comes stamped {in_words(delay)} in the past: the clock of its "
-            "publisher is slow, or it takes so long. Synchronise the clocks of the machines.",
+            "publisher is slow, or its transforms take long. Synchronise the machines' clocks.",
             lag,
         )
     if now_ns and age > STALE_NS:
         return Explanation(
             Kind.AHEAD,
-            f"{text}, which has stopped: its last is {in_words(age)} old. Is its publisher still "
-            "running?",
+            f"{text}, which has stopped: its last is {in_words(age)} old. Restart its publisher.",
             lag,
         )
     aged = f", which is {in_words(age)} old" if now_ns and age > 0 else ""
@@ -150,6 +149,6 @@ def _behind(
         )
     return Explanation(
         Kind.BEHIND,
-        f"{text}; {in_words(buffer.cache_time_ns)} are kept. The data comes too late: look for "
-        "a slow node or network before it, or raise the TF cache time.",
+        f"{text}; {in_words(buffer.cache_time_ns)} are kept. The data arrives too late: look for "
+        "a slow node or network, or increase the TF cache time.",
     )

@@ -1,4 +1,4 @@
-"""Messages that wait until their frame has a pose: tf2's MessageFilter without callbacks."""
+"""Messages waiting for the pose of their frame: tf2's MessageFilter without callbacks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class MessageFilter(Generic[P]):
     """Holds messages back until the fixed frame can be reached from their frame at their stamp.
 
     Every message is tried at once; only those that must wait take a place in the queue. When it is
-    full the oldest is given up. A newer message never takes the place of one that became ready.
+    full the oldest is dropped. A newer message never replaces one that became ready.
     A zero stamp asks for the latest transform.
 
     Args:
@@ -52,12 +52,12 @@ class MessageFilter(Generic[P]):
 
     @property
     def drops(self) -> Mapping[Kind, int]:
-        """How many messages were given up since the start or `clear`, by reason."""
+        """Messages dropped since the start or `clear`, by reason."""
         return self._drops
 
     @property
     def is_stuck(self) -> bool:
-        """Whether messages wait or were given up since one last became ready."""
+        """Whether messages wait or were dropped since one last became ready."""
         return bool(self._queue) or self._given_up is not None
 
     def __len__(self) -> int:
@@ -69,7 +69,7 @@ class MessageFilter(Generic[P]):
         """Let a message in; `ready` will try it.
 
         Args:
-            payload: whatever `ready` is to return.
+            payload: returned by `ready`.
             frame: its frame id; one leading slash is stripped, as tf2's filter does.
             stamp_ns: its time; 0 means the latest.
             now_ns: the current ROS time, 0 if it is not known.

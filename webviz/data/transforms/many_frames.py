@@ -1,4 +1,4 @@
-"""All frames in one: every pose of a tick in one pass, link by link."""
+"""The poses of all frames of a tick in one pass, link by link."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class _Links:
 
     starts: list[PoseTuple] = field(default_factory=list)
     ends: list[PoseTuple] = field(default_factory=list)
-    """The very object in `starts` where nothing is to be interpolated."""
+    """The same object as in `starts` if no interpolation is needed."""
     ratios: list[float] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
     depths: list[int] = field(default_factory=list)

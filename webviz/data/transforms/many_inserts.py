@@ -1,4 +1,4 @@
-"""All transforms of a message in one pass, as far as they go on as before."""
+"""All transforms of a message in one pass, if only their poses changed."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def insert_expected(
     authority: str,
     received_ns: int,
 ) -> list[int]:
-    """Store the transforms of which there is nothing new to note but the pose.
+    """Store the transforms that change nothing but a pose.
 
-    Those are of a moving frame that is known, with the same parent and authority and a later stamp.
+    They belong to a known moving frame, with the same parent and authority and a later stamp.
 
     Args:
         tree: where to store them.
@@ -35,7 +35,7 @@ def insert_expected(
         received_ns: when they were received; 0 if not known.
 
     Returns:
-        The places of the others, to be looked at one by one.
+        The indices of the others, to be stored one by one.
     """
     caches = tree.caches
     with np.errstate(all="ignore"):  # a rotation of length zero becomes NaN

@@ -1,4 +1,4 @@
-"""Who gives a frame its transforms, and whether several quarrel over it."""
+"""The publishers of a frame's transforms, and conflicts between them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from webviz.data.transforms.cache import ParentedPose
 
 Claim = str | ParentedPose
-"""What tells publishers of one frame apart: the authority of a moving transform, and of a static
+"""What distinguishes publishers of one frame: the authority of a moving transform, and of a static
 one the parent and pose, as publishers of the same static transform agree."""
 
 MAX_REPLACED = 8
@@ -16,7 +16,7 @@ MAX_REPLACED = 8
 
 @dataclass(frozen=True)
 class Contest:
-    """Two claims to one frame that took turns.
+    """Two alternating claims to one frame.
 
     Attributes:
         claims: the two.
@@ -37,10 +37,10 @@ class Contest:
 
 
 class Publishers:
-    """The publishers heard of for one child frame, as far as they can be told apart.
+    """The known publishers of one child frame, as far as they can be distinguished.
 
-    One that takes over for good is a restart, or a sensor mounted anew; one that comes back after
-    it was replaced is a second publisher.
+    A publisher that takes over for good is a restart, or a sensor mounted anew; one that returns
+    after it was replaced is a second publisher.
 
     Attributes:
         current: the authority of the last transform stored.
@@ -62,10 +62,10 @@ class Publishers:
         self._replaced: dict[Claim, tuple[str, int]] = {}
 
     def take_over(self, authority: str, claim: Claim, stamp_ns: int, horizon_ns: int) -> None:
-        """Note that another than the current claim was made.
+        """Record a claim other than the current one.
 
         Args:
-            authority: who made it.
+            authority: its publisher.
             claim: the claim.
             stamp_ns: of its transform.
             horizon_ns: authorities not heard of since this stamp are forgotten.
@@ -90,7 +90,7 @@ class Publishers:
         self._replaced.clear()
 
     def contested(self, newest_ns: int, cache_time_ns: int) -> Contest | None:
-        """The contest, unless it is over: the turns of moving transforms are long ago.
+        """The contest, unless its last turn of moving transforms is long ago.
 
         Args:
             newest_ns: newest stamp of the frame.
@@ -102,6 +102,6 @@ class Publishers:
         return None
 
     def names(self) -> list[str]:
-        """The authorities heard of lately, the current one last."""
+        """The recent authorities, the current one last."""
         others = dict.fromkeys(who for who, _ in self._replaced.values() if who != self.current)
         return [*others, self.current]

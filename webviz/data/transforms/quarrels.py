@@ -1,7 +1,7 @@
-"""Signs that a frame has two publishers, whether they can be told apart or not.
+"""Signs that a frame has two publishers, even if they cannot be distinguished.
 
-The middleware does not say who published a transform. What two publishers of one frame leave
-behind are turns: of parents, of poses at one stamp, of stamps, of the pose itself.
+The middleware does not name the publisher of a transform. Two publishers of one frame leave
+alternating parents, poses at one stamp, stamps, or poses.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from webviz.data.transforms.publishers import Contest
 RECENT = 100
 """Newest samples searched."""
 MIN_TURNS = 6
-"""Changes of pose, one after the other, of which each goes back to where the one before came from:
-two publishers that speak in turn."""
+"""Consecutive changes of pose that each return to the previous pose:
+two publishers in alternation."""
 LEAP = 10.0
-"""How many times longer than the way of two steps each single step of a turn is."""
+"""How many times longer each step of a turn is than both steps together."""
 MIN_LEAP_M = 0.01
-"""Less is the last digit of an encoder."""
+"""Smaller changes are an encoder's last digit."""
 
 
 def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
@@ -50,7 +50,7 @@ def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
             "or one whose clock stands still."
         )
     elif _takes_turns(samples):
-        yield f'"{frame}" leaps to and fro between two poses: two publishers, stop one of them.'
+        yield f'"{frame}" alternates between two poses: it has two publishers, stop one of them.'
 
 
 def _in_words(frame: str, contest: Contest) -> str:
@@ -59,14 +59,13 @@ def _in_words(frame: str, contest: Contest) -> str:
     if len(parents) == 2:
         both = " and ".join(f'"{parent}"' for parent in parents)
         return (
-            f'"{frame}" is given two parents by static transforms, {both}: stop one of their '
-            "publishers."
+            f'"{frame}" has two parents in static transforms, {both}: stop one of their publishers.'
         )
     if len(statics) == 2:
         apart = dist(statics[0][:3], statics[1][:3])
         return (
-            f'"{frame}" is given two static poses in "{parents[0]}", {apart:.3f} m apart and '
-            "perhaps turned: stop one of their publishers."
+            f'"{frame}" has two static poses in "{parents[0]}", {apart:.3f} m apart and '
+            "perhaps rotated: stop one of their publishers."
         )
     if statics:
         return (
@@ -78,7 +77,7 @@ def _in_words(frame: str, contest: Contest) -> str:
 
 
 def _takes_turns(samples: Sequence[ParentedPose]) -> bool:
-    """Whether the newest poses lie alternately in two places."""
+    """Whether the newest poses alternate between two places."""
     newest = [pose[:3] for pose, _ in samples[-MIN_TURNS - 2 :]]
     if len(newest) < MIN_TURNS + 2:
         return False

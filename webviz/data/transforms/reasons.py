@@ -1,4 +1,4 @@
-"""The reasons why a frame can have no pose, and durations in words."""
+"""Reasons why a frame has no pose, and durations in words."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Simulated time and time since boot start at 0: below a year it cannot be the wal
 
 
 class Kind(StrEnum):
-    """What keeps a frame from having a pose."""
+    """Why a frame has no pose."""
 
     AVAILABLE = "available"
     EMPTY_FRAME = "empty frame_id"
@@ -44,10 +44,10 @@ class Explanation:
 
     Attributes:
         kind: which of the known reasons.
-        sentence: what is wrong, with numbers, and what to do next.
+        sentence: the cause with numbers, then the remedy.
         lag_ns: by how much the transforms are behind the stamp, if they are.
-        is_catching_up: the transforms are behind, but still come.
-        cause: names what is missing, the same for all frames that miss it; "" is only this frame.
+        is_catching_up: the transforms are behind, but still arriving.
+        cause: names what is missing, equal for all frames that lack it; "" is only this frame.
     """
 
     kind: Kind
@@ -58,14 +58,14 @@ class Explanation:
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)
-"""Reasons that have nothing to do with a single frame."""
+"""Reasons that do not depend on a single frame."""
 MOST_TRIED = 20
 
 
 def distinct(
     frames: Sequence[str], explain: Callable[[str], Explanation], most: int
 ) -> dict[str, str]:
-    """Why frames have no pose: a sentence for each cause, by the first frame that has it.
+    """Why frames have no pose: one sentence per cause, by its first frame.
 
     Args:
         frames: ids.
@@ -82,7 +82,7 @@ def distinct(
 
 
 def in_words(duration_ns: int) -> str:
-    """A duration in the unit that people would use."""
+    """A duration in a suitable unit."""
     size = abs(duration_ns)
     for limit, unit, digits, name in (
         (10_000_000, 1_000_000, 1, "ms"),

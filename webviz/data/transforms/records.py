@@ -1,4 +1,4 @@
-"""What the buffer hands out."""
+"""Values returned by the buffer."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """Why the buffer last refused a transform of some child, and how many it has refused.
+    """Why the buffer last refused a transform of a child, and how many it refused.
 
     Attributes:
         reason: tf2's word for it, such as `TF_OLD_DATA`.
-        sentence: the case in words.
+        sentence: a description.
         count: transforms of this child refused since the buffer was made or cleared.
         stamp_ns: stamp of the last one refused.
         received_ns: when that one was received; 0 if not known.
@@ -58,7 +58,7 @@ class Rejection:
 
 
 def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
-    """Why a transform is refused whatever its time: tf2's word for it, and the case in words."""
+    """Why a transform is refused at any time: tf2's name, and a description."""
     if child == parent:
         return "TF_SELF_TRANSFORM", "the frame is its own parent"
     if not child:
@@ -71,7 +71,7 @@ def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -
 
 
 def too_old(stamp_ns: int, newest_ns: int) -> tuple[str, str]:
-    """Why a transform is refused that is older than what the buffer keeps."""
+    """Why a transform older than the history is refused."""
     return "TF_OLD_DATA", (
         f"its stamp {format_stamp(stamp_ns)} is older than the newest, {format_stamp(newest_ns)}, "
         "by more than the buffer keeps"

@@ -1,4 +1,4 @@
-"""The shape of the tree, derived once while it stands: then a tick is arithmetic on arrays."""
+"""The shape of the tree, derived once per structure: then a tick is arithmetic on arrays."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ _ALWAYS = np.iinfo(np.int64).max
 
 
 class Topology:
-    """Frames, all that is above them, and where they meet a target frame.
+    """Frames, their ancestors, and where they meet a target frame.
 
-    Holds while the tree's structure does: no frame, parent or static pose may have changed since.
+    Valid while the tree's structure is: no frame, parent or static pose may have changed since.
 
     Args:
         tree: where to look.
@@ -85,7 +85,7 @@ class Topology:
         self._is_target = self._asked == self._base
 
     def _climb(self, tree: FrameTree, frame: str) -> bool:
-        """Number a frame and all above it, the parents first; whether there is no loop."""
+        """Number a frame and its ancestors, parents first; False if they form a loop."""
         climbed: dict[str, None] = {}
         above: str | None = frame
         while above is not None and above not in self._nodes:
@@ -107,7 +107,7 @@ class Topology:
         Returns:
             float64 (7, N), NaN where there is none, and int64 (N,) the times: 0 if all links are
             static or there is no pose. None if frames have too many different times, or a link has
-            no data at one of them: that is for `many_frames` to work out link by link.
+            no data at one of them: then `many_frames` computes them link by link.
         """
         newest = np.full(len(self._ups), 0, np.int64)
         newest[self._moving_nodes] = [cache.stamps[-1] for cache in self._moving]
@@ -175,7 +175,7 @@ class Topology:
         return poses
 
     def _mark_ancestors(self, is_needed: NDArray[np.bool_]) -> None:
-        """Mark all that is above what is marked."""
+        """Mark all ancestors of marked nodes."""
         nodes = np.flatnonzero(is_needed)
         while len(nodes):
             above = self._ups[nodes]
@@ -185,7 +185,7 @@ class Topology:
 
 
 def _jumps(parents: I64) -> tuple[Jumps, I64]:
-    """The steps by which all nodes reach the uppermost above them, and which that is.
+    """The steps by which all nodes reach their roots, and the roots.
 
     Args:
         parents: (N,), -1 at the uppermost nodes.

@@ -1,4 +1,4 @@
-"""The frames and the walks between them, step for step as tf2's BufferCore takes them."""
+"""The frames and the walks between them, as in tf2's BufferCore."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from webviz.data.transforms.errors import (
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple, compose, inverse
 
 MAX_DEPTH = 1000
-"""Longest chain tf2 walks; beyond it the tree is held to contain a loop."""
+"""Longest chain tf2 walks; a longer one counts as a loop."""
 
 
 class FrameTree:
@@ -28,7 +28,7 @@ class FrameTree:
         self.caches: dict[str, Cache] = {}
 
     def fault(self, frame: str) -> str:
-        """What is wrong with a frame id in a question, in tf2's words; empty if nothing is."""
+        """The fault of a requested frame id in tf2's words; empty if it is valid."""
         if not frame:
             return "in tf2 frame_ids cannot be empty"
         if frame[0] == "/":
@@ -36,7 +36,7 @@ class FrameTree:
         return "" if frame in self.names else "frame does not exist"
 
     def validate(self, argument: str, frame: str) -> None:
-        """Raise what tf2 does for a frame id that cannot be looked up."""
+        """Raise tf2's exception for a frame id that cannot be looked up."""
         fault = self.fault(frame)
         if fault == "frame does not exist":
             raise LookupException(f'"{frame}" passed to {argument} does not exist. ')

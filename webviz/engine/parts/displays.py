@@ -105,7 +105,7 @@ def _new(type_name: str, values: dict[str, Any]) -> Display:
     types = display_types()
     if type_name not in types:
         hint = nearest(type_name, types)
-        raise ConfigError(f"There is no display type `{type_name}`: {hint}")
+        raise ConfigError(f"Unknown display type `{type_name}`: {hint}")
     cls = types[type_name]
     try:
         return make(cls, values)

@@ -16,23 +16,23 @@ from webviz.files.config.disk import within
 from webviz.files.config.errors import ConfigError
 
 BACKUP = ".bak"
-"""Ends the name of the file's previous version."""
+"""Suffix of the file's previous version."""
 LOCK_S = 0.5
-"""How long to wait for somebody else who saves in the same folder, which takes a millisecond."""
+"""How long to wait for another program saving in the same folder, which takes a millisecond."""
 PATIENCE_S = 20.0
 """For the disk; a memory card that is busy takes seconds."""
 POLL_S = 0.01
 
 
 def write_text(text: str, path: Path) -> None:
-    """Write a file in one step, and keep what it said before in a file next to it, `NAME.bak`.
+    """Write a file atomically, and keep its previous version next to it as `NAME.bak`.
 
-    Whatever happens, the file is whole, either as it was or as it is to be. A link stays a link:
-    what it points at is written. Mode and owner stay as well. A text that is there already is not
-    written again, so that the previous version is not lost.
+    The file is always complete, in its old or its new version. A link stays a link:
+    its target is written. Mode and owner are kept. Unchanged text is not
+    written again, which preserves the previous version.
 
     Raises:
-        ConfigError: it cannot be written, and the file is as it was; or the disk does not respond
+        ConfigError: it cannot be written, and the file is unchanged; or the disk does not respond
             within some seconds, and the file may still be written later.
     """
     try:
@@ -43,12 +43,12 @@ def write_text(text: str, path: Path) -> None:
             f"Cannot write {path}: {error.strerror or error}; save it under another name."
         ) from error
     except UnicodeEncodeError as error:
-        raise ConfigError(f"Cannot write {path}: it would hold what is no text.") from error
+        raise ConfigError(f"Cannot write {path}: it contains non-text data.") from error
 
 
 def _write(data: bytes, path: Path) -> None:
     if path.exists() and not path.is_file():  # such as /dev/stdout
-        # To open a FIFO would wait for a reader.
+        # Opening a FIFO would wait for a reader.
         with open(os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY), "wb") as file:
             os.set_blocking(file.fileno(), True)
             file.write(data)
@@ -79,7 +79,7 @@ def _replace(data: bytes, target: Path) -> None:
 
 
 def _keep(target: Path) -> None:
-    """Give what a file says now the name of the previous version; the file itself stays."""
+    """Link the current content to the name of the previous version; the file itself stays."""
     with _spare(target.parent) as spare:
         try:
             os.link(target, spare)
@@ -94,7 +94,7 @@ def _keep(target: Path) -> None:
 
 @contextlib.contextmanager
 def _spare(folder: Path) -> Iterator[Path]:
-    """A name for a file that is gone afterwards, unless it was given another name."""
+    """A temporary name; the file is removed afterwards unless it was renamed."""
     path = folder / f".{secrets.token_hex(8)}.tmp"
     try:
         yield path
@@ -104,7 +104,7 @@ def _spare(folder: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def _alone_in(folder: Path) -> Iterator[int]:
-    """A folder's file descriptor, while nobody else saves in it."""
+    """A folder's file descriptor, locked against other programs that save in it."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         _lock(descriptor)
@@ -120,7 +120,7 @@ def _lock(descriptor: int) -> None:
             return fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             if time.monotonic() > deadline:
-                raise OSError(0, "somebody else is saving in this folder, try again") from None
+                raise OSError(0, "another program is saving in this folder; try again") from None
             time.sleep(POLL_S)
         except OSError:  # a file system without locks
             return

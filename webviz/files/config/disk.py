@@ -1,4 +1,4 @@
-"""Waiting for the disk, but not for ever: a dead network mount never answers."""
+"""Waiting for the disk with a time limit: a dead network mount never answers."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ def in_thread(work: Callable[[], T]) -> Future[T]:
 
 
 def within(seconds: float, work: Callable[[], T]) -> T:
-    """The result of work that waits for a disk.
+    """The result of work on a disk.
 
     Raises:
-        OSError: it takes longer, and goes on in its thread.
+        OSError: the time is over; the work continues in its thread.
         Exception: what the work raises.
     """
     done = in_thread(work)

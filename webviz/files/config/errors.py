@@ -1,4 +1,4 @@
-"""Sentences about what is wrong with a config."""
+"""Errors in configs, and hints at valid words."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ class ConfigError(Error):
 
 
 def nearest(word: str, valid: Iterable[str]) -> str:
-    """A hint at the valid word somebody may have meant, or the list of all."""
+    """A hint at the closest valid word, or the list of all."""
     valid = sorted(valid)
     if not valid:
-        return "there are none"
+        return "none are known"
     close = difflib.get_close_matches(word, valid, n=1)
     if close:
         return f"did you mean `{close[0]}`?"

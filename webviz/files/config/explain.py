@@ -1,4 +1,4 @@
-"""What a value should have been: msgspec's errors in the words of people who write configs."""
+"""msgspec's errors in the words of configs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from webviz.files.config.errors import nearest
 from webviz.files.config.source import Location, Path
 
 MOST = 60
-"""Characters of a value that are repeated in an error."""
+"""Characters of a value shown in an error."""
 MOST_MISTAKES = 10
 
 WORDS = {
@@ -36,7 +36,7 @@ _MISSING = re.compile(r"Object missing required field `(.*)`")
 
 
 def explain(error: msgspec.ValidationError, hint: Any, values: Any) -> tuple[Path, str]:
-    """Where a value is that does not fit, and what is wrong with it.
+    """The place of an invalid value, and what was expected.
 
     Args:
         error: of converting `values` to `hint`.
@@ -55,14 +55,14 @@ def explain(error: msgspec.ValidationError, hint: Any, values: Any) -> tuple[Pat
         return (*path, steps.rpartition(".")[2]), _no_choice(value, tags)
     inner = _plain(inner, value)
     if "` - at `key` in `" in str(error):
-        return path, 'expected keys that are text, such as "0":'
+        return path, 'expected text as keys, such as "0":'
     if found := _UNKNOWN.match(text):
         return (*path, found[1]), unknown_key(found[1], _fields(inner))
     return path, _clause(text, inner, value)
 
 
 def unknown_key(key: str, valid: Iterable[str]) -> str:
-    """What is wrong with a key that is not among the valid ones."""
+    """The error for an unknown key."""
     return f"unknown key, {nearest(key, valid)}"
 
 
@@ -72,7 +72,7 @@ def mistakes(
     error: msgspec.ValidationError,
     others: Iterable[str] = (),
 ) -> list[tuple[Path, str]]:
-    """All that is wrong with the properties of a display or tool, each with its path and a clause.
+    """All errors in the properties of a display or tool, each with its path and a clause.
 
     Args:
         cls: of the display or tool.
@@ -90,19 +90,19 @@ def mistakes(
                 make(cls, {key: value})
             except msgspec.ValidationError as single:
                 found.append(explain(single, cls, {key: value}))
-    return found or [explain(error, cls, values)]  # perhaps values do not fit one another
+    return found or [explain(error, cls, values)]  # the values may contradict each other
 
 
 def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
-    """Mistakes with their places; of very many the first."""
+    """Errors with their places, up to a limit."""
     told = [place.at(*path).says(clause) for path, clause in found[:MOST_MISTAKES]]
     if len(found) > MOST_MISTAKES:
-        told.append(f"There are {len(found) - MOST_MISTAKES} more mistakes.")
+        told.append(f"{len(found) - MOST_MISTAKES} more errors.")
     return " ".join(told)
 
 
 def shown(value: Any) -> str:
-    """A value as one would write it in a config file, shortened."""
+    """A value as written in a config file, shortened."""
     if value is None:
         return "nothing"
     if isinstance(value, str):
@@ -118,7 +118,7 @@ def _short(text: str) -> str:
 
 
 def _followed(steps: str, hint: Any, value: Any) -> tuple[Path, Any, Any]:
-    """A path of msgspec as keys and indices, and the type and the value that are there."""
+    """A path of msgspec as keys and indices, with the type and the value at that path."""
     path: Path = ()
     for step in _STEP.finditer(steps):
         plain = _plain(hint, value)
@@ -170,7 +170,7 @@ def _inner(hint: Any, key: str | int) -> Any:
 
 
 def _misfit(hint: Any, values: Any) -> str:
-    """The first key whose value does not fit; msgspec does not tell keys of mappings."""
+    """The first key with an invalid value; msgspec does not report keys of mappings."""
     for key, value in values.items() if isinstance(values, Mapping) else ():
         try:
             msgspec.convert({key: value}, hint)

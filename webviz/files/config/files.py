@@ -24,7 +24,7 @@ def read_text(path: Path) -> str:
 
     Raises:
         ConfigError: it is missing, not a regular file, too large or not text, or the disk does not
-            respond within some seconds. The sentence shows nothing of what the file contains.
+            respond within some seconds. The sentence does not quote the file.
     """
     try:
         data = within(PATIENCE_S, lambda: _read(path))
@@ -33,14 +33,14 @@ def read_text(path: Path) -> str:
     if len(data) > MAX_BYTES:
         raise ConfigError(f"{path} is not a config file: it is larger than {MAX_BYTES >> 20} MB.")
     try:
-        return data.decode("utf-8-sig")  # Windows' editors begin files with a mark
+        return data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:
-        hint = "it is UTF-16, save it as UTF-8" if data.startswith(_UTF_16) else "no config file"
+        hint = "it is UTF-16, save it as UTF-8" if data.startswith(_UTF_16) else "not a config file"
         raise ConfigError(f"{path} is not UTF-8 text: {hint}.") from error
 
 
 def _read(path: Path) -> bytes:
-    # To open a FIFO would wait for a writer.
+    # Opening a FIFO would wait for a writer.
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY)
     try:
         mode = os.fstat(descriptor).st_mode
@@ -55,5 +55,5 @@ def _read(path: Path) -> bytes:
 
 
 def is_rviz(path: Path) -> bool:
-    """Whether a file is RViz's by its name."""
+    """Whether a file name ends with .rviz."""
     return path.suffix.lower() == ".rviz"

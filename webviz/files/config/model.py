@@ -17,35 +17,35 @@ from webviz.api.views import Orbit, View
 
 VERSION = 1
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
-"""What is shown when nobody says what to show."""
+"""The displays shown without a config."""
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
-    """What a config file says besides its displays."""
+    """A config file without its displays."""
 
-    version: Annotated[int, Prop(help="Of the form of the file.")] = VERSION
-    fixed_frame: Annotated[str, Prop(help="The frame that everything is drawn in.")] = "map"
+    version: Annotated[int, Prop(help="Version of the file format.")] = VERSION
+    fixed_frame: Annotated[str, Prop(help="Frame in which everything is drawn.")] = "map"
     background: Annotated[Color, Prop(help="Colour behind the scene.")] = (48, 48, 48)
-    frame_rate: Annotated[
-        float, Prop(ge=1, le=240, unit="Hz", help="How often the scene may change.")
-    ] = 60.0
+    frame_rate: Annotated[float, Prop(ge=1, le=240, unit="Hz", help="Maximum rate of updates.")] = (
+        60.0
+    )
     view: View = Orbit()
-    """What browsers begin with."""
+    """The view new browsers start with."""
     views: dict[str, View] = {}
     """Saved views by name."""
     rviz: Annotated[
-        dict[str, Any], Prop(help="What a .rviz file says that has no counterpart here.")
+        dict[str, Any], Prop(help="Unsupported parts of a .rviz file, kept for export.")
     ] = {}  # msgspec copies it
     """Kept for writing it again."""
 
 
 @dataclass
 class Unreadable:
-    """A display or tool that cannot be used: kept and saved again as it was written.
+    """A display or tool that cannot be used; saving keeps its entry unchanged.
 
     Args:
         values: the entry of the file.
-        reason: a sentence with the place of the fault.
+        reason: a sentence with the place of the error.
     """
 
     values: Any
@@ -53,19 +53,19 @@ class Unreadable:
 
     @property
     def name(self) -> str:
-        """What lists call it."""
+        """Its name in lists."""
         if isinstance(self.values, Mapping):
             return str(self.values.get("name") or self.values.get("type") or "?")
         return "?"
 
     @property
     def is_from_rviz(self) -> bool:
-        """Whether it is kept of a .rviz file, for want of a counterpart."""
+        """Whether it comes from a .rviz file and its class is unsupported."""
         return isinstance(self.values, Mapping) and "rviz" in self.values
 
     @property
     def enabled(self) -> bool:
-        """Whether the file has it switched on; RViz's displays are off unless it says so."""
+        """Whether the file enables it; RViz's displays are off by default."""
         if not isinstance(self.values, Mapping):
             return True
         if not self.is_from_rviz:
@@ -77,20 +77,20 @@ class Unreadable:
 
 @dataclass
 class Branch:
-    """A group and what is in it, in order."""
+    """A group and its displays, in order."""
 
     group: Group
     displays: list[Item]
 
 
 Item = Display | Unreadable | Branch
-"""What a list of displays consists of."""
+"""An entry of a list of displays."""
 ToolItem = Tool | Unreadable
-"""What a list of tools consists of."""
+"""An entry of a list of tools."""
 
 
 def all_tools() -> list[ToolItem]:
-    """What is in the toolbar without a list of tools: every tool that is installed."""
+    """The toolbar without a list of tools: every installed tool."""
     return [make(cls, {}) for cls in plugin_types(Tool).values()]
 
 
@@ -99,10 +99,10 @@ class Config:
     """A whole config.
 
     Args:
-        settings: all but the displays and tools.
+        settings: everything but displays and tools.
         displays: in order.
         tools: in the order of the toolbar.
-        report: sentences on what could not be read from RViz's config file.
+        report: sentences on unsupported parts of a .rviz file.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -111,12 +111,12 @@ class Config:
     report: list[str] = field(default_factory=list)
 
     def set_fixed_frame(self, frame: str) -> None:
-        """Draw in another frame than the file says; a leading slash is no part of its name."""
+        """The config with another fixed frame; a leading slash is removed from its name."""
         fixed_frame = frame.removeprefix("/")
         self.settings = msgspec.structs.replace(self.settings, fixed_frame=fixed_frame)
 
 
 def standard() -> Config:
-    """What is shown without a config file: the usual displays on their usual topics."""
+    """The config used without a file: the usual displays on their usual topics."""
     types = display_types()
     return Config(displays=[make(types[name], {}) for name in STANDARD if name in types])

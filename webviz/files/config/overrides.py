@@ -1,4 +1,4 @@
-"""Values that are given besides a config file: `--set displays.Scan.size=0.1`."""
+"""Values that override a config file: `--set displays.Scan.size=0.1`."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ _STEP = re.compile(
 
 
 def override(config: Config, assignments: Sequence[str]) -> Config:
-    """A config with other values.
+    """A config with overridden values.
 
     Args:
-        config: stays as it is.
+        config: not modified.
         assignments: each a path, "=", and a value as YAML has it. Displays have their name or
             their place in the list: `displays.Sensors.Front.size=0.1`, `displays[2].color[0]=255`;
             a name with dots is quoted. So do tools: `tools."2D Goal Pose".topic=/goal`.
 
     Raises:
-        ConfigError: there is no such value, or several displays of that name, or it does not fit.
+        ConfigError: the path is unknown or ambiguous, or the value is invalid.
     """
     for assignment in assignments:
         config = _Assignment(assignment).applied(config)
@@ -124,7 +124,7 @@ class _Assignment:
         return changed
 
     def _in_unreadable(self, item: Unreadable, steps: Path) -> Entry:
-        """An entry that cannot be shown as it is, but perhaps with this value."""
+        """An invalid entry, which this value may repair."""
         if item.is_from_rviz or not isinstance(item.values, Mapping) or not steps:
             self._refuse(f"this {self._kind} is not shown: {item.reason}")
         read_again = read_tool if self._kind == "tool" else read_display
@@ -141,7 +141,7 @@ class _Assignment:
         above = self._path[: self._path.index(step)]
         if named:
             places = [Location((*above, index)).words() for index in named]
-            self._refuse(f"`{step}` is the name of several, say {' or '.join(places)}")
+            self._refuse(f"`{step}` names several displays, use {' or '.join(places)}")
         if str(step).isdecimal() and int(step) < len(items):
             return int(step)
         deeper = [path for path, name in _tree(items) if name == step]
@@ -153,7 +153,7 @@ class _Assignment:
         self._refuse(f"no {self._kind} `{step}`, {hint}")
 
     def _refuse_value(self, path: Path, clause: str) -> NoReturn:
-        """Refuse the value; its place is told where it is deeper than what was given."""
+        """Refuse the value; the error names its place if it lies below the given path."""
         deeper = path[len(self._path) :] if path[: len(self._path)] == self._path else ()
         self._refuse(Location(deeper).says(clause))
 
@@ -162,7 +162,7 @@ class _Assignment:
 
 
 def _patched(plain: Any, path: Path, value: Any) -> Any:
-    """Plain values with another value at a path; a mapping leaves the other keys as they are."""
+    """Plain values with one value replaced; a mapping keeps its other keys."""
     if not path:
         is_part = isinstance(plain, Mapping) and isinstance(value, Mapping) and "type" not in value
         return {**plain, **value} if is_part else value
@@ -178,7 +178,7 @@ def _name(item: Entry) -> str:
 
 
 def _tree(items: Sequence[Entry], above: tuple[str, ...] = ()) -> Iterator[tuple[Any, str]]:
-    """Every display in groups with the names that lead to it."""
+    """Every display in groups with its path of names."""
     for item in items:
         path = (*above, _name(item))
         yield path, _name(item)

@@ -23,31 +23,31 @@ NO_TYPE = "a {} needs a `type`, such as `type: {}`."
 EXAMPLES = {"display": "Grid", "tool": "GoalPose"}
 NO_LIST = "expected a list, each entry with a `type`."
 MAX_DISPLAYS = 500
-"""In one config, groups counted. Real ones have fewer than 100, and with 1000 the page hangs."""
+"""Per config, including groups. Real ones have fewer than 100; with 1000 the page hangs."""
 MAX_TOOLS = 100
 _LISTS = ("displays", "tools")
 _KEYS = (*Settings.__struct_fields__, *_LISTS)
 _TELLING = frozenset(_KEYS) - {"version", "rviz"}
-"""Keys that other kinds of files do not have."""
+"""Keys that only webviz's configs have."""
 
 
 def read(text: str, where: str) -> Config:
-    """A config from YAML text; what it keeps of a .rviz file stays unread.
+    """A config from YAML text; parts kept from a .rviz file are not interpreted.
 
     Args:
         text: YAML.
         where: names the text in errors.
 
     Raises:
-        ConfigError: the text is no YAML or not a config; the sentence shows nothing of what it
-            contains. A display or tool that does not fit is no error: it becomes an `Unreadable`.
+        ConfigError: the text is not YAML or not a config; the sentence does not quote
+            the file. A single invalid display or tool becomes an `Unreadable` instead.
     """
     source = YamlDocument(text, where)
     document, top = source.values(), Location(source=source)
     if document is None:
-        raise ConfigError(f"{where} is empty: a config has at least `version: {VERSION}`.")
+        raise ConfigError(f"{where} is empty: a config needs at least `version: {VERSION}`.")
     if not isinstance(document, Mapping):
-        raise ConfigError(f"{where} holds no settings such as `fixed_frame: map`.")
+        raise ConfigError(f"{where} contains no settings such as `fixed_frame: map`.")
     if "Visualization Manager" in document:
         raise ConfigError(f"{where} is RViz's config: its name must end with .rviz.")
     _refuse_other_files(document, where, top)
@@ -84,10 +84,10 @@ def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:
 
 
 def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
-    """Refuse a list of displays that is too long to be shown.
+    """Refuse a list of displays that exceeds the limit.
 
     Args:
-        entries: as in a file.
+        entries: of the list, as in a file.
         key: of the list in the entry of a group.
         where: names the file.
 
@@ -108,7 +108,7 @@ def refuse_too_many(entries: Iterable[Any], key: str, where: str) -> None:
 
 
 def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Location) -> None:
-    """Refuse what is not a config, with none of its words but one that is almost ours."""
+    """Refuse text that is not a config; quote at most a key that resembles a valid one."""
     keys = [str(key) for key in document]
     if _TELLING.intersection(keys) or set(keys) <= set(_KEYS):
         return
@@ -119,7 +119,7 @@ def _refuse_other_files(document: Mapping[Any, Any], where: str, top: Location) 
 
 
 def _typed(settings: dict[str, Any]) -> dict[str, Any]:
-    """Settings whose views all say which type they are."""
+    """Settings with an explicit type in every view."""
     if "view" in settings:
         settings = settings | {"view": with_type(settings["view"])}
     if isinstance(views := settings.get("views"), Mapping):
@@ -128,7 +128,7 @@ def _typed(settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def read_display(entry: Any, place: Location) -> Item:
-    """A display or group from an entry of a list in a config file, which is at `place`."""
+    """A display or group from an entry at `place` of a list in a config file."""
     is_group = isinstance(entry, Mapping) and entry.get("type") == "Group"
     inner = (entry.get("displays") or []) if is_group else []
     if not isinstance(inner, list):
@@ -158,7 +158,7 @@ def _read_plugin(
     types, broken = plugin_types(base), broken_types(base)
     cls = types.get(entry["type"])
     if cls is None:
-        reason = f"no {kind} type `{entry['type']}` here, {nearest(entry['type'], types)}"
+        reason = f"unknown {kind} type `{entry['type']}`, {nearest(entry['type'], types)}"
         return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
     return _read(cls, entry, others, place)
 

@@ -1,4 +1,4 @@
-"""How text is written as YAML so that it comes back."""
+"""Writing text as YAML that reads back unchanged."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ruamel.yaml.nodes import ScalarNode
 from ruamel.yaml.representer import SafeRepresenter
 
 _BREAKS = "\x85\u2028\u2029"
-"""Ends of lines to older YAML, which ruamel writes as they are and reads as spaces."""
+"""Line ends in older YAML, which ruamel writes unquoted and reads as spaces."""
 
 
 class Representer(SafeRepresenter):
-    """ruamel's, but it quotes what would come back as something else."""
+    """ruamel's representer, which also quotes text that would read back as another value."""
 
     def represent_str(self, data: Any) -> ScalarNode:
-        """Text, in quotes that hold ends of lines where it has any."""
+        """Text, double-quoted if it contains line ends."""
         style = '"' if any(mark in data for mark in _BREAKS) else None
         return self.represent_scalar("tag:yaml.org,2002:str", data, style)
 

@@ -1,7 +1,7 @@
 """The JSON Schema of config files, with which editors complete and check them.
 
-It is of draft 7, which the YAML language servers of editors know best. A display or tool of a type
-that is not installed is no error to it, since plug-ins bring their own; webviz itself says so on
+It follows draft 7, which the YAML language servers of editors support best. It accepts displays and
+tools of types that are not installed, since plug-ins add types; webviz reports unknown types on
 opening.
 """
 

@@ -1,7 +1,7 @@
-"""YAML text as values, which know their line in it.
+"""YAML text as values with line numbers.
 
-ruamel.yaml's pure reader does it: a file of 250 displays takes 0.15 s, and its releases no longer
-bring the reader in C. It reads YAML 1.2, so that `on` is text, 1e3 and 0x10 are numbers and 12:30
+ruamel.yaml's pure reader is used: a file of 250 displays takes 0.15 s, and its releases no longer
+include the reader in C. It reads YAML 1.2: `on` is text, 1e3 and 0x10 are numbers and 12:30
 is text.
 """
 
@@ -22,13 +22,13 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from webviz.files.config.errors import ConfigError
 
 MAX_VALUES = 50_000
-"""In one file; YAML's aliases can make a few lines endless."""
+"""Values per file; YAML's aliases can expand a few lines without end."""
 MAX_CHARACTERS = 4 << 20
-"""Of all values together, aliases counted."""
+"""Characters of all values, including aliases."""
 MAX_DEPTH = 64
 """Levels; real files have fewer than 20."""
 _SAFE = re.compile(r"""(?:[^"']|(["'])(?:<[a-z ]+>|.)\1)*""")
-"""Up to the first quotation that is neither one character nor the name of a kind of token."""
+"""Text before the first quotation other than a single character or a kind of token."""
 
 Path = tuple[str | int, ...]
 """Keys and indices from the top of a file."""
@@ -42,8 +42,8 @@ class YamlDocument:
         where: names it in errors.
 
     Raises:
-        ConfigError: it is not YAML, or too large or too deep to be a config. The sentence shows
-            nothing of the text: the file may be anything.
+        ConfigError: it is not YAML, or too large or too deep for a config. The sentence does
+            not quote the text: the file may be anything.
     """
 
     def __init__(self, text: str, where: str) -> None:
@@ -60,7 +60,7 @@ class YamlDocument:
         """The document as mappings, lists and plain values.
 
         Raises:
-            ConfigError: a value is none, such as a date in a month that does not exist.
+            ConfigError: a value is invalid, such as a date in a month that does not exist.
         """
         if self.node is None:
             return None
@@ -70,7 +70,7 @@ class YamlDocument:
             raise self._refused(error) from error
 
     def line(self, path: Path) -> int:
-        """The line of a value, from 1; of what is not there, the line of what it would be in."""
+        """The line of a value, from 1; for a missing value the line of its parent."""
         node, line = self.node, 1
         for step in path:
             if isinstance(node, MappingNode):
@@ -86,7 +86,7 @@ class YamlDocument:
         return line
 
     def _refuse_endless(self) -> None:
-        """Refuse what aliases make too large or too deep, such as one for what it stands in."""
+        """Refuse documents that aliases make too large or too deep, such as recursive ones."""
         waiting, count, characters = [(self.node, 1)], 0, 0
         while waiting:
             node, depth = waiting.pop()
@@ -104,14 +104,14 @@ class YamlDocument:
         place = f"{self.where}:{mark.line + 1}" if mark else self.where
         problem = getattr(error, "problem", None) or (str(error).splitlines() or ["unreadable"])[0]
         if "'\\t'" in problem:
-            problem = "a tab where YAML wants spaces"
+            problem = "found a tab, expected spaces"
         safe = _SAFE.match(problem)
         problem = safe[0].rstrip(" :(") if safe else "unreadable"
         return ConfigError(f"{place} is not valid YAML: {problem}.")
 
 
 class _Composer(Composer):
-    """Stops at once where a document is too large, instead of reading all of it first."""
+    """Stops as soon as a document is too large, instead of reading all of it first."""
 
     def __init__(self, where: str, loader: Any = None) -> None:
         super().__init__(loader)
@@ -139,15 +139,15 @@ class Location:
     """Where a value stands, for sentences: `lab.yaml:12: displays[2].size`.
 
     Args:
-        path: of the value, from the top of the source.
-        source: the file; without one the path is all that is told.
+        path: of the value, from the root of the source.
+        source: the file; without one only the path is reported.
     """
 
     path: Path = ()
     source: YamlDocument | None = None
 
     def at(self, *path: str | int) -> Location:
-        """A place within this one."""
+        """A place below this one."""
         return Location((*self.path, *path), self.source)
 
     @property
@@ -166,7 +166,7 @@ class Location:
         return words
 
     def says(self, clause: str) -> str:
-        """A sentence on the value, with its place first."""
+        """A sentence about the value that starts with its place."""
         words = self.words()
         parts = [words, clause] if words else [clause]
         if self.source:

@@ -24,11 +24,11 @@ from webviz.files.config.model import (
 from webviz.files.config.representer import Representer
 
 LINE = 88
-"""Characters of mappings and lists that are written on one line."""
+"""Maximum length of a mapping or list on one line."""
 
 
 def document(config: Config) -> dict[str, Any]:
-    """A config as the values of its file; defaults are left out."""
+    """A config as the values of its file, without defaults."""
     settings = msgspec.to_builtins(config.settings)
     basis = msgspec.to_builtins(Settings())
     values: dict[str, Any] = {"version": VERSION}
@@ -39,7 +39,7 @@ def document(config: Config) -> dict[str, Any]:
     if tools != [_entry(tool) for tool in all_tools()]:
         values["tools"] = tools
     if kept:
-        values["rviz"] = kept  # last, as nobody wants to read it
+        values["rviz"] = kept  # last, because it is long and seldom read
     return values
 
 
@@ -48,7 +48,7 @@ def dump(config: Config) -> str:
     yaml = YAML(typ="safe", pure=True)
     yaml.Representer = _Representer
     yaml.default_flow_style = None  # short lists such as colours stay on one line
-    yaml.width = 1 << 20  # a key of two words that is broken cannot be read again
+    yaml.width = 1 << 20  # a key with a line break cannot be read back
     yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
     stream = io.StringIO()
     yaml.dump(document(config), stream)
@@ -56,7 +56,7 @@ def dump(config: Config) -> str:
 
 
 class _Representer(Representer):
-    """Gives each value a line of its own where they are too many for one."""
+    """Puts each value on its own line if one line is too short for all."""
 
     def represent_mapping(self, tag: Any, mapping: Any, flow_style: Any = None) -> MappingNode:
         node = super().represent_mapping(tag, mapping, flow_style)
@@ -70,7 +70,7 @@ class _Representer(Representer):
 
 
 def _fits(nodes: Sequence[Node]) -> bool:
-    # ruamel does not quote what is plain in lines and a mark within braces: {:0: ?1}.
+    # ruamel does not quote words that are plain in lines but not within braces: {:0: ?1}.
     is_short = sum(len(node.value) + len(", ") for node in nodes) <= LINE
     return is_short and not any(mark in node.value for node in nodes for mark in ":?")
 

@@ -1,7 +1,7 @@
 """RViz2's config files: `read` and `write`.
 
-What is not understood is kept in the config, so that a file that was read and written again has
-lost no key, and no value but in the last digit of single precision.
+Unsupported parts are kept in the config, so that a file that was read and written again has
+lost no key, and values differ at most in the last digit of single precision.
 """
 
 from webviz.files.rviz.document import read, write

@@ -1,4 +1,4 @@
-"""Displays and groups of .rviz files, and what is kept of each for writing it again."""
+"""Displays and groups of .rviz files, and the parts kept for writing them back."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
 NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
 NOT_USED = {"Selectable": SELECTS}
-"""Why properties of all displays are not used, by key."""
+"""Why common properties are not used, by key."""
 
 
 @dataclass
 class Kept:
-    """What is kept of the displays of a file besides what they are here.
+    """The unsupported parts of a file's displays.
 
     Args:
-        entries: class, name and the keys that writing the display does not give back, in order.
+        entries: class, name and the keys that writing the display does not restore, in order.
     """
 
     entries: list[Tree] = field(default_factory=list)
@@ -49,7 +49,7 @@ class Kept:
 
 
 def read_items(entries: list[Any], report: Report, kept: Kept, place: Location) -> list[Item]:
-    """Displays of a list in a .rviz file, which is at `place`."""
+    """Displays of the list at `place` in a .rviz file."""
     return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
 
 
@@ -64,7 +64,7 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
         return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Location())
     display = _read(found, tree, name, report, place)
     if found.rviz != cls:
-        report.note(name, cls, f"this is ROS 1's class, it is written as {found.rviz}")
+        report.note(name, cls, f"ROS 1's class, written as {found.rviz}")
     inner = tree.pop("Displays", []) if isinstance(display, Group) else []
     rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, bare(display))
     kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
@@ -100,7 +100,7 @@ def _at_line(name: str, place: Location) -> str:
 
 
 def _effective(tree: Tree) -> list[Path]:
-    """Paths of the values of a display that have an effect on what RViz shows."""
+    """Paths of the values of a display that affect what RViz shows."""
     properties = {key: value for key, value in tree.items() if key not in NO_PROPERTIES}
     return [path for path in leaves(properties) if not is_without_effect(path, tree)]
 
@@ -108,13 +108,13 @@ def _effective(tree: Tree) -> list[Path]:
 def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
     """A display from RViz's tree of its properties, as RViz would show it."""
     plain = reading.struct(cls, tree)
-    if tree.get("Class") != cls.rviz:  # of ROS 1, which has other names for some topics
+    if tree.get("Class") != cls.rviz:  # ROS 1's class; some topics have other names
         plain = {key: value for key, value in plain.items() if value != {"name": ""}}
     plain |= {"name": values.text(tree.get("Name", "")), "enabled": _is_enabled(tree, reading)}
     try:
         return make(cls, plain)
-    except msgspec.ValidationError as error:  # a rule that a plug-in has besides its bounds
-        reading.faults.append(((), f"{error}; the defaults are used"))
+    except msgspec.ValidationError as error:  # a plug-in's own rule besides bounds
+        reading.faults.append(((), f"{error}; using the defaults"))
         return make(cls, {"name": plain["name"], "enabled": plain["enabled"]})
 
 
@@ -125,13 +125,13 @@ def _is_enabled(tree: Tree, reading: Reading) -> bool:
             try:
                 return values.read(tree[key], bool)
             except Unfit as error:
-                reading.faults.append(((key,), f"{error}; it is taken as off"))
+                reading.faults.append(((key,), f"{error}; using off"))
                 return False
     return False
 
 
 def bare(display: Display) -> Tree:
-    """RViz's tree of a display, without what was kept of a file."""
+    """RViz's tree of a display, without kept parts of a file."""
     switch = {"Enabled": display.enabled, "Value": display.enabled}
     if isinstance(display, Group):
         del switch["Value"]
@@ -139,16 +139,14 @@ def bare(display: Display) -> Tree:
 
 
 def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
-    """Displays as RViz's list of them, which is nothing if it is empty."""
+    """Displays as RViz's list, None if it is empty."""
     written = []
     for item in items:
         if isinstance(item, Unreadable):
             if isinstance(item.values, Mapping) and "rviz" in item.values:
                 written.append(item.values["rviz"])
             else:
-                report.note(
-                    item.name, "this entry", f"it is left out: {item.reason.removesuffix('.')}"
-                )
+                report.note(item.name, "this entry", f"skipped: {item.reason.removesuffix('.')}")
         elif isinstance(item, Branch):
             tree = _write(item.group, kept)
             written.append(tree | {"Displays": write_items(item.displays, report, kept)})
@@ -156,7 +154,7 @@ def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | No
             written.append(_write(item, kept))
         else:
             name = type_name(type(item))
-            report.note(item.name, name, "it is left out, as RViz has no such display")
+            report.note(item.name, name, "skipped, because RViz has no such display")
     return written or None
 
 

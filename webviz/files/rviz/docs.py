@@ -20,27 +20,26 @@ COMMAND = '`make docs RVIZ="FILE.rviz ..."`'
 INTRO = """\
 # RViz's files
 
-`webviz -d nav2.rviz` opens a file of RViz2 as RViz2 would show it, and `webviz convert` makes a
-config of it, or the other way round. What has no counterpart here is told once, on the page and in
-the terminal, and is kept: a file that was opened and written again has lost no key, and no value
-but in the last digit of single precision.
+`webviz -d nav2.rviz` opens a file of RViz2 as RViz2 would show it, and `webviz convert` converts in
+both directions. Unsupported parts are reported once, on the page and in the terminal, and kept: a
+file that was opened and saved has lost no key, and values differ at most in the last digit of
+single precision.
 
-- What a file leaves out has RViz2's default: a display that does not say `Enabled` is off.
-- QoS that is RViz's default is `auto` here, as RViz writes it whether somebody chose it or not; all
-  else is taken as chosen. A robot's description is always asked for as latched, as RViz does.
-- Values out of range are brought into it, and the line in the file is told.
-- Classes, topics and QoS of ROS 1's RViz are understood, and written as those of ROS 2.
-- A display of a plug-in of RViz is kept, and comes alive once a plug-in of webviz names its class.
-- Of a key that is there twice the last one counts; numbers and words are RViz's, so that `007` and
-  `on` stay as they are.
+- Missing keys have RViz2's default: a display without `Enabled` is off.
+- RViz's default QoS becomes `auto`, because RViz writes it whether chosen or not; other values are
+  explicit choices. A robot's description is always subscribed with transient local, as in RViz.
+- Out-of-range values are clamped and reported with their line.
+- Classes, topics and QoS of ROS 1's RViz are accepted, and written as those of ROS 2.
+- Displays of RViz plug-ins are kept, and shown once a webviz plug-in names their class.
+- The last of duplicate keys counts, and scalars are read as RViz does: `007` and `on` stay
+  unchanged.
 """
 
 WHY = """\
-## What is not carried over
+## Not carried over
 
-Displays that are not here yet are rows of the list that say so. Properties count where they have an
-effect: how RViz's panel looks does not. Tools without a counterpart, and panels, stay in the file
-as they are:
+Unsupported displays stay in the list with a status. Properties count if they affect the scene; the
+layout of RViz's panel does not. Unsupported tools, and panels, stay in the file unchanged:
 """
 
 
@@ -53,7 +52,7 @@ def page(paths: Iterable[Path]) -> str:
         whole.total += report.total
         whole.carried += report.carried
     kinds = list(next(iter(reports.values())).total) if reports else []
-    lines = [INTRO, "## What is carried over", "", f"Of {len(reports)} public files:", ""]
+    lines = [INTRO, "## Carried over", "", f"Of {len(reports)} public files:", ""]
     lines += _table(("file", *kinds), [_counts(name, r, kinds) for name, r in reports.items()])
     lines.append(_row((*_counts("**all**", whole, kinds),)))
     lines.append(_row(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds))))
@@ -61,13 +60,13 @@ def page(paths: Iterable[Path]) -> str:
     here = [f"`{name}`" for names in SAME_HERE.values() for name in names]
     reasons = [(f"`{name}`", reason.partition(";")[0]) for name, reason in WHY_NOT.items()]
     here += [f"`{cls.rviz.partition('/')[2]}`" for cls in plugin_types(Tool).values()]
-    told = "carried over: tabs and tools of the page, and what the mouse does"
+    told = "carried over: tabs, tools and mouse actions of the page"
     rows = [(", ".join(here), told), *reasons]
-    lines += [*_table(("tool or panel", "why"), rows), ""]
+    lines += [*_table(("tool or panel", "reason"), rows), ""]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:
         rows = [(f"`{cls}`", str(count)) for cls, count in sorted(missing.items())]
-        lines += [*_table(("display that is not here yet", "how many"), rows), ""]
+        lines += [*_table(("unsupported display", "count"), rows), ""]
     return "\n".join([*lines, f"Written by {COMMAND}.", ""])
 
 

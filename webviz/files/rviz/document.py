@@ -22,7 +22,7 @@ from webviz.files.rviz.values import Unfit
 
 MANAGER = "Visualization Manager"
 BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
-"""RViz's defaults where a file says nothing."""
+"""RViz's defaults for missing keys."""
 
 NEW_FILE: Tree = {
     "Panels": [
@@ -34,14 +34,14 @@ NEW_FILE: Tree = {
         "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
     },
 }
-"""What RViz needs besides displays, in a file that was never RViz's: without it there is no panel
+"""What RViz needs besides displays in a new file: without it there is no panel
 and no tool."""
 
 
 def read(text: str, where: str) -> tuple[Config, Report]:
     """A config from the text of a .rviz file, as RViz would open it.
 
-    What has no counterpart is kept in the settings and told in the report.
+    Unsupported parts are kept in the settings and listed in the report.
 
     Args:
         text: of the file.
@@ -53,7 +53,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     source = YamlDocument(text, where)
     document = parse(source)
     if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
-        raise ConfigError(f"{where} is no RViz config: it has no `{MANAGER}`.")
+        raise ConfigError(f"{where} is not an RViz config: it has no `{MANAGER}`.")
     report, kept = Report(), Kept()
     for kind in ("displays", "properties", "views", "tools", "panels"):
         report.count(kind, 0, 0)
@@ -62,7 +62,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     settings.views = views.read_saved(child(manager, "Views").get("Saved"), report)
     entries = manager.pop("Displays", None) or []
     if not isinstance(entries, list):
-        report.note(MANAGER, "Displays", "it is no list, so there are no displays")
+        report.note(MANAGER, "Displays", "not a list; ignored")
         entries = []
     refuse_too_many(entries, "Displays", where)
     items = read_items(entries, report, kept, Location((MANAGER, "Displays"), source))
@@ -72,7 +72,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if views.kind_of(child(manager, "Views", "Current")) is None:
         del basis[MANAGER]["Views"]["Current"]  # it is kept whole
     else:
-        del basis[MANAGER]["Views"]["Current"]["Class"]  # the rest is kept for this class
+        del basis[MANAGER]["Views"]["Current"]["Class"]  # the other keys are kept for this class
     rest = difference({**document, MANAGER: manager}, basis)
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
@@ -81,7 +81,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
 
 
 def write(config: Config) -> tuple[str, Report]:
-    """The text of a .rviz file, and what RViz has no counterpart for."""
+    """The text of a .rviz file, and a report of what RViz does not support."""
     report = Report()
     rest = config.settings.rviz
     manager = child(rest, MANAGER)
@@ -128,12 +128,12 @@ def _option(options: Tree, key: str, kind: Any, default: Any, report: Report) ->
     try:
         return values.read(options[key], kind)
     except Unfit as error:
-        report.note("Global Options", key, f"{error}; {default} is used")
+        report.note("Global Options", key, f"{error}; using {default}")
         return default
 
 
 def _bare(settings: Settings) -> Tree:
-    """The tree of a file with these settings, without displays and what was kept."""
+    """The tree of a file with these settings, without displays and kept parts."""
     return {
         MANAGER: {
             "Class": "",
@@ -151,6 +151,6 @@ def _bare(settings: Settings) -> Tree:
 
 
 def _worth_keeping(entries: list[Tree]) -> list[Tree]:
-    """Entries that hold something, and those needed to tell displays of one name apart."""
+    """Entries that are not empty, and those that distinguish displays of one name."""
     alike = Counter((entry["Class"], entry["Name"]) for entry in entries)
     return [e for e in entries if len(e) > 2 or alike[e["Class"], e["Name"]] > 1]

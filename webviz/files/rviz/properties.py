@@ -80,7 +80,7 @@ def _property(field: msgspec.structs.FieldInfo, hint: Any) -> RvizProperty:
 
 
 def _rviz_name(name: str) -> str:
-    """RViz's usual name; what an entry is switched by is its own value there."""
+    """RViz's usual name; an entry's switch is its own value there."""
     if name in ("value", "enabled"):
         return "Value"
     return " ".join(word.capitalize() for word in name.split("_"))

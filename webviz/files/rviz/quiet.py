@@ -1,4 +1,4 @@
-"""Values in .rviz files of which nothing is lost, though they have no counterpart here."""
+"""Unsupported values in .rviz files that change nothing in the scene."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 from webviz.files.rviz.tree import Path, Tree
 
 ALWAYS = {
-    "Tree": "TF's tree of frames, which RViz makes anew from the transforms",
+    "Tree": "TF's tree of frames, which RViz rebuilds from the transforms",
     "Expand Tree": "how RViz's panel looks",
     "Expand Link Details": "how RViz's panel looks",
     "Expand Joint Details": "how RViz's panel looks",
     "Link Tree Style": "how RViz's panel looks",
 }
-"""By key, wherever it is in the path, with the reason."""
+"""Reasons by key, at any level of the path."""
 
 AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Selectable": (True,),
@@ -22,7 +22,7 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Invert Z Axis": (False,),
     "Target Frame": ("<Fixed Frame>",),
 }
-"""By key: RViz's default values, at which it is as if the property did not exist."""
+"""By key: RViz's default values, which need no support."""
 
 
 def is_without_effect(path: Path, tree: Tree) -> bool:

@@ -1,4 +1,4 @@
-"""What could not be carried over, and how much could."""
+"""A report of what an import could not carry over, with counts."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 NAMED = 4
-"""Places that are named in a sentence; the rest is counted."""
+"""Places listed in a sentence; the rest is counted."""
 
 
 @dataclass(frozen=True)
 class Note:
-    """Something in a file that is not shown as the file says.
+    """A part of a file that is not shown as written.
 
     Args:
         place: a display, "Tools", "Panels" and so on.
@@ -27,14 +27,14 @@ class Note:
 
 @dataclass
 class Report:
-    """Notes, and how many things of each kind there were and were carried over."""
+    """Notes, and per kind the numbers of things found and carried over."""
 
     notes: list[Note] = field(default_factory=list)
     total: Counter[str] = field(default_factory=Counter)
     carried: Counter[str] = field(default_factory=Counter)
 
     def note(self, place: str, what: str, reason: str) -> None:
-        """Tell of something that is not carried over as it is."""
+        """Report something that is not carried over unchanged."""
         self.notes.append(Note(place, what, reason))
 
     def count(self, kind: str, carried: int, total: int) -> None:
@@ -43,11 +43,11 @@ class Report:
         self.total[kind] += total
 
     def sentences(self) -> list[str]:
-        """The notes as sentences; what is said of several places is said once."""
+        """The notes as sentences; a note on several places becomes one."""
         return sentences(self.notes)
 
     def table(self) -> str:
-        """How many things of each kind were carried over, a line each."""
+        """The number of things carried over, one line per kind."""
         lines = [
             f"{kind:12} {self.carried[kind]:4} of {total:4}  {percent(self.carried[kind], total)}"
             for kind, total in self.total.items()
@@ -56,7 +56,7 @@ class Report:
 
 
 def sentences(notes: Sequence[Note]) -> list[str]:
-    """Notes as sentences; what is said of several places or things is said once."""
+    """Notes as sentences; equal notes on several places or things become one."""
     places: dict[tuple[str, str], list[str]] = {}
     for note in notes:
         where = places.setdefault((note.reason, note.what), [])
@@ -72,7 +72,7 @@ def sentences(notes: Sequence[Note]) -> list[str]:
 
 
 def _printable(text: str) -> str:
-    """Text of a file that does nothing to a terminal."""
+    """Text of a file without terminal control characters."""
     return "".join(letter if letter.isprintable() else " " for letter in text)
 
 
@@ -83,5 +83,5 @@ def _listed(places: list[str]) -> str:
 
 
 def percent(part: int, whole: int) -> str:
-    """A part as people say it."""
+    """A percentage."""
     return f"{100 * part / whole:3.0f} %" if whole else "-"

@@ -1,4 +1,4 @@
-"""What a .rviz file says besides displays, views and options: panels, tools, the window."""
+"""The other parts of a .rviz file: panels, tools, the window."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ SAME_HERE = {
     "Panels": ("Displays", "Views", "Time"),
     "Tools": ("MoveCamera",),
 }
-"""RViz's own that need no counterpart: these panels are tabs, and the mouse moves the camera."""
+"""RViz's own that exist here: these panels are tabs, and the mouse moves the camera."""
 
 KEPT = "kept for export"
-PUBLISHES = f"nothing is published from the page yet; {KEPT}"
-SELECTS = f"nothing can be selected in the scene yet; {KEPT}"
+PUBLISHES = f"publishing from the page is not supported yet; {KEPT}"
+SELECTS = f"selecting in the scene is not supported yet; {KEPT}"
 WHY_NOT = {
-    "Interact": f"there are no interactive markers yet; {KEPT}",
+    "Interact": f"interactive markers are not supported yet; {KEPT}",
     "Select": SELECTS,
     "Selection": SELECTS,
     "FocusCamera": SELECTS,
     "Measure": SELECTS,
     "SetInitialPose": PUBLISHES,
     "PublishPoint": PUBLISHES,
-    "Tool Properties": f"there are no tools with properties yet; {KEPT}",
+    "Tool Properties": f"tools with properties are not supported yet; {KEPT}",
 }
-"""Why RViz's own panels and tools have no counterpart, by name."""
-FOREIGN = f"plug-ins of RViz do not run here; {KEPT}"
+"""Why RViz's own panels and tools are unsupported, by name."""
+FOREIGN = f"RViz plug-ins cannot run in webviz; {KEPT}"
 
 _PACKAGES = {"Panels": "rviz_common", "Tools": "rviz_default_plugins"}
 _ROS_1 = "rviz"
@@ -51,14 +51,14 @@ def note_rest(document: Tree, report: Report) -> None:
                 report.note("Panels and tools", name, f"unsupported; {KEPT}")
     transformer: Any = child(manager, "Transformation", "Current").get("Class", _TF)
     if transformer != _TF:
-        report.note("Transformation", values.text(transformer), f"unsupported, tf2 is used; {KEPT}")
+        report.note("Transformation", values.text(transformer), f"unsupported, using tf2; {KEPT}")
 
 
 def why_not(kind: str, cls: str) -> str | None:
-    """Why a class of "Panels" or "Tools" has no counterpart; None if it has one."""
+    """Why a class of "Panels" or "Tools" is unsupported; None if it is supported."""
     if kind == "Tools" and counterpart(Tool, cls):
         return None
     package, _, name = cls.partition("/")
     if package not in (_PACKAGES[kind], _ROS_1):
         return FOREIGN
-    return None if name in SAME_HERE[kind] else WHY_NOT.get(name, f"it is not here yet; {KEPT}")
+    return None if name in SAME_HERE[kind] else WHY_NOT.get(name, f"not supported yet; {KEPT}")

@@ -1,4 +1,4 @@
-"""Displays that were kept of a .rviz file for want of a counterpart, once there is one."""
+"""Displays kept from a .rviz file that have become supported."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ MANAGER = "Visualization Manager"
 
 
 def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Settings, Report]:
-    """Displays that are kept of a .rviz file, as what they are now.
+    """Displays kept from a .rviz file, converted where their class is now supported.
 
     Args:
-        items: of a config; those that are not kept, or still have no counterpart, stay as they are.
+        items: of a config; other displays and unsupported ones stay unchanged.
         settings: of the config.
 
     Returns:
-        The displays, the settings with what is kept of them for export, and what was left out.
+        The displays, the settings with their parts kept for export, and what was skipped.
     """
     report, kept = Report(), Kept()
     revived = [_revived(item, report, kept) for item in items]
@@ -51,5 +51,5 @@ def _revived(item: Item, report: Report, kept: Kept) -> Item:
 
 
 def _plain(entry: Mapping) -> Tree:
-    """As it was read from the .rviz file, whose keys are all text."""
+    """An entry as read from the .rviz file, with keys as text."""
     return {str(key): _plain(v) if isinstance(v, Mapping) else v for key, v in entry.items()}

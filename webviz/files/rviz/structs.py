@@ -17,23 +17,23 @@ from webviz.files.rviz.tree import Path, Tree, leaves, put
 from webviz.files.rviz.values import Unfit
 
 WITH_CHILDREN = ("Frames",)
-"""Mappings whose switches RViz writes as {Value: true}, as they have children in its panel."""
+"""Mappings whose switches RViz writes as {Value: true}, because they have children."""
 
 
 @dataclass
 class Reading:
-    """What was read of a tree.
+    """The result of reading a tree.
 
     Args:
         used: paths of all values that have a property here.
-        faults: paths of values that cannot be used as they are, with the reason.
+        faults: paths of invalid values, with the reason.
     """
 
     used: set[Path] = field(default_factory=set)
     faults: list[tuple[Path, str]] = field(default_factory=list)
 
     def struct(self, cls: type[msgspec.Struct], tree: Tree, above: Path = ()) -> dict[str, Any]:
-        """Plain values for `cls` from a tree; `above` is where that is in the display's."""
+        """Plain values for `cls` from a tree; `above` is its path in the display's tree."""
         result = {}
         found = properties(cls)
         own = [place for place in found if _is_said(place, tree)]
@@ -47,7 +47,7 @@ class Reading:
                 try:
                     result[place.name] = self._value(place, raw, path, found)
                 except Unfit as error:
-                    self.faults.append((path, f"{error}; the default is used"))
+                    self.faults.append((path, f"{error}; using the default"))
         return result
 
     def _value(
@@ -73,9 +73,9 @@ class Reading:
         return self._bounded(value, place, path)
 
     def _entries(self, kind: Any, raw: Any, path: Path, others: set[str]) -> dict[str, Any]:
-        """Settings by name, such as of the links of a robot; `others` are no such names."""
+        """Settings by name, such as a robot's links; `others` are keys to skip."""
         if not isinstance(raw, Mapping):
-            raise Unfit("it has no entries")
+            raise Unfit("expected entries")
         result = {}
         is_struct = isinstance(kind, type) and issubclass(kind, msgspec.Struct)
         for name, entry in raw.items():
@@ -86,7 +86,7 @@ class Reading:
             try:
                 result[name] = self._value(place, entry, (*path, name), ())
             except Unfit as error:
-                self.faults.append(((*path, name), f"{error}; the default is used"))
+                self.faults.append(((*path, name), f"{error}; using the default"))
         return result
 
     def _bounded(self, value: Any, place: RvizProperty, path: Path) -> Any:
@@ -98,7 +98,7 @@ class Reading:
         if place.high is not None and value > place.high:
             bounded = place.high
         if bounded != value:
-            self.faults.append((path, f"{value:g} is out of range here, {bounded:g} is used"))
+            self.faults.append((path, f"{value:g} is out of range, clamped to {bounded:g}"))
         return place.kind(bounded)
 
 
@@ -137,14 +137,14 @@ def _written(value: Any, place: RvizProperty, first: Topic) -> Any:
 
 
 def _at(tree: Any, path: Path) -> Any:
-    """What is at a path; of a property that has no children only its own value."""
+    """The value at a path; a property without children has only its own value."""
     for key in path:
         tree = _opened(tree).get(key)
     return tree
 
 
 def _opened(raw: Any) -> Tree:
-    """A property with its children; in old files there is its own value alone."""
+    """A property with its children; old files have only its own value."""
     return dict(raw) if isinstance(raw, Mapping) else {"Value": raw}
 
 

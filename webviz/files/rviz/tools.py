@@ -87,8 +87,8 @@ def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
     """A tool from RViz's tree of its properties."""
     try:
         return make(cls, reading.struct(cls, tree))
-    except msgspec.ValidationError as error:  # a rule that a plug-in has besides its bounds
-        reading.faults.append(((), f"{error}; the defaults are used"))
+    except msgspec.ValidationError as error:  # a plug-in's own rule besides bounds
+        reading.faults.append(((), f"{error}; using the defaults"))
         return make(cls, {})
 
 
@@ -112,9 +112,9 @@ def _values(tool: Tool) -> dict[str, Any]:
 
 def _is_writable(item: ToolItem, report: Report) -> TypeGuard[Tool]:
     if isinstance(item, Unreadable):
-        report.note(item.name, "this tool", f"it is left out: {item.reason.removesuffix('.')}")
+        report.note(item.name, "this tool", f"skipped: {item.reason.removesuffix('.')}")
         return False
     if not type(item).rviz:
-        report.note(item.name, type_name(type(item)), "it is left out, as RViz has no such tool")
+        report.note(item.name, type_name(type(item)), "skipped, because RViz has no such tool")
         return False
     return True

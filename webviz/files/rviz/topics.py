@@ -1,9 +1,9 @@
 """Topics and their QoS.
 
-RViz writes Reliable, Volatile and a depth of 5 into every file, whether somebody chose them or not.
-Taken at their word they would lose the laser scans that a best-effort publisher sends. So what is
-RViz's default is `auto` here, and everything else is an explicit choice. A robot's description is
-always asked for as transient local, as RViz does whatever the file says.
+RViz writes Reliable, Volatile and a depth of 5 into every file, chosen or not.
+Taken literally they would lose the laser scans of a best-effort publisher. RViz's defaults
+therefore become `auto`, and all other values are explicit choices. A robot's description is
+always subscribed with transient local, as in RViz.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
 OLD_KEYS = ("Image Topic", "Marker Topic")
-"""Where ROS 1's RViz has topics."""
+"""ROS 1's keys for topics."""
 
 
 def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
@@ -34,7 +34,7 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
     Args:
         tree: of the display.
         place: the property.
-        faults: gets what cannot be used, with the reason.
+        faults: receives invalid values, with the reason.
     """
     assert place.port is not None
     key = next((k for k in (place.path[0], *OLD_KEYS) if k in tree), place.path[0])
@@ -55,7 +55,7 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
 
 
 def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
-    """Leave out names that follow from the name of a display's first topic, in place."""
+    """Remove names that follow from the name of a display's first topic, in place."""
     first = display.get(topics[0].name, {}).get("name") if topics else ""
     for each in topics:
         topic = display.get(each.name, {})
@@ -72,7 +72,7 @@ def write(topic: Topic, port: Input | Output, first: Topic) -> Tree:
 
 
 def _write_input(topic: Topic, input: Input, first: Topic) -> Tree:
-    # Where RViz's defaults would not hear the usual publishers, `auto` becomes what does.
+    # `auto` becomes the QoS that matches the usual publishers where RViz's defaults do not.
     reliability = "Best Effort" if input.type.startswith("sensor_msgs/") else "Reliable"
     is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
     durability = "Transient Local" if is_latched else "Volatile"
@@ -98,7 +98,7 @@ def _written(topic: Topic, reliability: str, durability: str) -> Tree:
 
 
 def _policies(tree: Tree, key: str, raw: Any) -> Iterator[tuple[str, Path, Any]]:
-    """What a file says of the QoS: of now under the topic, of ROS 1 next to it."""
+    """The QoS in a file: ROS 2's under the topic, ROS 1's next to it."""
     inner = raw if isinstance(raw, Mapping) else {}
     for word in POLICIES:
         if word in inner:
@@ -137,5 +137,5 @@ def _policy(word: str, raw: Any, port: Input | Output) -> dict[str, Any]:
 def _label(raw: Any, known: tuple[str, ...]) -> str:
     label = values.text(values.own_value(raw))
     if label not in known:
-        raise Unfit(f"`{label[:80]}` is none of {', '.join(known)}")
+        raise Unfit(f"expected {', '.join(known)}, got `{label[:80]}`")
     return label

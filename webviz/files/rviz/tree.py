@@ -1,8 +1,8 @@
-"""RViz's YAML as trees of mappings, lists and plain values, and how trees differ.
+"""RViz's YAML as trees of mappings, lists and plain values, and their differences.
 
 RViz reads every scalar as text. Here text that has exactly one spelling as a bool, an int or a
-float becomes one; all else stays text, so that writing gives back what was read: the state of a
-window such as 00001e20 is no number.
+float becomes one; other text stays, so that writing restores the file: the state of a
+window such as 00001e20 is not a number.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from webviz.files.config.representer import Representer
 
 Tree = dict[str, Any]
 Path = tuple[str, ...]
-"""Keys from the top of a tree."""
+"""Keys from the root of a tree."""
 
 _NULL = "tag:yaml.org,2002:null"
 _FLOAT_MAX = float(np.finfo(np.float32).max)
 _MOST_DIGITS = 18
-"""Longer integers stay text: not every reader has integers that large."""
+"""Longer integers stay text: many readers do not support them."""
 
 
 def parse(source: YamlDocument) -> Any:
-    """A tree from YAML; of a key that is there twice the last one counts.
+    """A tree from YAML; the last of duplicate keys counts.
 
     Raises:
-        ConfigError: a key is no plain word.
+        ConfigError: a key is not a plain word.
     """
     return _built(source.node, source.where)
 
@@ -67,7 +67,7 @@ def scalar(text: str) -> bool | int | float | str:
 
 
 class _Representer(Representer):
-    """Writes what is empty as RViz does."""
+    """Writes empty values as RViz does."""
 
 
 _Representer.add_representer(
@@ -103,7 +103,7 @@ def child(tree: Any, *path: str) -> Tree:
 
 
 def leaves(tree: Any, path: Path = ()) -> Iterator[Path]:
-    """Paths of all values that are no mappings, and of empty mappings."""
+    """Paths of all values except mappings, and of empty mappings."""
     if isinstance(tree, Mapping) and tree:
         for key, value in tree.items():
             yield from leaves(value, (*path, str(key)))
@@ -112,7 +112,7 @@ def leaves(tree: Any, path: Path = ()) -> Iterator[Path]:
 
 
 def put(tree: Tree, path: Path, value: Any) -> None:
-    """Set a value in place; a property that gets children keeps its own value as "Value"."""
+    """Set a value in place; a property that gains children keeps its own value as "Value"."""
     for key in path[:-1]:
         inner = tree.setdefault(key, {})
         if not isinstance(inner, dict):
@@ -126,7 +126,7 @@ def put(tree: Tree, path: Path, value: Any) -> None:
 
 
 def is_same(a: Any, b: Any) -> bool:
-    """Whether two values are the same to RViz, which keeps numbers in single precision."""
+    """Whether two values are equal to RViz, which uses single precision."""
     if isinstance(a, bool) or isinstance(b, bool):
         return a is b
     if isinstance(a, int | float) and isinstance(b, int | float):
@@ -142,7 +142,7 @@ def is_same(a: Any, b: Any) -> bool:
 
 
 def difference(tree: Tree, basis: Tree) -> Tree:
-    """What of a tree is not in `basis`, or there with another value."""
+    """The part of a tree that is missing from `basis` or differs there."""
     result: Tree = {}
     for key, value in tree.items():
         if key not in basis:
@@ -156,21 +156,21 @@ def difference(tree: Tree, basis: Tree) -> Tree:
 
 
 def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], object]) -> Tree:
-    """A tree with what was kept of the file it comes from.
+    """A tree merged with the kept parts of its file.
 
-    A kept value that differs from one of the tree is another spelling of it, unless somebody
-    changed it since: it takes its place if the tree then means what is meant, or what it meant.
+    A kept value that differs from the tree's is another spelling of it, unless the value has
+    changed since: it is used if the tree then still means what is meant.
 
     Args:
-        tree: as it would be written without that file.
+        tree: as written without that file.
         kept: the `difference` of the file from it.
         meant: what is to be written.
-        meaning: what a tree says when it is read.
+        meaning: reads a tree.
     """
     tree = _copied(tree)
     others: list[tuple[Path, Any]] = []
     _add_missing(tree, kept, (), others)
-    # Together they often mean what none does alone, such as the parts of a faulty vector.
+    # Some are valid only together, such as the parts of a faulty vector.
     for group in [others, *([each] for each in others)] if others else []:
         candidate = _copied(tree)
         for path, value in group:

@@ -1,4 +1,4 @@
-"""Single values of RViz properties: how RViz spells them, and what they are here."""
+"""Conversion of single RViz values."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ import numpy as np
 from PIL import ImageColor
 
 LEAST = 1e-4
-"""What stands for 0 where something must have a size (RViz's own minimum of the size of points)."""
+"""Replaces 0 where a size must be positive (RViz's own minimum for points)."""
 
 AUTO = "Auto"
-"""The label of what RViz writes as nothing: a choice it makes when the first message comes."""
+"""The label of an empty value in RViz: a choice made by the first message."""
 
 _YES = ("true", "yes", "on", "1")
 _NO = ("false", "no", "off", "0")
 _FLOAT_MAX = float(np.finfo(np.float32).max)
 _LONGEST = 1000
-"""Characters of a name or a number."""
+"""Maximum length of a name or a number."""
 
 
 class Unfit(ValueError):
-    """A value cannot be used; the text says why."""
+    """An invalid value; the text says why."""
 
 
 def own_value(raw: Any) -> Any:
@@ -33,10 +33,10 @@ def own_value(raw: Any) -> Any:
 
 
 def read(raw: Any, kind: Any) -> Any:
-    """A value as `kind` (bool, int, float, str, a Literal or a tuple of numbers) has it.
+    """A value converted to `kind` (bool, int, float, str, a Literal or a tuple of numbers).
 
     Raises:
-        Unfit: it is none; the text says why.
+        Unfit: it is invalid; the text says why.
     """
     if typing.get_origin(kind) is tuple:
         parts = typing.get_args(kind)
@@ -49,18 +49,18 @@ def read(raw: Any, kind: Any) -> Any:
     if kind is int:
         number = _number(raw)
         if number != int(number):
-            raise Unfit(f"{raw} is no whole number")
+            raise Unfit(f"expected a whole number, got {raw}")
         return int(number)
     if kind is float:
         return _number(raw)
     if typing.get_origin(kind) is Literal:
         labels = typing.get_args(kind)
         if text(raw) not in labels:
-            raise Unfit(f"`{text(raw)[:80]}` is none of {', '.join(map(str, labels))}")
+            raise Unfit(f"expected {', '.join(map(str, labels))}, got `{text(raw)[:80]}`")
         return text(raw)
     if kind is str:
         return text(raw)
-    raise Unfit("RViz has no such values")
+    raise Unfit("unsupported in RViz")
 
 
 def write(value: Any, kind: Any) -> Any:
@@ -80,7 +80,7 @@ def text(raw: Any) -> str:
 
 
 def human(number: float) -> float:
-    """A number that was printed from single precision, as one would write it: 0.03."""
+    """A number printed from single precision, in its shortest form: 0.03."""
     if abs(number) <= _FLOAT_MAX and float(np.float32(number)) == number:
         return float(str(np.float32(number)))
     return number
@@ -99,14 +99,14 @@ def _bool(raw: Any) -> bool:
     word = text(raw).strip().lower()
     if word in _YES or word in _NO:
         return word in _YES
-    raise Unfit(f"`{word[:80]}` is neither true nor false")
+    raise Unfit(f"expected true or false, got `{word[:80]}`")
 
 
 def _number(raw: Any) -> float:
     try:
         number = float(text(raw)[:_LONGEST])
     except ValueError:
-        raise Unfit(f"`{text(raw)[:80]}` is no number") from None
+        raise Unfit(f"expected a number, got `{text(raw)[:80]}`") from None
     if not math.isfinite(number):
         raise Unfit(f"{number} is not finite")
     return human(number)
@@ -127,4 +127,4 @@ def _color(raw: Any) -> tuple[int, ...]:
     try:
         return tuple(ImageColor.getrgb(words.strip())[:3])
     except ValueError:
-        raise Unfit(f"`{words[:80]}` is no colour") from None
+        raise Unfit(f"expected a colour, got `{words[:80]}`") from None

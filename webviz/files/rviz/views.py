@@ -16,10 +16,10 @@ from webviz.files.rviz.values import Unfit
 
 PREFIX = "rviz_default_plugins/"
 NEAR_CLIP_DISTANCE = 0.01
-"""RViz's default; here the nearest thing that is drawn follows from the distance."""
+"""RViz's default; here the near plane follows from the distance."""
 
 KEYS = {each.path: each.label for cls in VIEW_TYPES.values() for each in properties_of(cls)}
-"""RViz's keys of the fields of views."""
+"""RViz's keys for the fields of views."""
 BOUNDS = {
     "distance": (0.01, 1e6),
     "pitch": (-1.5698, 1.5698),
@@ -31,23 +31,23 @@ FARTHEST = 1e9
 
 
 def kind_of(tree: Mapping[str, Any]) -> type[View] | None:
-    """The type of a view of RViz, None if there is none here."""
+    """The type for RViz's view class, None if unsupported."""
     return VIEW_TYPES.get(values.text(tree.get("Class", PREFIX + "Orbit")).rpartition("/")[2])
 
 
 def read(tree: Any, report: Report, place: str = "current view") -> View | None:
-    """A view of RViz, None if there is no such type here.
+    """A view from RViz's tree, None if its type is unsupported.
 
     Args:
         tree: of the view.
-        report: hears of what is not carried over.
+        report: receives what is not carried over.
         place: names the view in the report.
     """
     tree = dict(tree) if isinstance(tree, Mapping) else {}
     cls = kind_of(tree)
     report.count("views", cls is not None, 1)
     if cls is None:
-        reason = "unsupported view type, the default is used; kept for export"
+        reason = "unsupported view type, using the default; kept for export"
         report.note(place, values.text(tree["Class"]), reason)
         return None
     if _switched_on(tree.get("Invert Z Axis")):
@@ -61,7 +61,7 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
 
 
 def read_saved(trees: Any, report: Report) -> dict[str, View]:
-    """The saved views by name; of several with one name, each gets a number but the first."""
+    """The saved views by name; duplicates get a number."""
     found: dict[str, View] = {}
     for tree in trees if isinstance(trees, list) else []:
         if not isinstance(tree, Mapping):
@@ -73,7 +73,7 @@ def read_saved(trees: Any, report: Report) -> dict[str, View]:
 
 
 def free_name(name: str, taken: Mapping[str, Any]) -> str:
-    """A name that is not taken: with a number if it has to be."""
+    """An unused name, with a number if necessary."""
     number, free = 1, name
     while free in taken:
         number += 1
@@ -95,7 +95,7 @@ def write(view: View, name: str = "Current View") -> Tree:
 
 
 def read_current(tree: Any, report: Report) -> View:
-    """The view that a file begins with."""
+    """The initial view of a file."""
     return read(tree, report) or Orbit()
 
 
@@ -104,8 +104,8 @@ def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
 
     Args:
         saved: by name.
-        kept: the list of the file they come from; what has not been changed stays as it was there,
-            and so does what has no counterpart here.
+        kept: the list of the file they come from; unchanged views stay as they were there,
+            and so do unsupported ones.
 
     Returns:
         None for an empty list, as RViz has it.
@@ -132,22 +132,22 @@ def _name(tree: Mapping[str, Any]) -> str:
 
 
 def _others(tree: Mapping[str, Any], view: View) -> Tree:
-    """What a tree says besides the fields of a view, if it is of its type."""
+    """The other keys of a tree, if it has the view's type."""
     if kind_of(tree) is not type(view):
         return {}
     return {key: value for key, value in tree.items() if key not in KEYS.values()}
 
 
 def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, place: str) -> Any:
-    """The value of a field as RViz has it, within what is possible here."""
+    """The value of a field in RViz's tree, clamped to its bounds."""
     key = KEYS[field.name]
     try:
         value = values.read(given, _kind(field))
     except Unfit as error:
-        report.note(place, key, f"{error}; the default is used")
+        report.note(place, key, f"{error}; using the default")
         return field.default
     if field.name == "scale":
-        value = abs(value)  # RViz turns the picture over
+        value = abs(value)  # RViz flips the picture
     if isinstance(value, str):
         return value or FIXED_FRAME
     if isinstance(value, tuple):
