@@ -34,6 +34,7 @@ from webviz.files import opening
 from webviz.shell.app.adding import by_topic, check_properties
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.running import Running, checked_view
+from webviz.shell.app.tool_handle import ToolHandle
 
 
 class Viewer(Running):
@@ -138,6 +139,10 @@ class Viewer(Running):
         return dict(self.state.statuses)
 
     # Changes
+
+    def tool(self, name: str) -> ToolHandle:
+        """A tool by its name in the toolbar: `viewer.tool("2D Goal Pose").send(1.0, 2.0)`."""
+        return ToolHandle(self, name)
 
     def add(
         self,
