@@ -99,14 +99,14 @@ def test_completion_offers_properties_and_names(viewer: webviz.Viewer) -> None:
     scan = viewer.add("LaserScan", name="Front scan")
     assert {"size", "topic", "remove", "statuses"} <= set(dir(scan))
     assert viewer._ipython_key_completions_() == ["Front scan"]
-    assert repr(scan).startswith("<LaserScan 'Front scan': WARN Nobody publishes /scan")
+    assert repr(scan).startswith("<LaserScan 'Front scan': WARN No publisher on /scan")
 
 
 def test_statuses_say_what_the_panel_says(viewer: webviz.Viewer) -> None:
     scan = viewer.add("LaserScan", topic="/front")
     assert scan.status.level is webviz.Level.WARN
     assert scan.status in scan.statuses.values()
-    assert "Nobody publishes /front" in scan.status.text
+    assert "No publisher on /front" in scan.status.text
 
 
 def test_a_list_that_is_changed_in_place_changes_nothing(viewer: webviz.Viewer) -> None:
@@ -142,9 +142,9 @@ def test_groups_hold_displays(viewer: webviz.Viewer, refused: Refused) -> None:
     scan.move()
     assert viewer.displays[-1] == scan
     assert refused(lambda: front.move(group=inner)) == "Front cannot be moved into itself."
-    assert refused(lambda: scan.move(group=grid)).startswith("Grid is no group")
+    assert refused(lambda: scan.move(group=grid)).startswith("Grid is not a group")
     assert refused(lambda: scan.move(group=inner, before=grid)) == "Grid is in another group."
-    assert refused(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is no group")
+    assert refused(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is not a group")
     front.remove()
     assert viewer.displays == [scan]
 
@@ -163,7 +163,7 @@ def test_a_topic_is_shown_by_the_display_that_fits(
     viewer: webviz.Viewer, source: HandFedSource, refused: Refused
 ) -> None:
     assert refused(viewer.add).startswith("Give the type of the display")
-    assert refused(lambda: viewer.add(topic="/x")).startswith("Nobody publishes /x")
+    assert refused(lambda: viewer.add(topic="/x")).startswith("No publisher on /x")
     source.put("/rear", "sensor_msgs/msg/LaserScan", b"")
     source.put("/odd", "acme_msgs/msg/Odd", b"")
     viewer.do(Refresh())

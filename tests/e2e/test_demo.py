@@ -217,7 +217,7 @@ def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
         page.tab.get_by_role("button", name="LaserScan").click()
         page.wait_for(lambda: "from /sim (best effort, volatile)" in page.text(), "a good status")
         simulator.end(signal.SIGKILL)
-        page.wait_for(lambda: "Nobody publishes /scan any more" in page.text(), "the reason", 40)
+        page.wait_for(lambda: "No publisher on /scan any more" in page.text(), "the reason", 40)
         driver.patience_s = 2.0
         with pytest.raises(AssertionError, match="no /odom"):
             check_drive_in_map(page, driver)

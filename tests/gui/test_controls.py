@@ -47,7 +47,7 @@ def test_lists_and_mappings_have_an_entry_per_line(
 @pytest.mark.parametrize("text", ["base_link", "base_link: yes", ":"])
 def test_a_line_that_means_nothing_is_refused(server: viser.ViserServer, text: str) -> None:
     control = add_control(server.gui, PROPERTIES["shown"], {}, lambda *_: None)
-    with pytest.raises(ValueError, match="is no value"):
+    with pytest.raises(ValueError, match="is not valid"):
         control.decode(text)
 
 

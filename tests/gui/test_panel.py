@@ -155,7 +155,7 @@ def test_a_text_that_means_nothing_is_set_back_with_the_reason(
 ) -> None:
     loop.show(make_row("a", shown={"base_link": True}))
     tab.fill("Shown", "base_link: perhaps")
-    tab.wait_for(lambda: loop.turn() or "'perhaps' is no value" in tab.text())
+    tab.wait_for(lambda: loop.turn() or "'perhaps' is not valid" in tab.text())
     tab.wait_for(lambda: loop.turn() or tab.field("Shown").input_value() == "base_link: true")
     assert loop.commands == []
 

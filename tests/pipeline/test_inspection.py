@@ -87,7 +87,7 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., A
     b = bench()
     inspected = do(b, InspectTopic("/text")).inspected
     assert inspected is not None
-    assert inspected.text == "Nobody publishes this topic."
+    assert inspected.text == "No publisher on this topic."
     publisher = Publisher("/talker", "std_msgs/msg/String", "reliable", "volatile")
     b.source.known["/text"] = Offer((publisher,))
     assert "No message" in do(b).inspected.text  # pyright: ignore[reportOptionalMemberAccess]

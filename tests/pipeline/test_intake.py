@@ -37,7 +37,7 @@ def test_nobody_publishes(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     assert b.statuses()["Topic"] == (
         "WARN",
-        "Nobody publishes /pose: start the node that does, or choose another topic.",
+        "No publisher on /pose. Start the node that publishes it, or choose another topic.",
     )
 
 
@@ -45,8 +45,8 @@ def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -
     b = bench(Dot(name="Dot"))
     b.source.known["/goal_pose"] = offer()
     text = (
-        "Nobody publishes /pose; geometry_msgs/msg/PoseStamped is published on /goal_pose: "
-        "choose that topic, or remap."
+        "No publisher on /pose; geometry_msgs/msg/PoseStamped is published on /goal_pose. "
+        "Choose that topic, or remap it."
     )
     assert b.statuses()["Topic"] == ("WARN", text)
 
@@ -65,7 +65,7 @@ def test_a_topic_that_is_none(bench: Callable[..., Any], name: str) -> None:
     b = bench(Dot(name="Dot", topic=Topic(name)))
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
-    assert text in ("No topic is chosen.", "'a b' is no topic name: it has a space")
+    assert text in ("No topic is chosen.", "'a b' is not a valid topic name: it has a space")
 
 
 def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
@@ -106,14 +106,14 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     assert b.statuses()["Topic"][0] == "OK"  # simulated time stands still, so nothing is late
     b.source.now += 5 * SECOND
     level, text = b.statuses()["Topic"]
-    assert (level, text.startswith("No message for 5.1 s on /pose, before at 10.0 Hz")) == (
+    assert (level, text.startswith("No message for 5.1 s on /pose, previously at 10.0 Hz")) == (
         "WARN",
         True,
     )
     b.source.known["/pose"] = Offer(())
     level, text = b.statuses()["Topic"]
     assert level == "WARN"
-    assert text == "Nobody publishes /pose any more; the last message came 5.1 s ago."
+    assert text == "No publisher on /pose any more; the last message arrived 5.1 s ago."
 
 
 def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:

@@ -202,7 +202,7 @@ def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     radius = 2.0 * 3**0.5  # of the cube around axes of 2 m
     assert radius < view.distance < 4 * radius
-    assert "nothing to look at" in looking.refused(FocusDisplay("display9", ALICE))
+    assert "nothing to focus on" in looking.refused(FocusDisplay("display9", ALICE))
 
 
 def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:

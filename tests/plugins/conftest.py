@@ -32,6 +32,7 @@ class Plugin:
     def load(self) -> type[Display]:
         """Load it, and return its only display."""
         (cls,) = load(self.path).values()
+        assert issubclass(cls, Display)
         return cls
 
     def edit(self, *changes: tuple[str, str]) -> None:

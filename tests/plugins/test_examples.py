@@ -24,7 +24,9 @@ T = 100_000_000_000
 @pytest.fixture
 def camera_view() -> Iterator[type[Display]]:
     path = EXAMPLES / "camera_view.py"
-    yield load(path)["CameraView"]
+    cls = load(path)["CameraView"]
+    assert issubclass(cls, Display)
+    yield cls
     registry.register(str(path), {})
 
 

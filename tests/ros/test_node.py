@@ -180,7 +180,7 @@ def test_names_are_resolved_and_remapped(listen: Callable[..., RosSource]) -> No
     assert source.resolve("/scan") == "/front/scan"
     assert source.resolve("odom") == "/robot/odom"
     for wrong in ("", "/a b", "9lives", "/a//b"):
-        with pytest.raises(ValueError, match="is no topic name: "):
+        with pytest.raises(ValueError, match="is not a valid topic name: "):
             source.resolve(wrong)
 
 

@@ -101,7 +101,7 @@ def test_a_taken_port_is_an_error_and_not_another_port(server: viser.ViserServer
 
 @pytest.mark.parametrize("port", [-1, 65536, 99999])
 def test_a_port_that_there_is_not_is_refused(port: int) -> None:
-    with pytest.raises(CannotListen, match=rf"^{port} is no port: "):
+    with pytest.raises(CannotListen, match=rf"^{port} is not a valid port; "):
         open_server(port=port)
 
 

@@ -217,5 +217,5 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
     resolved = [bag.source.resolve(name) for name in names]
     assert resolved == ["/front/scan", "/front/scan", "/odom", "/webviz/path"]
     for wrong in ("/a b", "", "/1st", "/a//b", "/a/"):
-        with pytest.raises(ValueError, match="is no topic name"):
+        with pytest.raises(ValueError, match="is not a valid topic name"):
             bag.source.resolve(wrong)

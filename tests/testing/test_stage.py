@@ -60,7 +60,7 @@ def test_time_is_what_the_test_says(filled: Stage) -> None:
 
 
 def test_what_is_not_drawn_says_why(stage: Stage) -> None:
-    with pytest.raises(AssertionError, match=r"Scan draws nothing\. Topic: Nobody publishes /scan"):
+    with pytest.raises(AssertionError, match=r"Scan draws nothing\. Topic: No publisher on /scan"):
         stage.wait_until_drawn("Scan")
 
 

@@ -77,7 +77,7 @@ def reload(path: Path, runners: Iterable[Runner]) -> None:
     try:
         types = load(path)
     except PluginError as error:
-        log.warning("%s The last version that loaded goes on.", error)
+        log.warning("%s Keeping the last version that loaded.", error)
         for runner in own:
             runner.remarks[STATUS] = Status(Level.ERROR, str(error))
         return
@@ -195,7 +195,7 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
     name = type(old).__name__
     runner.remarks.pop(STATUS, None)
     if name not in types:
-        text = f"{path} has no display {name} any more: this one goes on as it was."
+        text = f"{path} has no display {name} any more. Keeping the previous version."
         runner.remarks[STATUS] = Status(Level.ERROR, text)
         log.warning("%s (%s)", text, old.name)
         return

@@ -140,7 +140,7 @@ class Requests:
         try:
             working = in_thread(job.work)
         except OSError as error:
-            raise Refused(f"Not done: {error.strerror}.") from error
+            raise Refused(f"Failed: {error.strerror}.") from error
         self._running = working, job, answer
         working.add_done_callback(lambda _: self._wake())
 

@@ -23,7 +23,7 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
 
 def import_status(report: Sequence[str]) -> Status:
     """What of a .rviz file has no counterpart here, which needs at least one sentence."""
-    text = f"Not all of the .rviz file has a counterpart here. {' '.join(report)}"
+    text = f"Parts of this .rviz file are unsupported. {' '.join(report)}"
     return Status(Level.WARN, text)
 
 

@@ -86,11 +86,11 @@ class Displays(Panel):
 
     def _add_file_row(self, files: Files) -> None:
         gui = self._gui
-        save = gui.add_button("Save", color="gray", hint="Ctrl+S")
-        save_as = gui.add_button("Save as", color="gray", hint="Or download: Ctrl+Shift+S")
-        open_ = gui.add_button("Open", color="gray", hint="Or upload: Ctrl+O")
-        image = gui.add_button("Image", color="gray", hint="Download a picture of your view.")
-        reset = gui.add_button("Reset", color="gray", hint="Forget transforms and messages: R")
+        save = gui.add_button("Save", color="gray", hint="Save the config to its file (Ctrl+S)")
+        save_as = gui.add_button("Save as", color="gray", hint="Save as or download (Ctrl+Shift+S)")
+        open_ = gui.add_button("Open", color="gray", hint="Open or upload a config (Ctrl+O)")
+        image = gui.add_button("Image", color="gray", hint="Save a screenshot of your view.")
+        reset = gui.add_button("Reset", color="gray", hint="Clear all transforms and messages (R)")
         save.on_click(lambda event: files.save(browser_of(event)))
         save_as.on_click(lambda event: files.save_as(browser_of(event)))
         open_.on_click(lambda event: files.open(browser_of(event)))

@@ -24,8 +24,8 @@ class Time(Panel):
         def toggle(browser: int | None) -> None:
             send(Pause(not self._is_paused), browser)
 
-        self._pause = ui.button("Pause", toggle, "Let the picture stand still.", width=0.5)
-        hint = "Forget transforms and messages: R"
+        self._pause = ui.button("Pause", toggle, "Freeze the scene.", width=0.5)
+        hint = "Clear all transforms and messages (R)"
         ui.button("Reset", lambda browser: send(Reset(), browser), hint, width=0.5)
         self._table = ui.area()
         ui.command("Pause or resume", toggle, icon="player-pause")

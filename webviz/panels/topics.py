@@ -29,7 +29,7 @@ class Topics(Panel):
         )
         self._message = ui.area()
         self._message.text(HINT)
-        self._filter = ui.field("Filter", "", lambda *_: None, "A part of the name or type.")
+        self._filter = ui.field("Filter", "", lambda *_: None, "Part of the name or type.")
         self._table = ui.area()
         self._filtered = ""
         self._offers: object = None

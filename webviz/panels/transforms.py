@@ -25,7 +25,7 @@ class TFTree(Panel):
         def follow(live: bool, browser: int | None) -> None:
             send(InspectTransforms(live), browser)
 
-        self._live = ui.checkbox("Live", False, follow, "Follow the tree of transforms.")
+        self._live = ui.checkbox("Live", False, follow, "Keep the transform tree up to date.")
         self._tree = ui.area()
         self._tree.text(OFF)
         self._shown = ""

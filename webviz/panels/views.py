@@ -42,8 +42,8 @@ class Views(Panel):
         self._lines: list[viser.GuiButtonHandle] = []
         with gui.add_folder(None):
             gui.add_html(row_style("view", (12, 12)))
-            zero = gui.add_button("Zero", color="gray", hint="Where such a view begins: Z")
-            hint = "Browsers that join, and pictures, begin with what you see."
+            zero = gui.add_button("Zero", color="gray", hint="Reset this view (Z)")
+            hint = "Make this the default view of new browsers and pictures."
             start = gui.add_button("Start with this", color="gray", hint=hint)
         zero.on_click(lambda event: self._zero(browser_of(event)))
         start.on_click(lambda event: self._start_with(browser_of(event)))
@@ -52,7 +52,7 @@ class Views(Panel):
         with self._list:
             self._style = gui.add_html(row_style("saved-views", SAVE))
             self._name = gui.add_text("", "", hint="Name of the view to save.")
-            save = gui.add_button("Save this", color="gray", hint="Keep what you see.")
+            save = gui.add_button("Save this", color="gray", hint="Save the current view.")
             save.on_click(self._save)
         ui.command("Zero view", self._zero, key="Z")
 
@@ -84,9 +84,9 @@ class Views(Panel):
         self._style.content = row_style("saved-views", SAVE + SHOW * len(self._saved))
         with self._list:
             for name, view in self._saved.items():
-                hint = f"Look at it so: {type_of(view)}"
+                hint = f"Switch to this view: {type_of(view)}"
                 show = self._gui.add_button(plain(name), color="gray", hint=hint)
-                remove = self._gui.add_button("Remove", color="gray", hint="Forget this view.")
+                remove = self._gui.add_button("Remove", color="gray", hint="Remove this view.")
                 show.on_click(functools.partial(self._look, name))
                 remove.on_click(functools.partial(self._remove, name))
                 self._lines += [show, remove]

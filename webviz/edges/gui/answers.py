@@ -12,7 +12,7 @@ from webviz.engine.state import Answer
 
 Color = Literal["green", "orange", "red"]
 
-TITLES = {Level.OK: "Done", Level.WARN: "Done, but", Level.ERROR: "Not done"}
+TITLES = {Level.OK: "Done", Level.WARN: "Warning", Level.ERROR: "Failed"}
 COLORS: dict[Level, Color] = {Level.OK: "green", Level.WARN: "orange", Level.ERROR: "red"}
 SECONDS = {Level.OK: 4.0, Level.WARN: 10.0, Level.ERROR: 10.0}
 

@@ -163,7 +163,7 @@ class Choice(Control):
 
     def _chosen(self, option: str) -> str:
         if option not in self._values:
-            raise ValueError(f"{option} is no longer on offer.")
+            raise ValueError(f"{option} is no longer available.")
         return self._values[option]
 
 

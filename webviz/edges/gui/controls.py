@@ -118,7 +118,7 @@ def _load(text: str) -> Any:
     try:
         return json.loads(text)
     except ValueError:
-        raise ValueError(f'{text!r} is no value; write true, 0.5 or "text".') from None
+        raise ValueError(f'{text!r} is not valid; enter true, 0.5 or "text".') from None
 
 
 def _line(text: str) -> str:

@@ -33,7 +33,7 @@ class GlobalOptions:
                 "The frame that everything is drawn in. Choose one, or type any name.",
                 free=True,
             )
-            background: Any = gui.add_rgb("Background", (0, 0, 0), hint="Behind everything.")
+            background: Any = gui.add_rgb("Background", (0, 0, 0), hint="Colour of the background.")
             self._background = Control(
                 background,
                 lambda color, browser: send(SetBackground(color), browser),
@@ -45,7 +45,7 @@ class GlobalOptions:
                 min=MIN_HZ,
                 max=MAX_HZ,
                 step=1.0,
-                hint="How often in a second the scene may change.",
+                hint="Maximum number of scene updates per second.",
             )
             self._frame_rate = Control(
                 rate,

@@ -105,7 +105,7 @@ class RosSource:
             return self._node.resolve_topic_name(topic)
         except (InvalidTopicNameException, RuntimeError, ValueError) as error:
             reason = str(error).partition(", at /")[0].rpartition("name: ")[2]
-            raise ValueError(f"{topic!r} is no topic name: {reason}") from error
+            raise ValueError(f"{topic!r} is not a valid topic name: {reason}") from error
 
     def close(self) -> None:
         """Leave the graph and end the thread."""

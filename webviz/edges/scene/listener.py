@@ -83,7 +83,7 @@ def listen(host: str, port: int) -> Listener:
         CannotListen: `host` is no address of this machine, or the port is not allowed.
     """
     if not 0 <= port <= MAX_PORT:  # the system would take what is left of 16 bits
-        raise CannotListen(f"{port} is no port: give one from 1 to {MAX_PORT}, or 0 for any.")
+        raise CannotListen(f"{port} is not a valid port; use 1 to {MAX_PORT}, or 0 for any.")
     try:
         family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE

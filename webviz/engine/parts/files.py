@@ -127,7 +127,7 @@ class FilesPart(Part):
             self._is_changed = True
             self._saved = {}
             self._views.open(config.settings.view)
-            return f"Opened {name}, which is not saved here yet."
+            return f"Opened {name} (not yet saved on this machine)."
 
         return Job(lambda: opening.parse(text, name), then)
 

@@ -86,7 +86,7 @@ class TopicsPart(Part):
             return None
         offer = self.core.offers.get(topic)
         if not offer or not offer.publishers:
-            return Inspected(topic, "Nobody publishes this topic.")
+            return Inspected(topic, "No publisher on this topic.")
         if offer.problem:
             return Inspected(topic, f"This topic cannot be read: {offer.problem}.")
         if self._last is None or self._last[0] != topic:

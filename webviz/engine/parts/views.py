@@ -133,7 +133,7 @@ class ViewsPart(Part):
         boxes = (self._scene.bounds(f"{id}/") for id in ids)
         box = union(box for box in boxes if box is not None)
         if box is None:
-            raise ConfigError("Nothing of it is drawn, so there is nothing to look at.")
+            raise ConfigError("This display draws nothing to focus on.")
         for id, view in self._seen(_browser(command, sender)).items():
             rig = self._rig(type(view), view.target_frame)
             size = self._cameras.size(id)

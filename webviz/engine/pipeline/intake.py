@@ -218,7 +218,8 @@ class Intake:
         if rate and silence > max(2.0, 5.0 / rate):
             return Status(
                 Level.WARN,
-                f"No message for {age:.1f} s on {self.name}, before at {rate:.1f} Hz; from {who}.",
+                f"No message for {age:.1f} s on {self.name}, previously at {rate:.1f} Hz; "
+                f"from {who}.",
             )
         pace = f" at {rate:.1f} Hz" if rate else ""
         count = f"{self._received} message{'s' if self._received != 1 else ''}"
@@ -227,7 +228,9 @@ class Intake:
     def _nobody(self, offers: Mapping[str, Offer], clock: float) -> str:
         if self._received:
             age = clock - self._times[-1] if self._times else 0.0
-            return f"Nobody publishes {self.name} any more; the last message came {age:.1f} s ago."
+            return (
+                f"No publisher on {self.name} any more; the last message arrived {age:.1f} s ago."
+            )
         others = sorted(
             topic
             for topic, offer in offers.items()
@@ -235,8 +238,11 @@ class Intake:
         )
         if others:
             there = f"{self.spec.type} is published on {', '.join(others[:3])}"
-            return f"Nobody publishes {self.name}; {there}: choose that topic, or remap."
-        return f"Nobody publishes {self.name}: start the node that does, or choose another topic."
+            return f"No publisher on {self.name}; {there}. Choose that topic, or remap it."
+        return (
+            f"No publisher on {self.name}. Start the node that publishes it, or choose another "
+            "topic."
+        )
 
     def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
         """Why DDS does not connect us to anybody, though the type fits."""

@@ -164,7 +164,7 @@ class TransformListener:
             + (
                 ": if a bag started again, press Reset."
                 if rejection.reason == "TF_OLD_DATA"
-                else ", which is for its publisher to correct."
+                else "; fix the publisher."
             )
             for child, rejection in buffer.rejections.items()
             if now_ns - rejection.received_ns < REFUSED_NS

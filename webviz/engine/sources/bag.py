@@ -160,7 +160,7 @@ class BagSource:
             name = f"/{NODE}/{topic.removeprefix('~').removeprefix('/')}"
         if not TOPIC.fullmatch(name):
             raise ValueError(
-                f"{topic!r} is no topic name: it must be words of letters, digits and "
+                f"{topic!r} is not a valid topic name: it must be words of letters, digits and "
                 "underscores, which begin with no digit, between slashes"
             )
         return self._remappings.get(name, name)

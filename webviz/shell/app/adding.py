@@ -63,7 +63,7 @@ def by_topic(
         raise Error("Give the type of the display, or the name of a topic that is published.")
     if topic not in topics:
         hint = nearest(topic, topics) if topics else "nothing is published."
-        raise Error(f"Nobody publishes {topic}, so give the type of the display, or: {hint}")
+        raise Error(f"No publisher on {topic}. Give the type of the display, or {hint}")
     fitting = picks({topic: topics[topic]}, display_types())
     if not fitting:
         raise Error(f"No display shows {topic}, whose type is {', '.join(topics[topic])}.")

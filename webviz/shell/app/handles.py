@@ -171,7 +171,7 @@ class DisplayHandle:
         if group is None and before is not None:
             group = before._parent()
         if group is not None and group.type != "Group":
-            raise Error(f"{group.name} is no group, so nothing can be in it.")
+            raise Error(f"{group.name} is not a group.")
         if before is not None and before._parent() != group:
             raise Error(f"{before.name} is in another group.")
         if group is not None and self in [group, *group._ancestors()]:

@@ -294,5 +294,5 @@ class Viewer(Running):
             return ""
         handle = self[group] if isinstance(group, str) else group
         if handle.type != "Group":
-            raise Error(f"{handle.name} is no group, so nothing can be in it.")
+            raise Error(f"{handle.name} is not a group.")
         return handle.id

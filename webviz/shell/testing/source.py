@@ -49,7 +49,7 @@ class HandFedSource:
     def resolve(self, topic: str) -> str:
         """The full name of a topic."""
         if " " in topic:
-            raise ValueError(f"{topic!r} is no topic name: it has a space")
+            raise ValueError(f"{topic!r} is not a valid topic name: it has a space")
         return f"/{topic.removeprefix('/')}"
 
     def close(self) -> None:
