@@ -68,7 +68,7 @@ def main(args: list[str] | None = None) -> int:
     except InvalidParameterValueException as error:
         # The sentence of options.refusal, which rclpy puts between words of its own.
         sentence = str(error).partition("Reason: ")[2].rpartition(":")[0]
-        print(f"A parameter will not do: {sentence}", file=sys.stderr)
+        print(f"Invalid parameter: {sentence}", file=sys.stderr)
         return 1
     finally:
         if node:

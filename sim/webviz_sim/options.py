@@ -44,7 +44,7 @@ OPTIONS = {
     ),
     "start_pose": Option(
         [],
-        "Where the robot starts in the map, [x, y, yaw] in m and rad; []: where is room.",
+        "Where the robot starts in the map, [x, y, yaw] in m and rad; []: any free spot.",
         read_only=True,
     ),
     "seed": Option(0, "Of all noise.", 0, 2**32 - 1, read_only=True),
@@ -57,7 +57,7 @@ OPTIONS = {
         "Publish /clock, from 0, and stamp with it instead of the system's time.",
         read_only=True,
     ),
-    "tour": Option(True, "Tour the building when nobody commands the robot."),
+    "tour": Option(True, "Tour the building while no command arrives."),
     "tour_speed": Option(0.35, "Speed along a path in m/s.", 0.05, 0.6),
     "cmd_vel_timeout": Option(0.5, "How long a /cmd_vel holds, in s.", 0.05, 10),
     "odom_drift": Option(0.0, "Error of the odometry, as a fraction of the motion.", 0, 1),

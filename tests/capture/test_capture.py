@@ -100,7 +100,7 @@ def test_a_display_that_shows_nothing_is_told_with_the_reason(capture):
     assert not shot.is_ok
     assert shot.statuses.keys() == {"Scan", "Path"}
     assert shot.statuses["Path"].level is Level.WARN
-    assert "Nobody publishes /plan" in shot.statuses["Path"].text
+    assert "No publisher on /plan" in shot.statuses["Path"].text
     assert capture(config, wait_for=["Scan"]).is_ok
 
 

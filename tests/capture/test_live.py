@@ -50,4 +50,4 @@ def test_a_display_that_never_becomes_ok_is_told_after_the_time_out(robot, tmp_p
     result = screenshot(tmp_path, "--timeout", "3")
     assert result.returncode == 3, result.stderr
     assert "not all displays are OK within 3 s" in result.stderr
-    assert "Nobody publishes /scan" in result.stderr
+    assert "No publisher on /scan" in result.stderr

@@ -130,7 +130,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
     page = view("--ros-args", "-p", "use_sim_time:=true")
-    wait_for(page, "Waiting for /clock: use_sim_time is set, but nobody publishes it")
+    wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
     bag = Bag(make_robot("player"), 100, with_clock=True)
     bag.play(0.0, 1.0)
     bag.play(1.0, 3.0)

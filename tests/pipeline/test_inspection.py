@@ -155,7 +155,7 @@ def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(
     b.scene.watched = False
     publish(b, 1.0)
     b.turn()
-    assert b.statuses()["Display"] == ("OK", "Nothing is drawn until somebody opens the page.")
+    assert b.statuses()["Display"] == ("OK", "Nothing is drawn until a browser connects.")
     b.scene.watched = True
     b.turn()
     assert "Display" not in b.statuses()

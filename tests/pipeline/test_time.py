@@ -46,7 +46,7 @@ def test_before_the_first_clock_the_viewer_waits_and_says_for_what(
     b.source.now = 0
     level, text = statuses(b)["Time"]
     assert level == "WARN"
-    assert "Waiting for /clock: use_sim_time is set, but nobody publishes it" in text
+    assert "Waiting for /clock: use_sim_time is set, but it has no publisher" in text
     publishes(b, "/clock", "/gazebo")
     assert "/gazebo has not published it yet" in statuses(b)["Time"][1]
     b.clock += 20.0

@@ -57,9 +57,7 @@ def _row(name: str, offer: Offer, traffic: Traffic | None) -> str:
     publishers = offer.publishers
     types = ", ".join(sorted({publisher.type for publisher in publishers}))
     facts = (
-        [types, _counted(len(publishers)), qos_of(publishers)]
-        if publishers
-        else ["nobody publishes it"]
+        [types, _counted(len(publishers)), qos_of(publishers)] if publishers else ["no publisher"]
     )
     small = escape(" · ".join(facts))
     flow = ""

@@ -156,7 +156,9 @@ class TransformListener:
         buffer = self._buffer
         problems = [sentence for frame in buffer.publishers for sentence in quarrels(buffer, frame)]
         if problems:
-            who = [f"{topic}: {', '.join(_nodes(offers, topic)) or 'nobody'}" for topic in TOPICS]
+            who = [
+                f"{topic}: {', '.join(_nodes(offers, topic)) or 'no publisher'}" for topic in TOPICS
+            ]
             problems = [*_few(problems), f"Publishers of {'; of '.join(who)}."]
         refused = [
             f'{rejection.count} transforms of "{child}" were refused, the last because '

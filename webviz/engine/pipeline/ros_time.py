@@ -53,7 +53,7 @@ class RosTime:
         publishers = offers["/clock"].publishers if "/clock" in offers else ()
         nodes = ", ".join(publisher.node or "a DDS program" for publisher in publishers)
         if not self._now_ns:
-            missing = f"{nodes} has not published it yet" if nodes else "nobody publishes it"
+            missing = f"{nodes} has not published it yet" if nodes else "it has no publisher"
             return Status(
                 Level.WARN,
                 f"Waiting for /clock: use_sim_time is set, but {missing}. Start the simulator, or "
@@ -64,7 +64,7 @@ class RosTime:
             at = f"Simulated time stands still at {self._now_ns / 1e9:.1f} s"
             if nodes:
                 return Status(Level.OK, f"{at}: {nodes} is paused.")
-            return Status(Level.WARN, f"{at}: nobody publishes /clock any more.")
+            return Status(Level.WARN, f"{at}: /clock has no publisher any more.")
         if self._event and clock - self._event_at < TOLD_S:
             return Status(Level.OK, self._event)
         return None

@@ -25,7 +25,7 @@ from webviz.engine.sources import Offer, Raw, Subscription
 from webviz.engine.trace import Tracer
 
 NOTHING_TO_DRAW = Status(Level.WARN, "There is nothing to draw.")
-NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until somebody opens the page.")
+NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until a browser connects.")
 
 
 @dataclass(frozen=True)

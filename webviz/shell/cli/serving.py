@@ -86,8 +86,8 @@ def _announce(options: ViewingOptions, viewer: Viewer) -> None:
     if options.host not in (LOCAL, "localhost", "::1"):
         names = ", ".join(options.allow_host) or "the address given with --host only"
         print(
-            f"webviz: whoever reaches {options.host}:{viewer.port} can watch and change this "
-            f"viewer; browsers must address it as: {names}."
+            f"webviz: everyone who reaches {options.host}:{viewer.port} can watch and change "
+            f"this viewer; browsers must address it as: {names}."
         )
     sys.stdout.flush()
 
