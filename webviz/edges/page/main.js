@@ -45,3 +45,4 @@ window.webviz = {
   hasView: () => view.type() !== "",
   pick: mouse.pick,
 };
+window.webvizStarted();

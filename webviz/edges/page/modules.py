@@ -16,6 +16,8 @@ CONTENT_TYPE = "text/javascript; charset=utf-8"
 
 _FOLDER = resources.files("webviz.edges.page")
 _HEAD = (_FOLDER / "head.html").read_bytes()
+_OWN = b"(async()=>{  const d=document.currentScript.dataset;"
+"""How the script of viser begins, which unpacks the rest of it."""
 
 
 class Modules:
@@ -42,12 +44,13 @@ class Modules:
         """viser's page with the modules, which run before its own script.
 
         Raises:
-            ValueError: it is not an HTML page with a head.
+            ValueError: it is not an HTML page with a head and the script of viser.
         """
         start, head, rest = page.partition(b"<head>")
-        if not head:
-            raise ValueError("The page of viser has no <head>.")
-        return start + head + _HEAD + rest
+        before, own, after = rest.partition(_OWN)
+        if not (head and own):
+            raise ValueError("The page of viser has no <head>, or another script than expected.")
+        return start + head + _HEAD + before + own + b"await window.webvizModules;" + after
 
     def connect(self, browser: int, key: str) -> str:
         """A script that makes a page open the channel.
