@@ -196,6 +196,6 @@ def test_answers_are_told_once_to_everybody(
     for each in (tab, other):
         each.wait_for(lambda each=each: "size: expected `float` > 0.0." in each.text())
     loop.turn()
+    assert tab.text().count("Not changed") == 1
     late = open_tab()
     assert "Not changed" not in late.text()
-    assert tab.text().count("Not changed") == 1

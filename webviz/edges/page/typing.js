@@ -6,14 +6,15 @@
 import * as channel from "./channel.js";
 
 export function install() {
+  // By id, because viser makes the field anew when its options change meanwhile.
   let typed = null;
   let isPicking = false;
 
-  function tell(input) {
-    const text = input.value;
-    if (typed !== input || !text.trim()) return;
+  function tell(id) {
+    const text = typed?.id === id ? typed.text.trim() : "";
+    if (!text) return;
     typed = null;
-    channel.send({ type: "Typed", uuid: input.id, text: text.trim() });
+    channel.send({ type: "Typed", uuid: id, text });
   }
 
   const isDropdown = (target) =>
@@ -22,14 +23,14 @@ export function install() {
 
   on("input", (event) => {
     if (!isDropdown(event.target)) return;
-    typed = event.target;
+    typed = { id: event.target.id, text: event.target.value };
     isPicking = false;
   });
   on("click", (event) => {
     if (event.target.closest("[data-combobox-option]")) typed = null;
   });
   on("keydown", (event) => {
-    if (event.target !== typed) return;
+    if (!typed || event.target.id !== typed.id) return;
     if (event.key === "Escape") typed = null;
     if (event.key === "ArrowDown" || event.key === "ArrowUp") isPicking = true;
     if (event.key !== "Enter") return;
@@ -39,7 +40,7 @@ export function install() {
     }
     event.preventDefault();
     event.stopPropagation();
-    event.target.blur();  // which tells it
+    event.target.blur(); // which tells it
   });
-  on("focusout", (event) => tell(event.target));
+  on("focusout", (event) => tell(event.target.id));
 }
