@@ -104,7 +104,7 @@ class Tab:
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
-        page.on("websocket", lambda socket: socket.on("framereceived", self._count))
+        page.on("websocket", self._listen)
         # viser ignores the edits of a browser that has not told its camera yet.
         known = len(server.get_clients())
         page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
@@ -177,6 +177,11 @@ class Tab:
     def _read_console(self, message: playwright.ConsoleMessage) -> None:
         if message.type == "error":
             self.errors.append(message.text)
+
+    def _listen(self, socket: Any) -> None:
+        """Count what viser sends; the channel has a sign of life every second."""
+        if not socket.url.endswith("/channel"):
+            socket.on("framereceived", self._count)
 
     def _count(self, _: object) -> None:
         self.frames_received += 1

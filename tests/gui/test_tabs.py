@@ -32,13 +32,13 @@ def test_time_stands_still_and_goes_on(loop: Any, tab: Any) -> None:
     loop.show()
     tab.show_tab("Time")
     tab.click("Pause")
-    assert loop.commands == [Pause(True)]
+    tab.wait_for(lambda: loop.drain() or loop.commands == [Pause(True)])
     loop.show(clock=Clock(5_000_000_000, is_paused=True))
     tab.wait_for(lambda: loop.turn() or "webviz · paused" in tab.text())
     tab.click("Resume")
-    assert loop.commands[1:] == [Pause(False)]
+    tab.wait_for(lambda: loop.drain() or loop.commands[1:] == [Pause(False)])
     tab.click("Reset")
-    assert loop.commands[2:] == [Reset()]
+    tab.wait_for(lambda: loop.drain() or loop.commands[2:] == [Reset()])
 
 
 def test_a_time_that_is_not_known_is_not_zero() -> None:

@@ -417,7 +417,7 @@ def test_a_saved_view_is_chosen_by_a_parameter(
 def test_a_view_at_the_start_that_is_not_saved_is_refused(
     open_viewer: Callable[..., webviz.Viewer],
 ) -> None:
-    with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: there are none$"):
+    with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: none are known$"):
         open_viewer(parameters=["view:=Above"])
 
 
