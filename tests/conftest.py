@@ -18,8 +18,13 @@ from webviz.shell.pictures.browser import NoBrowser, launched
 settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
-EXPECTED = ("WebSocket connection to", "Failed to load resource")
-"""What Chromium says when a server is gone, as some tests want it."""
+EXPECTED = (
+    "WebSocket connection to",
+    "Failed to load resource",
+    "THREE.BufferGeometry.computeBoundingSphere(): Computed radius is NaN.",
+)
+"""What Chromium says when a server is gone, and three.js of points that are not finite, as some
+tests want it."""
 
 
 def pytest_configure() -> None:

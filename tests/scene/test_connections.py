@@ -42,7 +42,8 @@ def test_connections_that_never_ask_keep_no_browser_out(
     for stranger in strangers:
         stranger.sendall(b"GET / HT")
     assert ask(PAGE)[0] == 200
-    assert strangers[0].recv(1) == b""
+    with contextlib.suppress(ConnectionResetError):  # as good an end
+        assert strangers[0].recv(1) == b""
     for stranger in strangers:
         stranger.close()
 
