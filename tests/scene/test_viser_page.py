@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib import resources
+from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
@@ -12,8 +13,8 @@ import viser
 from webviz.edges.scene import Scene
 from webviz.shell.pictures.browser import Page
 
-FOLDER = resources.files("webviz.edges.page")
-MODULES = sorted(file.name for file in FOLDER.iterdir() if file.name.endswith(".js"))
+FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
+MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
 
 
 @pytest.fixture
@@ -59,7 +60,7 @@ def test_a_module_is_valid_and_used(name: str, page_of_modules: playwright.Page)
         == ""
     )
     others = "".join((FOLDER / other).read_text() for other in (*MODULES, "head.html"))
-    assert re.search(rf"[/\"]{re.escape(name)}\"", others)
+    assert re.search(rf"[/\"]{re.escape(Path(name).name)}\"", others)
 
 
 @pytest.fixture(scope="module")

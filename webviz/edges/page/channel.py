@@ -8,7 +8,7 @@ import itertools
 import logging
 import secrets
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import or_
 from typing import Any, Protocol, TypeVar
@@ -16,16 +16,18 @@ from typing import Any, Protocol, TypeVar
 import msgspec
 from websockets.exceptions import ConnectionClosed
 
-from webviz.edges.page.messages import FromPage, Hello, ToPage
+from webviz.edges.page.messages import FromPage, Hello, ToPage, Unwatch, Watch
+from webviz.edges.page.stores import Stores, Watched
 
 MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
-MAX_CHARACTERS = 64 << 10
-"""Of a message of a page."""
+MAX_CHARACTERS = 3 << 20
+"""Of a message of a page; the longest is a config."""
 HELLO_S = 10.0
 """For a page to say who it is."""
 
 M = TypeVar("M", bound=FromPage)
+_OWN: Any = Hello | Watch | Unwatch
 
 
 class Connection(Protocol):
@@ -63,8 +65,11 @@ class Channel:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._outboxes: dict[int, _Outbox] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
+        self._stores = Stores()
+        self.on_watch: Callable[[int], object] = lambda browser: None
+        """Called on the event loop with a browser that watches another store."""
         self._listeners: dict[type[FromPage], list[Callable[[int, Any], None]]] = {}
-        self._decoder = msgspec.json.Decoder[FromPage](Hello)
+        self._decoder = msgspec.json.Decoder[FromPage](_OWN)
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
         """Tells one page, or everyone; from any thread, at once.
@@ -77,10 +82,27 @@ class Channel:
             for id_, outbox in self._outboxes.items():
                 if browser in (None, id_):
                     outbox.put(message)
-            loop = self._loop
-        if loop is not None:
-            with contextlib.suppress(RuntimeError):  # the server has stopped
-                loop.call_soon_threadsafe(self._wake)
+        self._wake_soon()
+
+    def show(self, store: str, values: Mapping[str, Any]) -> None:
+        """Makes these the values of a store, and sends pages that watch it what is new.
+
+        Args:
+            store: its name, one of `watched`.
+            values: what JSON can hold.
+        """
+        with self._lock:
+            changed = self._stores.replace(store, values)
+            for outbox in self._outboxes.values():
+                outbox.watched.mark(store, changed)
+        self._wake_soon()
+
+    def watched(self) -> set[str]:
+        """The names of all stores that pages watch; the values of others are forgotten."""
+        with self._lock:
+            watched = {store for outbox in self._outboxes.values() for store in outbox.watched}
+            self._stores.forget(watched)
+        return watched
 
     def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:
         """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
@@ -89,7 +111,7 @@ class Channel:
         """
         with self._lock:
             self._listeners.setdefault(kind, []).append(listener)
-            known = reduce(or_, self._listeners, Hello)
+            known = reduce(or_, self._listeners, _OWN)
             self._decoder = msgspec.json.Decoder[FromPage](known)
 
     # Called on the event loop
@@ -153,6 +175,8 @@ class Channel:
 
     def _next(self, outbox: _Outbox) -> ToPage | None:
         with self._lock:
+            if (values := outbox.watched.next(self._stores)) is not None:
+                return values
             return outbox.waiting.pop(next(iter(outbox.waiting))) if outbox.waiting else None
 
     def _hear(self, browser: int, text: str, log: logging.Logger) -> None:
@@ -161,14 +185,35 @@ class Channel:
         except (msgspec.MsgspecError, RecursionError) as error:
             log.warning("A message of a page was ignored: %s.", error)
             return
+        if isinstance(message, Watch | Unwatch):
+            self._watch(browser, message, log)
         for listener in self._listeners.get(type(message), ()):
             listener(browser, message)
+
+    def _watch(self, browser: int, message: Watch | Unwatch, log: logging.Logger) -> None:
+        with self._lock:
+            if (outbox := self._outboxes.get(browser)) is None:
+                return
+            if isinstance(message, Unwatch):
+                outbox.watched.discard(message.store)
+                return
+            is_allowed = outbox.watched.add(message.store)
+        if is_allowed:
+            self.on_watch(browser)
+            self._wake()
+        else:
+            log.warning("A page asked for too many stores.")
+
+    def _wake_soon(self) -> None:
+        if (loop := self._loop) is not None:
+            with contextlib.suppress(RuntimeError):  # the server has stopped
+                loop.call_soon_threadsafe(self._wake)
 
     def _wake(self) -> None:
         for outbox in tuple(self._outboxes.values()):
             if outbox.is_full:
                 outbox.abort()
-            elif outbox.waiting:
+            else:
                 outbox.filled.set()
 
 
@@ -180,6 +225,7 @@ class _Outbox:
         self.abort: Callable[[], None] = lambda: None
         """Ends the connection of the page, if it has one."""
         self.waiting: dict[object, ToPage] = {}
+        self.watched = Watched()
         self.is_full = False
         """Whether something did not fit any more."""
         self.filled = asyncio.Event()

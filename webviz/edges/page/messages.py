@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import msgspec
 
@@ -139,3 +139,80 @@ class StrokeDone(FromPage, frozen=True):
     points: tuple[tuple[float, float, float], ...]
     yaw: float
     keys: tuple[str, ...]
+
+
+class Shell(ToPage, frozen=True):
+    """Shows what is around the scene. Without it, as for pictures, a page has the scene only.
+
+    Args:
+        debug: whether viser's own panel is shown too.
+    """
+
+    kept = True
+
+    debug: bool = False
+
+
+class Watch(FromPage, frozen=True):
+    """Asks for the values of a store, now and whenever they change; see `Values`."""
+
+    store: str
+
+
+class Unwatch(FromPage, frozen=True):
+    """Ends a `Watch`."""
+
+    store: str
+
+
+class Values(ToPage, frozen=True):
+    """What is new in a store that the page watches.
+
+    Args:
+        store: its name.
+        all: whether these are all values, and others that the page knows are gone.
+        set: new values by key.
+        gone: keys that are no longer there.
+    """
+
+    store: str
+    all: bool
+    set: dict[str, msgspec.Raw]
+    gone: tuple[str, ...]
+
+
+class Do(FromPage, frozen=True):
+    """Asks for a change of the viewer.
+
+    Args:
+        number: of the request, for the page to know its `Done`.
+        command: name of a class of `webviz.commands`.
+        arguments: its fields.
+    """
+
+    number: int
+    command: str
+    arguments: dict[str, Any]
+
+
+class Done(ToPage, frozen=True):
+    """What came of a `Do`.
+
+    Args:
+        number: of the request.
+        level: "ok" or "error".
+        text: a sentence, "" if there is nothing to say.
+        display: id of the display that it made, or "".
+    """
+
+    number: int
+    level: str
+    text: str
+    display: str
+
+
+class Download(ToPage, frozen=True):
+    """Lets a page download a text as a file of that name."""
+
+    name: str
+    text: str

@@ -1,4 +1,4 @@
-"""The JavaScript that browsers are sent: modules as they are, and what loads them."""
+"""What browsers are sent: JavaScript modules and style sheets as they are, and what loads them."""
 
 from __future__ import annotations
 
@@ -6,15 +6,16 @@ import hashlib
 import json
 from collections.abc import Mapping
 from importlib import resources
+from pathlib import Path, PurePath
 from typing import Any
 
 PREFIX = "/webviz/"
 """Where modules are, below the page."""
 CHANNEL = f"{PREFIX}channel"
 """Where the websocket of the channel is."""
-CONTENT_TYPE = "text/javascript; charset=utf-8"
+CONTENT_TYPES = {".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8"}
 
-_FOLDER = resources.files("webviz.edges.page")
+_FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
 _HEAD = (_FOLDER / "head.html").read_bytes()
 _OWN = b"(async()=>{  const d=document.currentScript.dataset;"
 """How the script of viser begins, which unpacks the rest of it."""
@@ -29,16 +30,20 @@ class Modules:
 
     def __init__(self, constants: Mapping[str, Any]) -> None:
         self._files = {
-            file.name: file.read_bytes() for file in _FOLDER.iterdir() if file.name.endswith(".js")
+            str(file.relative_to(_FOLDER)): file.read_bytes()
+            for file in _FOLDER.rglob("*")
+            if file.suffix in CONTENT_TYPES
         }
         content = repr((constants, sorted(self._files.items()))).encode()
         self._version = hashlib.sha256(content).hexdigest()[:16]
         shared = json.dumps({**constants, "VERSION": self._version})
         self._files["constants.js"] = f"export default {shared};\n".encode()
 
-    def get(self, path: str) -> bytes | None:
-        """The module that a request asks for by its path, or None if there is none."""
-        return self._files.get(path.removeprefix(PREFIX)) if path.startswith(PREFIX) else None
+    def get(self, path: str) -> tuple[bytes, str] | None:
+        """The file that a request asks for by its path, with its content type, if there is one."""
+        name = path.removeprefix(PREFIX) if path.startswith(PREFIX) else ""
+        content = self._files.get(name)
+        return None if content is None else (content, CONTENT_TYPES[PurePath(name).suffix])
 
     def added_to(self, page: bytes) -> bytes:
         """viser's page with the modules, which run before its own script.

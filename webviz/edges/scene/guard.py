@@ -19,7 +19,7 @@ import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
 from webviz.edges.page.channel import Channel, objection
-from webviz.edges.page.modules import CHANNEL, CONTENT_TYPE, Modules
+from webviz.edges.page.modules import CHANNEL, Modules
 from webviz.edges.scene.connections import Connection, Gate
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
@@ -72,9 +72,9 @@ def guarded_serve(
             return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
         connection.host = request.headers["Host"].lower()
         path = request.path.partition("?")[0]
-        if (source := modules.get(path)) is not None:
+        if (file := modules.get(path)) is not None:
             response = connection.respond(http.HTTPStatus.OK, "")
-            fill(response, source, CONTENT_TYPE)
+            fill(response, *file)
             response.headers["Cache-Control"] = "no-cache"
             return response
         if is_upgrade(request) and path == CHANNEL:

@@ -87,7 +87,7 @@ def add_policy(headers: Headers, host: str) -> None:
             "default-src 'none'",
             "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
             "worker-src blob:",
-            "style-src 'unsafe-inline'",
+            "style-src 'self' 'unsafe-inline'",
             "img-src data: blob:",
             "font-src data:",
             f"connect-src 'self' {websockets} data: blob:",

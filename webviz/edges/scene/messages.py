@@ -12,7 +12,7 @@ import msgspec
 from webviz.edges.scene import uploads
 from webviz.edges.scene.adapter import message_type
 
-MAX_BYTES = 1 << 20
+MAX_BYTES = 4 << 20
 """Of any message. viser's page cuts files into parts of half of it."""
 
 SMALL = 4 << 10

@@ -77,9 +77,8 @@ class Running:
             path = Path(config) if config is not None else None
             # viser takes a while to import; mistakes in files are told before.
             shown = read(path) if path is not None else None
-            from webviz.edges.gui import Panels, take_typed
-            from webviz.edges.page.toolbar import Toolbar
-            from webviz.edges.scene import CannotListen, Scene, on_typed, open_server
+            from webviz.edges.page.pages import Pages
+            from webviz.edges.scene import CannotListen, Scene, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
@@ -101,9 +100,7 @@ class Running:
                 shown.set_fixed_frame(fixed_frame)
             scene = self._scene = Scene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
-            self._panel = Panels(server, self._loop.enqueue)
-            self._toolbar = Toolbar(server.channel, self._loop.enqueue)
-            on_typed(scene.link, take_typed)
+            self._pages = Pages(server.channel, self._loop.enqueue)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
@@ -247,8 +244,7 @@ class Running:
 
     def _show(self, state: State) -> None:
         self._state = state
-        self._panel.update(state)
-        self._toolbar.update(state)
+        self._pages.update(state)
 
 
 def _end(what: str, close: Callable[[], object]) -> None:

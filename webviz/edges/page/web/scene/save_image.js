@@ -1,7 +1,7 @@
 // Saves what the page shows.
 
-import * as channel from "./channel.js";
-import * as viser from "./viser_page.js";
+import * as channel from "../channel.js";
+import * as viser from "../viser_page.js";
 
 function save({ name }) {
   const pad = (number) => String(number).padStart(2, "0");

@@ -3,6 +3,7 @@
 const MAX_UNSENT = 100;
 
 const listeners = new Map();
+const openers = [];
 let socket = null;
 let unsent = [];
 
@@ -11,9 +12,16 @@ export function on(type, listener) {
   listeners.set(type, [...(listeners.get(type) ?? []), listener]);
 }
 
+/** Calls `act` whenever the channel has been opened, before anything else is sent. */
+export function onOpen(act) {
+  openers.push(act);
+}
+
+export const isOpen = () => socket?.readyState === WebSocket.OPEN;
+
 /** Tells the server something, as soon as it can be reached. */
 export function send(message) {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  if (isOpen()) socket.send(JSON.stringify(message));
   else if (unsent.length < MAX_UNSENT) unsent.push(message);
 }
 
@@ -23,6 +31,7 @@ export function open(url, key) {
   const mine = (socket = new WebSocket(url));
   mine.onopen = () => {
     mine.send(JSON.stringify({ type: "Hello", key }));
+    for (const act of openers) act();
     const messages = unsent;
     unsent = [];
     messages.forEach(send);

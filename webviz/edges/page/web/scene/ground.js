@@ -1,7 +1,7 @@
 // The ground of the scene, the plane z = 0 of the fixed frame, as the camera sees it.
 
-import constants from "./constants.js";
-import * as viser from "./viser_page.js";
+import constants from "../constants.js";
+import * as viser from "../viser_page.js";
 
 const FARTHEST = 1e6; // metres
 

@@ -1,8 +1,8 @@
 // Pictures: sharp cells; behind lines and meshes of the same plane, and by layer over each other;
 // never hiding what is blended later; not a white sheet while the first texture is decoded.
 
-import constants from "./constants.js";
-import * as viser from "./viser_page.js";
+import constants from "../constants.js";
+import * as viser from "../viser_page.js";
 
 const MARK = `/${constants.TILE_PREFIX}`;
 // Of three.js.

@@ -7,9 +7,9 @@
 // (dragging, sizes of points and labels) stays right, and the projection of the picture and of rays
 // is replaced by a parallel one.
 
-import * as channel from "./channel.js";
-import constants from "./constants.js";
-import * as viser from "./viser_page.js";
+import * as channel from "../channel.js";
+import constants from "../constants.js";
+import * as viser from "../viser_page.js";
 
 const { ROOT, RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const SENT_MS = 100; // after which viser has told where the camera is

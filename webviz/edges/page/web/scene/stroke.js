@@ -1,7 +1,7 @@
 // Follows a gesture on the ground and draws its preview, without asking the server.
 
 import { groundAt, onCanvas } from "./ground.js";
-import { canvas } from "./viser_page.js";
+import { canvas } from "../viser_page.js";
 
 // RViz's arrow, in metres: a shaft and a head. It is never too small to see, nor too large.
 const SHAFT = [2.0, 0.1];

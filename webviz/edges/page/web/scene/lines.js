@@ -6,7 +6,7 @@
 // centimetres: what lies in one plane with the floor came and went. Shaders and attributes are those
 // of LineMaterial and LineSegmentsGeometry in three-stdlib.
 
-import * as viser from "./viser_page.js";
+import * as viser from "../viser_page.js";
 
 // Where the segment leaves a pyramid four times as wide as what is seen.
 const cut = (source) =>

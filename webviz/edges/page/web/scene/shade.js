@@ -6,8 +6,8 @@
 // disc. Solids whose colours are data (viser's toon materials, of which nothing but the shader is
 // left) are, as RViz's spheres, hardly darker at the rim.
 
-import constants from "./constants.js";
-import * as viser from "./viser_page.js";
+import constants from "../constants.js";
+import * as viser from "../viser_page.js";
 
 const { DARKEST } = constants;
 

@@ -3,23 +3,24 @@
 import * as channel from "./channel.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
-import * as inStep from "./in_step.js";
-import * as labels from "./labels.js";
-import * as lines from "./lines.js";
-import * as mouse from "./mouse.js";
+import * as inStep from "./scene/in_step.js";
+import * as labels from "./scene/labels.js";
+import * as lines from "./scene/lines.js";
+import * as mouse from "./scene/mouse.js";
 import * as page from "./page.js";
-import * as saveImage from "./save_image.js";
-import * as shade from "./shade.js";
-import * as tiles from "./tiles.js";
+import * as saveImage from "./scene/save_image.js";
+import * as shade from "./scene/shade.js";
+import * as shell from "./shell/shell.js";
+import * as tiles from "./scene/tiles.js";
 import * as tools from "./tools.js";
 import * as typing from "./typing.js";
-import * as view from "./view.js";
+import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
 
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  for (const part of [page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
+  for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, saveImage, tools]) part.install();
 }

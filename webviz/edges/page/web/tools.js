@@ -1,7 +1,7 @@
 // The toolbar over the scene, its keys, and the pointer while a tool is active.
 
 import * as channel from "./channel.js";
-import * as stroke from "./stroke.js";
+import * as stroke from "./scene/stroke.js";
 import { canvas } from "./viser_page.js";
 
 const HINTS = {

@@ -5,7 +5,7 @@
 // covering no more of the scene than they need. The render orders are those of viser's
 // renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's.
 
-import * as viser from "./viser_page.js";
+import * as viser from "../viser_page.js";
 
 const BOXES = 10001;
 const LETTERS = 10002;

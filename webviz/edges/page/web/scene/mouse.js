@@ -3,9 +3,9 @@
 // Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
 // under the mouse.
 
-import constants from "./constants.js";
+import constants from "../constants.js";
 import * as views from "./view.js";
-import * as viser from "./viser_page.js";
+import * as viser from "../viser_page.js";
 
 const { ROOT, EYE, FIELD_OF_VIEW } = constants;
 const NEAR_PX = 4; // what the mouse points at although it is not quite there

@@ -1,0 +1,221 @@
+"""A server, its pages, a stand-in for the frame loop, and real browsers."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
+from dataclasses import replace
+from typing import Annotated, Any, Literal
+
+import msgspec
+import playwright.sync_api as playwright
+import pytest
+
+from webviz.api.declared import Color, Prop, Topic, set_property
+from webviz.api.display import Display, Input
+from webviz.api.status import Status
+from webviz.edges.page.pages import Pages
+from webviz.edges.scene import open_server
+from webviz.edges.scene.server import Server
+from webviz.engine.commands import Command, Refresh, Sender, SetProperty
+from webviz.engine.state import Row, State
+
+WIDTH, HEIGHT = 900, 800
+"""Of a tab in pixels."""
+
+
+class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    length: Annotated[float, Prop(gt=0, unit="m")] = 0.3
+
+
+class Everything(Display):
+    """A display with one property of each kind."""
+
+    topic: Annotated[Topic, Input("sensor_msgs/msg/LaserScan")] = Topic("/scan")
+    frame: Annotated[str, Prop(widget="frame")] = "<Fixed Frame>"
+    size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each point.")] = 0.01
+    alpha: Annotated[float, Prop(ge=0, le=1)] = 1.0
+    count: Annotated[int, Prop(ge=1)] = 3
+    style: Literal["Points", "Flat Squares", "Boxes"] = "Points"
+    edge: Annotated[float, Prop(gt=0, when=("style", "Boxes"))] = 0.5
+    color: Color = (255, 25, 0)
+    filled: bool = True
+    channel: str = "intensity"
+    offset: tuple[float, float, float] = (0.0, 0.5, 0.0)
+    prefixes: list[str] = msgspec.field(default_factory=list)
+    shown: dict[str, bool] = msgspec.field(default_factory=dict)
+    arrow: Arrow = Arrow()
+
+
+class Loop:
+    """Does what the frame loop does for the pages.
+
+    Args:
+        server: of the pages.
+    """
+
+    def __init__(self, server: Server) -> None:
+        self.commands: list[Command] = []
+        self.senders: list[Sender] = []
+        self.state = State()
+        self.answer: str | Exception = ""
+        """To all commands."""
+        self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
+        self.pages = Pages(server.channel, self._enqueue)
+
+    def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
+        answer: Future[str] = Future()
+        self._queue.put((command, sender, answer))
+        return answer
+
+    def show(self, *rows: Row, **changes: Any) -> None:
+        """Show these displays."""
+        self.state = replace(self.state, rows=rows, **changes)
+        self.pages.update(self.state)
+
+    def turn(self) -> None:
+        """Collect the commands, obey the property changes that are valid, and update the pages."""
+        while not self._queue.empty():
+            command, sender, answer = self._queue.get()
+            if not isinstance(command, Refresh):
+                self.commands.append(command)
+                self.senders.append(sender)
+            reply = self.answer
+            if isinstance(command, SetProperty):
+                displays = {row.id: row.display for row in self.state.rows if row.display}
+                try:
+                    set_property(displays[command.display], command.path, command.value)
+                except msgspec.ValidationError as error:
+                    reply = error
+            if isinstance(reply, Exception):
+                answer.set_exception(reply)
+            else:
+                answer.set_result(reply)
+        self.pages.update(self.state)
+
+
+class Tab:
+    """One browser tab; its errors fail the test."""
+
+    def __init__(self, page: playwright.Page, server: Server, loop: Loop) -> None:
+        self.page = page
+        self.loop = loop
+        self.errors: list[str] = []
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", self._read_console)
+        page.on("dialog", self._dismiss)
+        page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
+        self.wait_for(lambda: page.get_by_role("tablist").count() > 0)
+
+    def button(self, name: str) -> playwright.Locator:
+        """A button by its exact name."""
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def show_tab(self, title: str) -> None:
+        """Open a panel."""
+        self.page.get_by_role("tab", name=title, exact=True).click()
+        self.turn()
+
+    def text(self) -> str:
+        """All that can be read on the page."""
+        return self.page.locator("#webviz").inner_text()
+
+    def turn(self) -> None:
+        """Let the page and the loop work for a moment."""
+        self.page.wait_for_timeout(20)
+        self.loop.turn()
+
+    def wait_for(self, condition: Callable[[], object], timeout: float = 20.0) -> None:
+        """Wait until a condition holds while the page and the loop run."""
+        for _ in range(int(timeout / 0.02)):
+            self.loop.turn()
+            if condition():
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError("timed out")
+
+    def wait_for_command(self, command: Command) -> None:
+        """Wait until the newest command is this one."""
+        self.wait_for(lambda: self.loop.commands[-1:] == [command])
+
+    def _dismiss(self, dialog: playwright.Dialog) -> None:
+        self.errors.append(f"a script ran: {dialog.message}")
+        dialog.dismiss()
+
+    def _read_console(self, message: playwright.ConsoleMessage) -> None:
+        if message.type == "error":
+            self.errors.append(message.text)
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    """One server for the tests of a module, and thereby for its tab."""
+    server = open_server(port=0)
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="module")
+def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
+    """The tab of a module: to open one takes two seconds of a processor."""
+    tab = Tab(open_page(browser), server, Loop(server))
+    yield tab
+    tab.page.context.close()
+
+
+@pytest.fixture
+def tab(lasting: Tab) -> Iterator[Tab]:
+    """The tab with an empty viewer; it must not see an error."""
+    lasting.loop.state = State()
+    lasting.loop.answer = ""
+    lasting.turn()
+    lasting.loop.commands.clear()
+    lasting.loop.senders.clear()
+    yield lasting
+    errors, lasting.errors = lasting.errors, []
+    assert errors == []
+
+
+@pytest.fixture
+def loop(tab: Tab) -> Loop:
+    """The loop of the tab."""
+    return tab.loop
+
+
+@pytest.fixture
+def open_tab(
+    browser: playwright.Browser, server: Server, lasting: Tab
+) -> Iterator[Callable[..., Tab]]:
+    """Opens more tabs, each in a browser session of its own."""
+    tabs: list[Tab] = []
+
+    def open_tab(width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Tab:
+        tabs.append(Tab(open_page(browser, width, height, **options), server, lasting.loop))
+        return tabs[-1]
+
+    yield open_tab
+    errors = [error for tab in tabs for error in tab.errors]
+    for tab in tabs:
+        tab.page.context.close()
+    assert errors == []
+
+
+def open_page(
+    browser: playwright.Browser, width: int = WIDTH, height: int = HEIGHT, **options: Any
+) -> playwright.Page:
+    """An empty page in a browser session of its own."""
+    return browser.new_context(viewport={"width": width, "height": height}, **options).new_page()
+
+
+@pytest.fixture
+def make_row() -> Callable[..., Row]:
+    """A row with a display of every property; the name is its id unless given."""
+
+    def make_row(
+        id_: str, name: str = "", statuses: Mapping[str, Status] | None = None, **values: Any
+    ) -> Row:
+        display = Everything(name=name or id_, **values)
+        return Row(id_, "Everything", display, display.name, statuses or {})
+
+    return make_row

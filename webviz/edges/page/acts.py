@@ -1,0 +1,131 @@
+"""What pages ask of the viewer: commands by name, each answered in the page that sent it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from typing import Any, get_type_hints
+
+import msgspec
+
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import Do, Done, Download
+from webviz.engine import commands
+from webviz.engine.commands import Command, Sender
+
+ALLOWED = (
+    commands.AddDisplay,
+    commands.DuplicateDisplay,
+    commands.MoveDisplay,
+    commands.RemoveDisplay,
+    commands.SetProperty,
+    commands.SetToolProperty,
+    commands.SetBackground,
+    commands.SetFixedFrame,
+    commands.SetFrameRate,
+    commands.ChangeView,
+    commands.FocusDisplay,
+    commands.RemoveView,
+    commands.RenameView,
+    commands.ResetView,
+    commands.SaveImage,
+    commands.SaveView,
+    commands.ShowView,
+    commands.StartWithView,
+    commands.Export,
+    commands.Load,
+    commands.Open,
+    commands.Save,
+    commands.Pause,
+    commands.Reset,
+    commands.InspectTopic,
+    commands.InspectTransforms,
+)
+"""What pages may ask for."""
+NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
+"""Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
+
+
+class Acts:
+    """Does what pages ask for.
+
+    Args:
+        channel: to the pages.
+        enqueue: takes commands, from any thread.
+    """
+
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
+        self._channel = channel
+        self._enqueue = enqueue
+        channel.on(Do, self._do)
+
+    def _do(self, browser: int, do: Do) -> None:
+        made: list[str] = []
+        deliver = functools.partial(self._deliver, browser, do)
+        try:
+            command = command_of(do.command, do.arguments, made=made.append, deliver=deliver)
+        except ValueError as error:
+            self._channel.send(Done(do.number, "error", str(error), ""), browser)
+            return
+
+        def tell(done: Future[str]) -> None:
+            level, text = "ok", ""
+            try:
+                text = done.result()
+            except CancelledError:
+                return
+            except Exception as error:  # a sentence for people
+                level, text = "error", str(error)
+            self._channel.send(Done(do.number, level, text, "".join(made)), browser)
+
+        self._enqueue(command, Sender(browser)).add_done_callback(tell)
+
+    def _deliver(self, browser: int, do: Do, text: str) -> None:
+        self._channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)
+
+
+def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
+    """The command that a page asks for.
+
+    Args:
+        name: of its class.
+        arguments: fields, as JSON has them.
+        own: fields that the server fills in, for commands that have them.
+
+    Raises:
+        ValueError: there is no such command for pages, or no such fields; with a sentence.
+    """
+    class_, form = _forms().get(name, (None, None))
+    if class_ is None:
+        raise ValueError("Not done: this page does not fit the viewer. Reload the page.")
+    try:
+        values = msgspec.structs.asdict(msgspec.convert(arguments, form))
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise ValueError(f"Not done: {error}.") from error
+    names = {field.name for field in dataclasses.fields(class_)}
+    return class_(**values, **{key: value for key, value in own.items() if key in names})
+
+
+@functools.cache
+def _forms() -> dict[str, tuple[type[Any], Any]]:
+    """By name the commands of pages, each with a struct of the fields that a page may fill in."""
+    return {class_.__name__: (class_, _form(class_)) for class_ in ALLOWED}
+
+
+def _form(class_: type[Any]) -> Any:
+    hints = get_type_hints(class_, include_extras=True)
+    fields: list[Any] = []
+    for field in dataclasses.fields(class_):
+        if field.name in NOT_OF_PAGES:
+            continue
+        kind = hints[field.name]
+        if field.default is not dataclasses.MISSING:
+            fields.append((field.name, kind, field.default))
+        elif field.default_factory is not dataclasses.MISSING:
+            factory = msgspec.field(default_factory=field.default_factory)
+            fields.append((field.name, kind, factory))
+        else:
+            fields.append((field.name, kind))
+    return msgspec.defstruct(class_.__name__, fields, forbid_unknown_fields=True, kw_only=True)

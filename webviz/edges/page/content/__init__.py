@@ -1,0 +1,25 @@
+"""What the stores of the page hold, made of the state of the viewer.
+
+One function a store: from a state, and what stands behind the colon of the store's name, to values
+by key. It runs some times a second while a page watches, so it has to be quick; what has not
+changed is not sent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.edges.page.content.displays import displays
+from webviz.edges.page.content.properties import properties
+from webviz.edges.page.content.viewer import clock, file, frames, settings
+from webviz.engine.state import State
+
+MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
+    "clock": clock,
+    "displays": displays,
+    "file": file,
+    "frames": frames,
+    "properties": properties,
+    "settings": settings,
+}

@@ -1,0 +1,48 @@
+"""All pages: what they show of a viewer, and what they ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+
+from webviz.edges.page.acts import Acts
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.content import MAKERS
+from webviz.edges.page.messages import Shell
+from webviz.edges.page.toolbar import Toolbar
+from webviz.engine.commands import Command, Refresh, Sender
+from webviz.engine.pipeline.guard import Guard
+from webviz.engine.state import State
+
+
+class Pages:
+    """Shows a viewer on every page, and passes on what people do there.
+
+    Args:
+        channel: to the pages.
+        enqueue: takes commands and their senders, from any thread.
+        debug: whether to show viser's own panel too.
+    """
+
+    def __init__(
+        self,
+        channel: Channel,
+        enqueue: Callable[[Command, Sender], Future[str]],
+        debug: bool = False,
+    ) -> None:
+        self._channel = channel
+        self._guard = Guard("The page", strict=False)
+        self._toolbar = Toolbar(channel, enqueue)
+        self._acts = Acts(channel, enqueue)
+        # A store that a page begins to watch is filled on the next turn of the frame loop.
+        channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
+        channel.send(Shell(debug))
+
+    def update(self, state: State) -> None:
+        """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
+        self._toolbar.update(state)
+        for store in self._channel.watched():
+            name, _, argument = store.partition(":")
+            if (make := MAKERS.get(name)) is not None:
+                values = self._guard.attempt(store, {}, make, state, argument)
+                self._channel.show(store, values)

@@ -1,0 +1,90 @@
+"""Keyed values that are kept the same in every page that watches them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import msgspec
+
+from webviz.edges.page.messages import Values
+
+MAX_WATCHED = 64
+"""Stores that one page may watch."""
+MAX_NAME = 400
+"""Characters of the name of a store."""
+
+Content = dict[str, msgspec.Raw]
+
+
+class Stores:
+    """What is in the stores, by their names."""
+
+    def __init__(self) -> None:
+        self._content: dict[str, Content] = {}
+
+    def replace(self, store: str, values: Mapping[str, Any]) -> list[str]:
+        """Makes these the values of a store, and returns the keys that are new, changed or gone."""
+        old = self._content.get(store, {})
+        new = {key: msgspec.Raw(msgspec.json.encode(value)) for key, value in values.items()}
+        self._content[store] = new
+        changed = [key for key, value in new.items() if old.get(key) != value]
+        return changed + [key for key in old if key not in new]
+
+    def get(self, store: str) -> Content | None:
+        """What is in a store, None if nothing has been put there since it is watched."""
+        return self._content.get(store)
+
+    def forget(self, watched: set[str]) -> None:
+        """Drops the stores that no page watches any more."""
+        for store in self._content.keys() - watched:
+            del self._content[store]
+
+
+class Watched:
+    """The stores that one page watches, and which of their keys it has yet to be sent.
+
+    What waits is keys, not values, so a page that reads slowly skips what came in between.
+    """
+
+    def __init__(self) -> None:
+        self._dirty: dict[str, dict[str, None]] = {}
+        self._fresh: set[str] = set()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(tuple(self._dirty))
+
+    def add(self, store: str) -> bool:
+        """Begins to watch; whether that is allowed."""
+        if len(store) > MAX_NAME or len(self._dirty) >= MAX_WATCHED:
+            return False
+        self._dirty[store] = {}
+        self._fresh.add(store)
+        return True
+
+    def discard(self, store: str) -> None:
+        """Ends it."""
+        self._dirty.pop(store, None)
+        self._fresh.discard(store)
+
+    def mark(self, store: str, keys: list[str]) -> None:
+        """Notes keys that are new, changed or gone."""
+        if (dirty := self._dirty.get(store)) is not None:
+            dirty.update(dict.fromkeys(keys))
+
+    def next(self, stores: Stores) -> Values | None:
+        """What is to be sent next, if anything."""
+        for store, dirty in self._dirty.items():
+            content = stores.get(store)
+            if content is None:
+                continue
+            if store in self._fresh:
+                self._fresh.discard(store)
+                dirty.clear()
+                return Values(store, True, dict(content), ())
+            if dirty:
+                present = {key: content[key] for key in dirty if key in content}
+                gone = tuple(key for key in dirty if key not in content)
+                dirty.clear()
+                return Values(store, False, present, gone)
+        return None

@@ -1,0 +1,30 @@
+// What people do on this page: commands to the viewer, and what comes of them.
+
+import * as channel from "./channel.js";
+import { toast } from "./shell/toasts.js";
+
+const waiting = new Map();
+let count = 0;
+
+channel.on("Done", ({ number, level, text, display }) => {
+  const done = waiting.get(number);
+  waiting.delete(number);
+  done?.({ level, text, display });
+});
+// What was under way when the connection was lost is not answered any more.
+channel.onOpen(() => waiting.clear());
+
+/**
+ * Sends a command of `webviz.commands` with its fields. Resolves with `{level, text, display}`: "ok"
+ * or "error", a sentence or "", and the id of the display that it made. What there is to say is shown
+ * as a toast, unless `quiet`; errors always are.
+ */
+export function act(command, fields = {}, { quiet = false } = {}) {
+  count += 1;
+  channel.send({ type: "Do", number: count, command, arguments: fields });
+  const answer = new Promise((resolve) => waiting.set(count, resolve));
+  answer.then(({ level, text }) => {
+    if (text && (level === "error" || !quiet)) toast(text, { level });
+  });
+  return answer;
+}

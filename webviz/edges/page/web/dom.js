@@ -1,0 +1,52 @@
+// Elements. Text is always text, never markup.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/**
+ * An element with attributes and children: strings and elements, null for none.
+ *
+ * An attribute that is a function is a listener (`onclick`); true is an attribute without a value;
+ * false, null and undefined are none.
+ */
+export function el(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  set(element, attributes);
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+/** Changes attributes of an element, as `el` reads them. */
+export function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(name.slice(2), value);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value === false || value === null || value === undefined) element.removeAttribute(name);
+    else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
+  }
+}
+
+/** Changes the text of an element, if it is another one. */
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** Puts these children into an element, in this order, and touches no more than it has to. */
+export function setChildren(element, children) {
+  children.forEach((child, index) => {
+    if (element.children[index] !== child) element.insertBefore(child, element.children[index] ?? null);
+  });
+  while (element.children.length > children.length) element.lastElementChild.remove();
+}
+
+/** An icon of 24 x 24 units, drawn by lines; see `icons.js`. */
+export function svg(path, size = 16) {
+  const icon = document.createElementNS(SVG, "svg");
+  const shape = document.createElementNS(SVG, "path");
+  shape.setAttribute("d", path);
+  for (const [name, value] of Object.entries({
+    viewBox: "0 0 24 24", width: size, height: size, fill: "none", stroke: "currentColor",
+    "stroke-width": 1.8, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": true,
+  })) icon.setAttribute(name, value);
+  icon.append(shape);
+  return icon;
+}

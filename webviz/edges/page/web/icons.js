@@ -1,0 +1,45 @@
+// Icons by name: paths on a field of 24 x 24.
+
+import { svg } from "./dom.js";
+
+const PATHS = {
+  "arrow-back": "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
+  "arrow-forward": "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
+  axes: "M12 13V3M12 13l8 5M12 13l-8 5",
+  camera: "M4 8h4l2-3h4l2 3h4v11H4zM12 16.5a3 3 0 1 0 0-6 3 3 0 0 0 0 6",
+  check: "m5 12 5 5L19 7",
+  chevron: "m9 6 6 6-6 6",
+  close: "M6 6l12 12M18 6 6 18",
+  cloud: "M6 16h.01M10 13h.01M14 17h.01M18 12h.01M8 8h.01M13 9h.01M17 7h.01M12 20h.01",
+  copy: "M8 8h12v12H8zM4 16V4h12",
+  dots: "M5 12h.01M12 12h.01M19 12h.01",
+  download: "M12 4v11m-5-4 5 5 5-5M4 20h16",
+  file: "M6 3h8l4 4v14H6zM14 3v5h4",
+  focus: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5M12 12h.01",
+  folder: "M3 6h6l2 2h10v11H3z",
+  fullscreen: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
+  gear: "M12 15a3 3 0 1 0 0-6 3 3 0 0 0 0 6M12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2",
+  grid: "M4 4h16v16H4zM4 9.3h16M4 14.7h16M9.3 4v16M14.7 4v16",
+  laser: "M4 18a9 9 0 0 1 16 0M12 18l-6-9M12 18V7M12 18l6-9",
+  map: "M4 6l5-2 6 2 5-2v14l-5 2-6-2-5 2zM9 4v14M15 6v14",
+  odometry: "M5 19c0-8 5-10 11-10m-4-4 4 4-4 4",
+  path: "M4 18c4 0 4-12 8-12s4 12 8 6",
+  pause: "M8 5v14M16 5v14",
+  play: "M7 5l12 7-12 7z",
+  plus: "M12 5v14M5 12h14",
+  refresh: "M20 11a8 8 0 1 0-1 5M20 5v6h-6",
+  reset: "M4 11a8 8 0 1 1 1 5M4 5v6h6",
+  robot: "M6 9h12v9H6zM12 9V5M9 13h.01M15 13h.01M3 12v4M21 12v4",
+  save: "M5 4h11l3 3v13H5zM8 4v5h7V4M8 20v-6h8v6",
+  search: "M11 18a7 7 0 1 0 0-14 7 7 0 0 0 0 14M16 16l5 5",
+  target: "M12 20a8 8 0 1 0 0-16 8 8 0 0 0 0 16M12 2v5M12 17v5M2 12h5M17 12h5",
+  trash: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
+  tree: "M6 4v13h6M6 9h6M12 7h7v4h-7zM12 15h7v4h-7z",
+  upload: "M12 16V5m-5 5 5-5 5 5M4 20h16",
+  warning: "M12 4 2.5 20h19zM12 10v4M12 17h.01",
+};
+
+/** An icon; a square dot for a name that there is none of. */
+export function icon(name, size = 16) {
+  return svg(PATHS[name] ?? "M9 9h6v6H9z", size);
+}

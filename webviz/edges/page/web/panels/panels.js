@@ -1,0 +1,8 @@
+// The panels in the order of their tabs.
+//
+// Each has a `name`, a `title`, and `open(element)`, which fills the tab when it is shown and returns
+// what is to be done when it is not any more.
+
+import { displays } from "./displays/displays.js";
+
+export const panels = [displays];

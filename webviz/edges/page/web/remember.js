@@ -1,0 +1,21 @@
+// What this browser remembers of its own page: folding, widths, the tab that is open.
+
+const PREFIX = "webviz.";
+
+/** What was remembered under a key, or `otherwise`. */
+export function recall(key, otherwise) {
+  try {
+    return JSON.parse(localStorage.getItem(PREFIX + key)) ?? otherwise;
+  } catch {
+    return otherwise; // a browser may forbid it, or hold what another version wrote
+  }
+}
+
+/** Remembers a value that JSON can hold. */
+export function remember(key, value) {
+  try {
+    localStorage.setItem(PREFIX + key, JSON.stringify(value));
+  } catch {
+    // then it lasts as long as the page
+  }
+}

@@ -1,0 +1,114 @@
+// Everything around the scene: the side with its tabs, the places over the scene, the bar below it.
+
+import * as channel from "../channel.js";
+import { panels } from "../panels/panels.js";
+import { el, set } from "../dom.js";
+import { recall, remember } from "../remember.js";
+import * as header from "./header.js";
+import * as theme from "./theme.js";
+import * as toasts from "./toasts.js";
+
+const MIN_WIDTH = 240;
+const MAX_SHARE = 0.7;
+const STEP = 16;
+const NARROW = "(max-width: 640px)";
+
+/** Places for what lies over the scene and beside it; filled by the modules that they belong to. */
+export const places = {
+  toolbar: el("div", { class: "wv-top-left" }),
+  status: el("div", { class: "wv-top-right" }),
+  pointer: el("div", { class: "wv-bottom-left" }),
+  legend: el("div", { class: "wv-bottom-right" }),
+  time: el("footer", { class: "wv-time" }),
+};
+
+let close = () => {};
+
+export function install() {
+  channel.on("Shell", ({ debug }) => {
+    if (!document.getElementById("webviz")) build();
+    document.body.classList.toggle("wv-debug", debug);
+  });
+}
+
+function build() {
+  theme.install();
+  const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
+  const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
+  toasts.install(scene);
+  side.append(header.build(), ...tabs(), border(side));
+  document.body.append(el("div", { id: "webviz" }, side, scene, places.time));
+  document.body.classList.add("wv-on");
+  const narrow = matchMedia(NARROW);
+  fold(narrow.matches || recall("folded", false));
+  setWidth(recall("width", 320));
+}
+
+/** Folds the side away, or shows it again. */
+export function fold(isFolded = !document.body.classList.contains("wv-folded")) {
+  document.body.classList.toggle("wv-folded", isFolded);
+  if (!matchMedia(NARROW).matches) remember("folded", isFolded);
+}
+
+/** Opens the tab of a panel by its name. */
+export function openPanel(name) {
+  fold(false);
+  document.getElementById(`wv-tab-${name}`)?.click();
+}
+
+function setWidth(pixels) {
+  const width = Math.max(MIN_WIDTH, Math.min(pixels, innerWidth * MAX_SHARE));
+  document.documentElement.style.setProperty("--wv-width", `${Math.round(width)}px`);
+  return width;
+}
+
+function border(side) {
+  const drag = (event) => {
+    if (bar.hasPointerCapture(event.pointerId)) setWidth(event.clientX);
+  };
+  const step = ({ key }) => {
+    const change = { ArrowLeft: -STEP, ArrowRight: STEP }[key];
+    if (change) remember("width", setWidth(side.offsetWidth + change));
+  };
+  const bar = el("div", {
+    class: "wv-border", role: "separator", tabindex: 0, "aria-orientation": "vertical",
+    "aria-label": "Width of the panels", onkeydown: step, onpointermove: drag,
+    onpointerdown: (event) => bar.setPointerCapture(event.pointerId),
+    onpointerup: () => remember("width", side.offsetWidth),
+  });
+  return bar;
+}
+
+function tabs() {
+  const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
+  const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
+  const buttons = panels.map((panel) => {
+    const id = `wv-tab-${panel.name}`;
+    return el("button", {
+      type: "button", role: "tab", id, "aria-controls": "wv-panel", onclick: () => show(panel),
+    }, panel.title);
+  });
+  list.append(...buttons);
+  list.addEventListener("keydown", ({ key }) => {
+    const change = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    if (!change) return;
+    const next = buttons.indexOf(document.activeElement) + change;
+    buttons.at(next % buttons.length).focus();
+    buttons.at(next % buttons.length).click();
+  });
+
+  function show(panel) {
+    close();
+    content.replaceChildren();
+    panels.forEach((other, index) => {
+      const isShown = other === panel;
+      set(buttons[index], { "aria-selected": String(isShown), tabindex: isShown ? 0 : -1 });
+    });
+    set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
+    remember("tab", panel.name);
+    close = panel.open(content) ?? (() => {});
+  }
+
+  show(panels.find(({ name }) => name === recall("tab", "")) ?? panels[0]);
+  return [list, content];
+}

@@ -1,0 +1,23 @@
+// Dark or light: as the system has it, or as this browser was told.
+
+import { recall, remember } from "../remember.js";
+
+const light = matchMedia("(prefers-color-scheme: light)");
+
+export function install() {
+  light.addEventListener("change", apply);
+  apply();
+}
+
+/** "dark", "light", or "system". */
+export const theme = () => recall("theme", "system");
+
+export function setTheme(name) {
+  remember("theme", name);
+  apply();
+}
+
+function apply() {
+  const name = theme() === "system" ? (light.matches ? "light" : "dark") : theme();
+  document.documentElement.dataset.wvTheme = name;
+}
