@@ -3,58 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import Any
 
-from webviz.api.declared import Topic
-from webviz.api.display import Display, Input
 from webviz.edges.gui.add_by_topic import MANY, MAX_SHOWN, NOTHING
-from webviz.edges.gui.by_topic import Pick, matching, picks
 from webviz.engine.commands import AddDisplay
 from webviz.engine.state import Row
 
 GRID, SCAN = "nav_msgs/msg/OccupancyGrid", "sensor_msgs/msg/LaserScan"
-UPDATE = "map_msgs/msg/OccupancyGridUpdate"
-
-
-class Map(Display):
-    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
-    updates: Annotated[Topic, Input(UPDATE, suffix="_updates")] = Topic()
-
-
-class Outline(Display):
-    source: Annotated[Topic, Input(GRID)] = Topic()
-
-
-DISPLAYS = {"Outline": Outline, "Map": Map}
-
-
-def test_every_display_that_fits_is_offered_and_topics_nobody_shows_are_not() -> None:
-    topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
-    assert picks(topics, DISPLAYS) == [
-        Pick("/map", "Map", "topic", GRID),
-        Pick("/map", "Outline", "source", GRID),
-    ]
-
-
-def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None:
-    assert [p.message for p in picks({"/map": ("std_msgs/msg/String", GRID)}, {"Map": Map})] == [
-        GRID
-    ]
-
-
-def test_a_pick_adds_the_display_with_its_topic() -> None:
-    pick = Pick("/map", "Outline", "source", GRID)
-    assert pick.command() == AddDisplay("Outline", {"source": "/map"})
-
-
-def test_the_filter_wants_every_word_somewhere() -> None:
-    found = picks({"/map": (GRID,), "/local/costmap": (GRID,)}, DISPLAYS)
-    assert [(p.topic, p.display) for p in matching(found, "local OUT")] == [
-        ("/local/costmap", "Outline")
-    ]
-    assert matching(found, "occupancy") == found
-    assert matching(found, "") == found
-    assert matching(found, "scan") == []
 
 
 def test_several_topics_are_added_at_once_and_the_last_is_selected(

@@ -10,6 +10,7 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.errors import Error
 from webviz.api.registry import display_types
+from webviz.engine.by_topic import picks
 from webviz.files.config import mistakes, nearest, sentences
 
 
@@ -56,8 +57,6 @@ def by_topic(
     Raises:
         Error: none shows it, or several do.
     """
-    from webviz.edges.gui.by_topic import picks  # viser takes a while to import
-
     topic = properties.get("topic")
     if not isinstance(topic, str):
         raise Error("Give the type of the display, or the name of a topic that is published.")

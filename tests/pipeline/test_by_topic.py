@@ -1,0 +1,59 @@
+"""Which displays show which topics."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from webviz.api.declared import Topic
+from webviz.api.display import Display, Input
+from webviz.engine.by_topic import Pick, matching, no_display, picks
+from webviz.engine.commands import AddDisplay
+
+GRID = "nav_msgs/msg/OccupancyGrid"
+UPDATE = "map_msgs/msg/OccupancyGridUpdate"
+
+
+class Map(Display):
+    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
+    updates: Annotated[Topic, Input(UPDATE, suffix="_updates")] = Topic()
+
+
+class Outline(Display):
+    source: Annotated[Topic, Input(GRID)] = Topic()
+
+
+DISPLAYS = {"Outline": Outline, "Map": Map}
+
+
+def test_every_display_that_fits_is_offered_and_topics_nobody_shows_are_not() -> None:
+    topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
+    assert picks(topics, DISPLAYS) == [
+        Pick("/map", "Map", "topic", GRID),
+        Pick("/map", "Outline", "source", GRID),
+    ]
+
+
+def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None:
+    assert [p.message for p in picks({"/map": ("std_msgs/msg/String", GRID)}, {"Map": Map})] == [
+        GRID
+    ]
+
+
+def test_a_pick_adds_the_display_with_its_topic() -> None:
+    pick = Pick("/map", "Outline", "source", GRID)
+    assert pick.command() == AddDisplay("Outline", {"source": "/map"})
+
+
+def test_a_topic_without_a_display_says_why() -> None:
+    assert no_display(("sensor_msgs/msg/Imu",)) == "No display for sensor_msgs/msg/Imu."
+    assert no_display(("a/msg/B", "c/msg/D")) == "No display for a/msg/B or c/msg/D."
+
+
+def test_the_filter_wants_every_word_somewhere() -> None:
+    found = picks({"/map": (GRID,), "/local/costmap": (GRID,)}, DISPLAYS)
+    assert [(p.topic, p.display) for p in matching(found, "local OUT")] == [
+        ("/local/costmap", "Outline")
+    ]
+    assert matching(found, "occupancy") == found
+    assert matching(found, "") == found
+    assert matching(found, "scan") == []
