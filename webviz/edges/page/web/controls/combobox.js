@@ -1,0 +1,136 @@
+// A field with a list of what could be entered: searched by typing, walked through by arrow keys.
+
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { listbox } from "./listbox.js";
+import { sync } from "./sync.js";
+
+/**
+ * A field that calls `change(value)` with what was chosen or typed.
+ *
+ * Options are `{value, note, label, level}`: `note` stands quietly at the right, `label` is shown in
+ * place of the value, `level` colours the note. `change` may return the promise of `act`: what it
+ * refuses stays in the field for correction, `refused(text)` is told why. Unless `free`, only options
+ * are taken. Returns `{element, input, update({value, options})}`.
+ */
+export function combobox({
+  label, value, options, change, refused, free = true, placeholder = "",
+}) {
+  let current = value;
+  let isTyped = false; // since the list was opened or the last choice
+
+  const input = el("input", {
+    class: "wv-field", type: "text", role: "combobox", "aria-label": label, "aria-expanded": "false",
+    "aria-autocomplete": "list", autocomplete: "off", spellcheck: "false", placeholder,
+  });
+  const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
+  const list = listbox(input, label, choose);
+  const element = el(
+    "div", { class: "wv-combobox" }, input, note, icon("chevron", 12), list.element,
+  );
+
+  const option = (wanted) => options.find((one) => one.value === wanted);
+  const textOf = (wanted) => option(wanted)?.label ?? wanted;
+  const state = sync({
+    show(shown) {
+      current = shown;
+      if (!isTyped) write();
+    },
+    send: change,
+    refused(text) {
+      set(input, { "aria-invalid": text ? "true" : null });
+      refused?.(text);
+    },
+  });
+
+  function write() {
+    const text = textOf(current);
+    if (input.value !== text) input.value = text;
+    setText(note, option(current)?.note ?? "");
+    set(note, { "data-level": option(current)?.level });
+    set(input, { title: text.length > 24 ? text.slice(0, 1000) : null });
+  }
+
+  function open() {
+    if (list.isOpen()) return;
+    list.open(options, current);
+    input.select();
+  }
+
+  function close() {
+    list.close();
+    isTyped = false;
+  }
+
+  function choose(chosen) {
+    const isNew = chosen !== current || input.getAttribute("aria-invalid");
+    close();
+    current = chosen;
+    write();
+    state.release();
+    if (isNew) state.edit(chosen);
+  }
+
+  // What was typed: an option by its text, or the text itself.
+  function take() {
+    const text = input.value.trim();
+    const exact = options.find((one) => (one.label ?? one.value) === text);
+    if (exact) choose(exact.value);
+    else if (free) choose(text);
+    else if (list.first()) choose(list.first().value);
+    else back();
+  }
+
+  function back() {
+    close();
+    state.cancel();
+    write();
+  }
+
+  input.addEventListener("focus", () => input.select());
+  input.addEventListener("click", open);
+  input.addEventListener("input", () => {
+    isTyped = true;
+    state.hold();
+    list.open(options, null, input.value);
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") {
+      if (!list.isOpen() && !isTyped && !input.getAttribute("aria-invalid")) return;
+      back();
+      input.select();
+    } else if (event.key === "Enter") {
+      if (list.active()) choose(list.active().value);
+      else if (isTyped) take();
+      else return;
+      input.select();
+    } else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      if (!list.isOpen()) open();
+      else list.move(event.key === "ArrowDown" ? 1 : -1);
+    } else if (list.isOpen() && (event.key === "PageDown" || event.key === "PageUp")) {
+      list.move(event.key === "PageDown" ? 8 : -8);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  input.addEventListener("blur", () => {
+    if (isTyped) take();
+    else close();
+  });
+
+  write();
+  state.show(value);
+  return {
+    element,
+    input,
+    update(next) {
+      if (next.options) {
+        options = next.options;
+        list.update(options);
+      }
+      state.show(next.value === undefined ? current : next.value);
+    },
+  };
+}

@@ -1,0 +1,127 @@
+// The list below a combobox, over everything else.
+
+import { el, set } from "../dom.js";
+
+const MAX_SHOWN = 100;
+let count = 0;
+
+/** A list of options for an input that is its combobox; `choose` is called with the value picked. */
+export function listbox(input, label, choose) {
+  count += 1;
+  const id = `wv-list-${count}`;
+  // In the top layer, where neither the panel's edge nor a dialog cuts it off.
+  const element = el("div", {
+    id, class: "wv-list", role: "listbox", "aria-label": label, popover: "manual",
+    onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
+  });
+  set(input, { "aria-controls": id });
+  let options = [];
+  let shown = [];
+  let search = "";
+  let active = -1;
+  let isOpen = false;
+
+  function fill() {
+    const chosen = shown[active]?.value;
+    const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+    const matches = options.filter((one) => fits(one, words));
+    shown = matches.slice(0, MAX_SHOWN);
+    active = shown.findIndex(({ value }) => value === chosen);
+    element.replaceChildren(...shown.map(item));
+    if (matches.length > MAX_SHOWN) {
+      const more = `${matches.length - MAX_SHOWN} more. Type to search.`;
+      element.append(el("div", { class: "wv-list-more" }, more));
+    }
+    if (!shown.length) element.append(el("div", { class: "wv-list-more" }, "No match."));
+    mark();
+  }
+
+  function item({ value, label: text, note, level }, index) {
+    const name = el("span", { class: "wv-list-name" }, (text ?? value) || "(none)");
+    return el(
+      "div",
+      {
+        id: `${id}-${index}`, class: "wv-option", role: "option", "aria-selected": "false",
+        onclick: () => choose(value),
+      },
+      name,
+      note ? el("span", { class: "wv-list-note", "data-level": level }, note) : null,
+    );
+  }
+
+  function mark() {
+    shown.forEach((_, index) => {
+      set(element.children[index], { "aria-selected": String(index === active) });
+    });
+    set(input, { "aria-activedescendant": active < 0 ? null : `${id}-${active}` });
+    if (active >= 0) element.children[active].scrollIntoView({ block: "nearest" });
+  }
+
+  function place() {
+    if (!input.isConnected) return hide();
+    const field = input.getBoundingClientRect();
+    const below = innerHeight - field.bottom - 8;
+    const isAbove = below < 160 && field.top > below;
+    element.style.minWidth = `${field.width}px`;
+    element.style.maxHeight = `${Math.min(320, isAbove ? field.top - 8 : below)}px`;
+    element.style.left = `${Math.max(4, Math.min(field.left, innerWidth - element.offsetWidth - 4))}px`;
+    element.style.top = isAbove ? "auto" : `${field.bottom + 2}px`;
+    element.style.bottom = isAbove ? `${innerHeight - field.top + 2}px` : "auto";
+  }
+
+  function hide() {
+    if (!isOpen) return;
+    isOpen = false;
+    if (element.isConnected) element.hidePopover();
+    set(input, { "aria-expanded": "false", "aria-activedescendant": null });
+    removeEventListener("scroll", place, true);
+    removeEventListener("resize", place);
+  }
+
+  return {
+    element,
+    isOpen: () => isOpen,
+    close: hide,
+    /** Shows the options that fit a text, with one of them marked. */
+    open(all, value, text = "") {
+      options = all;
+      search = text;
+      active = -1;
+      fill();
+      active = shown.findIndex((one) => one.value === value);
+      if (!isOpen) {
+        isOpen = true;
+        element.showPopover();
+        set(input, { "aria-expanded": "true" });
+        addEventListener("scroll", place, true);
+        addEventListener("resize", place);
+      }
+      place();
+      mark();
+    },
+    update(all) {
+      const isSame = JSON.stringify(all) === JSON.stringify(options);
+      options = all;
+      if (isOpen && !isSame) {
+        fill();
+        place();
+      }
+    },
+    move(by) {
+      if (!shown.length) return;
+      const last = shown.length - 1;
+      const next = active + by;
+      if (Math.abs(by) === 1) active = next < 0 ? last : next > last ? 0 : next;
+      else active = Math.max(0, Math.min(last, next));
+      mark();
+    },
+    /** The option that the arrow keys have come to, and the first that fits. */
+    active: () => shown[active] ?? null,
+    first: () => shown[0] ?? null,
+  };
+}
+
+function fits({ value, label }, words) {
+  const text = `${value} ${label ?? ""}`.toLowerCase();
+  return words.every((word) => text.includes(word));
+}

@@ -1,0 +1,84 @@
+// Keeps a control and a value of the viewer the same.
+//
+// The control shows what the viewer has. What somebody enters is sent; until the viewer has taken it
+// over, it sends older values, which must not set the control back under the hand. So what comes from
+// outside waits while somebody edits, and a moment longer; then the newest is shown.
+
+export const SETTLE_MS = 500;
+const ANSWER_MS = 5000; // an answer that was lost with the connection
+
+/**
+ * `show(value)` makes the control show a value. `send(value)` tells the viewer; it may return a promise
+ * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
+ */
+export function sync({ show, send, refused = () => {} }) {
+  let newest;
+  let hasNewest = false;
+  let isHeld = false;
+  let isRefused = false;
+  let timer = 0;
+  let isUnderWay = false;
+  let waiting = null;
+
+  const isBusy = () => isHeld || isRefused || isUnderWay || timer !== 0;
+
+  function settle() {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      timer = 0;
+      if (!isBusy() && hasNewest) show(newest);
+    }, SETTLE_MS);
+  }
+
+  function tell(text) {
+    isRefused = text !== "";
+    refused(text);
+  }
+
+  // One at a time: of a drag, the viewer gets as many values as it can take.
+  async function next(value) {
+    isUnderWay = true;
+    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS));
+    const answer = await Promise.race([send(value), lost]);
+    isUnderWay = false;
+    if (waiting) {
+      const { value } = waiting;
+      waiting = null;
+      next(value);
+    } else {
+      tell(answer?.level === "error" ? answer.text : "");
+      if (!isRefused) settle();
+    }
+  }
+
+  return {
+    /** What the viewer has. */
+    show(value) {
+      newest = value;
+      hasNewest = true;
+      if (!isBusy()) show(value);
+    },
+    /** Somebody begins to type or drag. */
+    hold() {
+      isHeld = true;
+    },
+    /** They have ended. */
+    release() {
+      isHeld = false;
+      settle();
+    },
+    /** They entered a value. */
+    edit(value) {
+      if (isUnderWay) waiting = { value };
+      else next(value);
+    },
+    /** What they entered means nothing: says so, and leaves it to them. */
+    refuse: tell,
+    /** Back to what the viewer has, or is about to have. */
+    cancel() {
+      isHeld = false;
+      if (isRefused) tell("");
+      if (!isBusy() && hasNewest) show(newest);
+    },
+  };
+}
