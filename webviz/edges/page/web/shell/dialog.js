@@ -1,0 +1,103 @@
+// Dialogs over everything else: they have the focus until they are closed.
+
+import { el } from "../dom.js";
+import { icon } from "../icons.js";
+
+let count = 0;
+
+/**
+ * Opens a dialog; resolves with the value of the button that was chosen, null on Escape.
+ *
+ * `content`: a string, an element or several, or what makes them when it is told how to close the
+ * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary, danger,
+ * focused, accept}`; Enter in a field is the primary one. `accept()`, which may be asynchronous, is
+ * asked first: unless it returns true the dialog stays. `isLight`: a click beside it closes it, too.
+ */
+export function openDialog({ title, content, buttons = [], isLight = false, className = "" }) {
+  count += 1;
+  const id = `wv-dialog-${count}`;
+  let answer = null;
+  let isBusy = false;
+
+  function close(value = null) {
+    answer = value;
+    dialog.close();
+  }
+
+  async function choose({ value, accept }) {
+    if (isBusy) return;
+    isBusy = true;
+    try {
+      if (!accept || (await accept()) === true) close(value);
+    } finally {
+      isBusy = false;
+    }
+  }
+
+  const primary = buttons.find((button) => button.primary);
+  const dialog = el(
+    "dialog",
+    { class: `wv-dialog ${className}`, "aria-labelledby": id },
+    el(
+      "form",
+      {
+        method: "dialog",
+        novalidate: true,
+        onsubmit: (event) => {
+          event.preventDefault();
+          if (primary) choose(primary);
+        },
+      },
+      el(
+        "header",
+        { class: "wv-dialog-head" },
+        el("h2", { id }, title),
+        el("button", {
+          type: "button", class: "wv-icon", "aria-label": "Close", onclick: () => close(),
+        }, icon("close")),
+      ),
+      el(
+        "div",
+        { class: "wv-dialog-content" },
+        typeof content === "function" ? content(close) : content,
+      ),
+      buttons.length
+        ? el(
+            "footer",
+            { class: "wv-dialog-buttons" },
+            buttons.map((button) =>
+              el("button", {
+                type: button.primary ? "submit" : "button", autofocus: button.focused,
+                class: `wv-button${button.primary ? " wv-primary" : ""}${button.danger ? " wv-danger" : ""}`,
+                onclick: button.primary ? null : () => choose(button),
+              }, button.label),
+            ),
+          )
+        : null,
+    ),
+  );
+  // viser's page and the commands have keys that are letters.
+  dialog.addEventListener("keydown", (event) => event.stopPropagation());
+  if (isLight) {
+    dialog.addEventListener("pointerdown", (event) => {
+      if (event.target === dialog) close();
+    });
+  }
+  document.getElementById("webviz").append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(answer);
+    });
+  });
+}
+
+/** Asks a question; resolves with true if it was confirmed. The focus is on Cancel. */
+export async function ask(text, { confirm = "OK", title = "Are you sure?", danger = false } = {}) {
+  const buttons = [
+    { label: "Cancel", value: false, focused: true },
+    { label: confirm, value: true, primary: !danger, danger },
+  ];
+  return (await openDialog({ title, content: el("p", {}, text), buttons })) === true;
+}
