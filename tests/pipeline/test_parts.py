@@ -97,7 +97,7 @@ def test_a_part_that_is_added_does_its_commands_and_shows_its_state(
 HOOKS = sorted(
     {name for name, hook in vars(Part).items() if inspect.isfunction(hook)} - {"__init__"}
 )
-PARTS = ["Answers", "Autosave", "Counter", "Displays", "Files", "Plugins", "Settings"]
+PARTS = ["Answers", "Autosave", "Counter", "Displays", "Files", "History", "Plugins", "Settings"]
 PARTS += ["Time", "Tools", "Topics", "Transforms", "Views"]
 
 

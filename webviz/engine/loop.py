@@ -17,6 +17,7 @@ from webviz.engine.parts.answers import AnswersPart
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
@@ -86,6 +87,7 @@ class FrameLoop:
         views = ViewsPart(core, settings, displays)
         tools = ToolsPart(core)
         files = self._files = FilesPart(core, displays, settings, views, tools, config, path)
+        history = HistoryPart(core, displays, settings, views, tools, files)
         all_parts = [
             transforms,
             self._time,
@@ -94,6 +96,7 @@ class FrameLoop:
             views,
             tools,
             files,
+            history,
             TopicsPart(core),
             PluginsPart(core, displays, settings),
             AnswersPart(core, self._requests),
@@ -101,6 +104,7 @@ class FrameLoop:
             *(make(core) for make in parts),
         ]
         self._parts = Parts(all_parts, self._guard)
+        self._do = history.noting(self._parts.do)
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
@@ -155,7 +159,7 @@ class FrameLoop:
     def turn(self) -> None:
         """One turn of the frame loop."""
         core, parts = self._core, self._parts
-        answers = self._requests.obey(parts.do)
+        answers = self._requests.obey(self._do)
         batches = self._arrivals.take(parts)
         self._move_on()
         parts.take(batches)

@@ -134,6 +134,29 @@ class ToolButton:
     gesture: Gesture
 
 
+@dataclass(frozen=True)
+class Step:
+    """Something that was changed.
+
+    Args:
+        number: of the change; undo and redo are changes too.
+        label: what was done, in a few words.
+        browser: that did it, None for a program.
+    """
+
+    number: int
+    label: str
+    browser: int | None
+
+
+@dataclass(frozen=True)
+class History:
+    """What can be undone and redone, each with the newest step first."""
+
+    undo: tuple[Step, ...] = ()
+    redo: tuple[Step, ...] = ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class State:
     """A viewer at one moment; each part of it fills in the fields that it owns.
@@ -154,6 +177,7 @@ class State:
         transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
+        history: what can be undone and redone.
         more: what parts that are not webviz's own return, by name.
     """
 
@@ -172,4 +196,5 @@ class State:
     transforms: str = ""
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
+    history: History = History()
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -40,6 +40,8 @@ ALLOWED = (
     commands.Save,
     commands.Pause,
     commands.Reset,
+    commands.Undo,
+    commands.Redo,
     commands.InspectTopic,
     commands.InspectTransforms,
 )

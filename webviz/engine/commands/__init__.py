@@ -11,6 +11,7 @@ from webviz.engine.commands.displays import (
     nobody,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save
+from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import Refresh
 from webviz.engine.commands.plugins import ReloadPlugin
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
@@ -46,6 +47,7 @@ __all__ = [
     "MoveDisplay",
     "Open",
     "Pause",
+    "Redo",
     "Refresh",
     "ReloadPlugin",
     "RemoveDisplay",
@@ -65,6 +67,7 @@ __all__ = [
     "ShowView",
     "StartWithView",
     "TraceDisplay",
+    "Undo",
     "UseTool",
     "ViewCommand",
     "nobody",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import functools
 import itertools
@@ -9,7 +10,7 @@ import logging
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import msgspec
 
@@ -18,6 +19,7 @@ from webviz.api.display import Display
 from webviz.api.group import Group
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status
+from webviz.engine.parts.steps import Kept, kept, made_again
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.state import Row
 from webviz.files import config as config_file
@@ -47,7 +49,12 @@ class Entry:
     @property
     def name(self) -> str:
         """As shown in the list."""
-        return self.content.display.name if isinstance(self.content, Runner) else self.content.name
+        return self.own.name
+
+    @property
+    def own(self) -> Display | Group | Unreadable:
+        """What has its properties."""
+        return self.content.display if isinstance(self.content, Runner) else self.content
 
     @property
     def depth(self) -> int:
@@ -57,9 +64,7 @@ class Entry:
     @property
     def is_enabled(self) -> bool:
         """Whether nothing switches it off: neither itself nor a group it is in."""
-        content = self.content
-        own = content.display if isinstance(content, Runner) else content
-        enabled = isinstance(own, Unreadable) or own.enabled
+        enabled = isinstance(self.own, Unreadable) or self.own.enabled
         return enabled and (self.parent is None or self.parent.is_enabled)
 
     def is_within(self, other: Entry) -> bool:
@@ -229,6 +234,49 @@ class DisplayList:
     def items(self, parent: Entry | None = None) -> list[Item]:
         """What to save of a group, or of the whole list: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
+
+    def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
+        """What undo needs of the entries, by id; unchanged ones are those from `before`."""
+        return {
+            entry.id: kept(entry.own, _id(entry.parent), before.get(entry.id))
+            for entry in self._entries
+        }
+
+    def restore(self, wanted: Mapping[str, Kept]) -> None:
+        """Have the entries that were kept, in their order; those still there go on."""
+        active = set(self.active())
+        now = {entry.id: entry for entry in self._entries}
+        for id in now.keys() - wanted.keys():
+            if isinstance(runner := now[id].content, Runner):
+                active.discard(runner)
+                runner.close()
+        entries: dict[str, Entry] = {}
+        for id, each in wanted.items():
+            if id in now:
+                self._set_back(now[id], each)
+            entry = entries[id] = now.get(id) or Entry(id, self._made_again(id, each))
+            entry.parent = entries.get(each.group)
+        self._entries = list(entries.values())
+        self._number()
+        for runner in active - set(self.active()):
+            runner.hide()
+
+    def _made_again(self, id: str, wanted: Kept) -> Runner | Group | Unreadable:
+        own = made_again(wanted)
+        if isinstance(own, Group | Unreadable):
+            return own
+        return Runner(id, cast(Display, own), self._services)
+
+    def _set_back(self, entry: Entry, wanted: Kept) -> None:
+        """Give an entry its old properties; one that could not be shown then stays as it is."""
+        content = entry.content
+        if isinstance(content, Unreadable):
+            return
+        for name, value in wanted.values.items():
+            # A plug-in that changed meanwhile may lack the property, or want other values.
+            with contextlib.suppress(ConfigError, AttributeError):
+                if msgspec.to_builtins(getattr(entry.own, name)) != value:
+                    self.set(entry.id, name, value)
 
     def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
         """The list as a panel shows it; a group is as well as the worst display in it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -61,15 +61,16 @@ class FilesPart(Part):
         self._settings = settings
         self._views = views
         self._tools = tools
-        self._path = path
+        self._path: Path | None = None
         self._folder = path.absolute().parent if path else Path.cwd()
         self._report: list[str] = []
         self._others: tuple[str, ...] = ()
         self._listing: Future[tuple[str, ...]] | None = None
         self._next_look = 0.0
-        self._saved: dict[str, Any] = {}
+        self._saved: dict[Path | None, dict[str, Any]] = {}
+        """By file, what it says."""
         self._is_changed = False
-        self._show(config)
+        self._show(config, path)
         views.start_with(config.settings.view)
 
     @property
@@ -81,10 +82,18 @@ class FilesPart(Part):
         """What to save to come back to this: a snapshot, for any thread."""
         return Config(self._settings.settings, self._displays.list.items(), self._tools.items())
 
+    def origin(self) -> tuple[Path | None, list[str]]:
+        """The file that is shown, and what of it has no counterpart here."""
+        return self._path, self._report
+
+    def set_origin(self, path: Path | None, report: Sequence[str]) -> None:
+        """Say which file is shown; of another one than the last it counts as changed."""
+        self._path, self._report = path, list(report)
+
     def keep_up(self, commanded: bool) -> None:
         """Find out whether something was changed since it was saved, and what the folder has."""
         if commanded:
-            self._is_changed = config_file.document(self.config()) != self._saved
+            self._is_changed = config_file.document(self.config()) != self._saved.get(self._path)
         now = time.monotonic()
         if commanded or now >= self._next_look:
             self._next_look = now + FOLDER_S
@@ -111,8 +120,7 @@ class FilesPart(Part):
         wanted = self._folder / command.path
 
         def then(config: Config) -> str:
-            self._show(config)
-            self._path = wanted
+            self._show(config, wanted)
             self._views.open(config.settings.view)
             return f"Opened {wanted.name}."
 
@@ -122,8 +130,7 @@ class FilesPart(Part):
         text, name = command.text, command.name
 
         def then(config: Config) -> str:
-            self._show(config)
-            self._path = None
+            self._show(config, None)
             self._is_changed = True
             self._saved = {}
             self._views.open(config.settings.view)
@@ -139,7 +146,7 @@ class FilesPart(Part):
 
         def then(_: None) -> str:
             self._path = target
-            self._saved = config_file.document(config)
+            self._saved = {target: config_file.document(config)}
             return f"Saved {target.name}."
 
         return Job(lambda: opening.save(config, target), then)
@@ -153,14 +160,15 @@ class FilesPart(Part):
 
         return Job(lambda: opening.text_of(config, command.name), then)
 
-    def _show(self, config: Config) -> None:
+    def _show(self, config: Config, path: Path | None) -> None:
         self._displays.list.clear()
         for item in config.displays:
             self._displays.list.add(item)
         self._settings.settings = config.settings
         self._tools.show(config.tools)
+        self._path = path
         self._report = config.report
-        self._saved = config_file.document(self.config())
+        self._saved = {path: config_file.document(self.config())}
         self._is_changed = False
 
 

@@ -9,7 +9,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import CancelledError, Future
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
@@ -20,6 +20,7 @@ from webviz.api.tool import Output, Stroke, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.steps import Kept, kept, made_again
 from webviz.engine.sources.graph import Outlet
 from webviz.engine.state import ToolButton
 from webviz.files.config import ConfigError, ToolItem, Unreadable, explain, nearest, sentences
@@ -61,6 +62,18 @@ class ToolsPart(Part):
     def items(self) -> list[ToolItem]:
         """What to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
+
+    def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
+        """What undo needs of the tools, by id; unchanged ones are those from `before`."""
+        return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
+
+    def restore(self, wanted: Mapping[str, Kept]) -> None:
+        """Have the tools that were kept."""
+        now = self.kept({})
+        self._items = {
+            id: self._items[id] if now.get(id) == each else cast(ToolItem, made_again(each))
+            for id, each in wanted.items()
+        }
 
     def keep_up(self, commanded: bool) -> None:
         """Make publishers in time, so that subscriptions know them before the first message."""

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from webviz.edges.page.content.displays import displays
+from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
 from webviz.edges.page.content.viewer import clock, file, frames, settings
 from webviz.engine.state import State
@@ -20,6 +21,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "displays": displays,
     "file": file,
     "frames": frames,
+    "history": history,
     "properties": properties,
     "settings": settings,
 }

@@ -1,0 +1,183 @@
+"""Undo and redo: every change of displays, settings and saved views comes back as it was."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from webviz.api.views import Orbit
+from webviz.engine.commands import (
+    AddDisplay,
+    Command,
+    DuplicateDisplay,
+    Load,
+    MoveDisplay,
+    Open,
+    Pause,
+    Redo,
+    Refresh,
+    RemoveDisplay,
+    RemoveView,
+    RenameView,
+    SaveView,
+    Sender,
+    SetBackground,
+    SetFixedFrame,
+    SetFrameRate,
+    SetProperty,
+    SetToolProperty,
+    StartWithView,
+    Undo,
+)
+from webviz.engine.parts.history import MAX_STEPS, SAME_S
+from webviz.files.config import dump
+
+CONFIG = """\
+version: 1
+views:
+  top: {type: TopDownOrtho}
+displays:
+- {type: Grid}
+- type: Group
+  name: Robot
+  displays:
+  - {type: TF}
+  - {type: Axes, length: 2.0}
+- {type: Path}
+- {type: Nonsense}
+tools:
+- {type: GoalPose}
+"""
+
+
+@pytest.fixture
+def b(bench: Callable[..., Any]) -> Any:
+    b = bench()
+    b.do(Load(CONFIG, "x.yaml"))
+    return b
+
+
+def ids(b: Any) -> dict[str, str]:
+    return {row.name: row.id for row in b.do(Refresh()).rows}
+
+
+def labels(b: Any) -> list[str]:
+    """What can be undone, newest first, without the opening of the config."""
+    return [step.label for step in b.do(Refresh()).history.undo][:-1]
+
+
+CHANGES: Sequence[tuple[str, Callable[[dict[str, str]], Command]]] = (
+    ("Change Length (m) of Axes", lambda at: SetProperty(at["Axes"], "length", 3.0)),
+    ("Change Topic of Path", lambda at: SetProperty(at["Path"], "topic.depth", 9)),
+    ("Hide TF", lambda at: SetProperty(at["TF"], "enabled", False)),
+    ("Hide Robot", lambda at: SetProperty(at["Robot"], "enabled", False)),
+    ("Rename to Floor", lambda at: SetProperty(at["Grid"], "name", "Floor")),
+    ("Add Map", lambda at: AddDisplay("Map")),
+    ("Add Map", lambda at: AddDisplay("Map", group=at["Robot"])),
+    ("Add Robot 2", lambda at: DuplicateDisplay(at["Robot"])),
+    ("Remove Robot", lambda at: RemoveDisplay(at["Robot"])),
+    ("Remove Nonsense", lambda at: RemoveDisplay(at["Nonsense"])),
+    ("Move Grid", lambda at: MoveDisplay(at["Grid"])),
+    ("Move Path", lambda at: MoveDisplay(at["Path"], before=at["Grid"])),
+    ("Move Axes", lambda at: MoveDisplay(at["Axes"], before=at["TF"], group=at["Robot"])),
+    ("Move Grid", lambda at: MoveDisplay(at["Grid"], group=at["Robot"])),
+    ("Fixed frame odom", lambda at: SetFixedFrame("odom")),
+    ("Change background", lambda at: SetBackground((1, 2, 3))),
+    ("Change frame rate", lambda at: SetFrameRate(20.0)),
+    ("Save view mine", lambda at: SaveView("mine", view=Orbit(distance=3.0))),
+    ("Save view top", lambda at: SaveView("top", view=Orbit(distance=3.0))),
+    ("Rename view top", lambda at: RenameView("top", "above")),
+    ("Remove view top", lambda at: RemoveView("top")),
+    ("Change the view to start", lambda at: StartWithView(view="top")),
+    ("Change Topic of 2D Goal Pose", lambda at: SetToolProperty("2D Goal Pose", "topic", "/g")),
+)
+
+
+@pytest.mark.parametrize(("label", "command"), CHANGES)
+def test_a_change_is_undone_and_redone(
+    b: Any, label: str, command: Callable[[dict[str, str]], Command]
+) -> None:
+    before, at = dump(b.viewer.config()), ids(b)
+    b.do(command(at))
+    after = dump(b.viewer.config())
+    assert after != before
+    assert labels(b) == [label]
+    b.do(Undo())
+    assert dump(b.viewer.config()) == before
+    assert ids(b) == at
+    assert labels(b) == []
+    b.do(Redo())
+    assert dump(b.viewer.config()) == after
+    assert labels(b) == [label]
+
+
+def test_all_changes_are_undone_one_after_the_other(b: Any) -> None:
+    seen = [dump(b.viewer.config())]
+    for _, command in CHANGES[:8]:
+        b.do(command(ids(b)))
+        seen.append(dump(b.viewer.config()))
+    for expected in reversed(seen[:-1]):
+        b.do(Undo())
+        assert dump(b.viewer.config()) == expected
+    for expected in seen[1:]:
+        b.do(Redo())
+        assert dump(b.viewer.config()) == expected
+    b.do(Undo(len(seen) - 1))
+    assert dump(b.viewer.config()) == seen[0]
+
+
+def test_what_does_not_change_anything_is_no_step(b: Any) -> None:
+    b.do(Pause())
+    b.do(SetProperty(ids(b)["Axes"], "length", 2.0))
+    assert labels(b) == []
+
+
+def test_a_new_change_ends_what_could_be_redone(b: Any) -> None:
+    b.do(SetFixedFrame("odom"))
+    b.do(Undo())
+    b.do(SetFixedFrame("base"))
+    assert b.do(Refresh()).history.redo == ()
+    assert b.do(Redo()).answer.text == "There is nothing to redo."
+
+
+def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: Any) -> None:
+    axes = ids(b)["Axes"]
+    for length in (3.0, 4.0, 5.0):
+        b.do(SetProperty(axes, "length", length), Sender(1))
+    b.do(SetProperty(axes, "length", 6.0), Sender(2))
+    b.clock += 2 * SAME_S
+    b.do(SetProperty(axes, "length", 7.0), Sender(2))
+    assert [step.browser for step in b.do(Refresh()).history.undo][:-1] == [2, 2, 1]
+
+
+def test_the_oldest_steps_are_forgotten(b: Any) -> None:
+    for number in range(MAX_STEPS + 10):
+        b.do(SetFixedFrame(f"frame{number}"))
+    assert len(b.do(Refresh()).history.undo) == MAX_STEPS
+
+
+def test_opening_a_file_is_undone_with_the_name_of_the_file(b: Any, tmp_path: Path) -> None:
+    other = tmp_path / "other.yaml"
+    other.write_text("version: 1\nfixed_frame: odom\ndisplays: []\n")
+    before = dump(b.viewer.config())
+    b.do(Open(str(other)))
+    assert labels(b) == ["Open other.yaml"]
+    state = b.do(Undo())
+    assert dump(b.viewer.config()) == before
+    assert (state.file.path, state.file.is_changed) == ("", True)
+    assert b.do(Redo()).file.path == str(other)
+
+
+def test_what_was_removed_draws_again(b: Any) -> None:
+    axes = ids(b)["Axes"]
+    b.do(SetProperty(ids(b)["Grid"], "enabled", False))
+    shown = len(list(b.scene.visible()))
+    assert shown > 0
+    b.do(RemoveDisplay(axes))
+    assert list(b.scene.visible()) == []
+    b.do(Undo())
+    b.turn()
+    assert len(list(b.scene.visible())) == shown

@@ -1,0 +1,160 @@
+"""Undo and redo of everything that changes displays, tools, settings or saved views."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from webviz.engine.commands import Command, Redo, Sender, Undo
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.steps import Difference, Moment, difference
+from webviz.engine.parts.tools import ToolsPart
+from webviz.engine.parts.views import ViewsPart
+from webviz.engine.requests import Job
+from webviz.engine.state import History, Step
+from webviz.files.config import ConfigError
+
+MAX_STEPS = 100
+SAME_S = 1.5
+"""Changes of one property that follow each other within it are one step, as when it is dragged."""
+
+Do = Callable[[Command, Sender], str | Job[Any]]
+
+
+@dataclass(frozen=True)
+class _Done:
+    """A step, and the moment on its other side."""
+
+    step: Step
+    moment: Moment
+
+
+class HistoryPart(Part):
+    """The steps that can be taken back or done again, whichever browser or program did them.
+
+    Args:
+        core: what all parts share.
+        displays, settings, views, tools, files: what is brought back.
+    """
+
+    name = "History"
+
+    def __init__(
+        self,
+        core: Core,
+        displays: DisplaysPart,
+        settings: SettingsPart,
+        views: ViewsPart,
+        tools: ToolsPart,
+        files: FilesPart,
+    ) -> None:
+        super().__init__(core)
+        self._displays = displays
+        self._settings = settings
+        self._views = views
+        self._tools = tools
+        self._files = files
+        self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
+        self._redo: list[_Done] = []
+        self._count = 0
+        self._last: tuple[float, Sender, tuple[str, str] | None] = (-SAME_S, Sender(), None)
+        self._now = Moment()
+        self._now = self._moment()
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """What does each of its commands."""
+        return {Undo: self._take_back, Redo: self._do_again}
+
+    def state(self) -> Mapping[str, Any]:
+        """The steps."""
+        undo = tuple(done.step for done in reversed(self._undo))
+        redo = tuple(done.step for done in reversed(self._redo))
+        return {"history": History(undo, redo)}
+
+    def noting(self, do: Do) -> Do:
+        """Like `do`, which carries out commands, but notes what they change."""
+
+        def noted(command: Command, sender: Sender) -> str | Job[Any]:
+            result = do(command, sender)
+            if not isinstance(result, Job):
+                self.core.guard(self.name, self._note, sender)
+                return result
+
+            def then(value: Any) -> str:
+                text = result.then(value)
+                self.core.guard(self.name, self._note, sender)
+                return text
+
+            return replace(result, then=then)
+
+        return noted
+
+    def _note(self, sender: Sender) -> None:
+        before, self._now = self._now, self._moment()
+        done = difference(before, self._now)
+        if not done.label:
+            return
+        if self._goes_on(done, sender):
+            before = self._undo.pop().moment
+        self._count += 1
+        self._undo.append(_Done(Step(self._count, done.label, sender.browser), before))
+        self._redo.clear()
+
+    def _goes_on(self, done: Difference, sender: Sender) -> bool:
+        """Whether a step belongs to the one before."""
+        now = self.core.clock()
+        then, *same = self._last
+        self._last = now, sender, done.property
+        is_soon = now - then < SAME_S and not self._redo and bool(self._undo)
+        return is_soon and done.property is not None and same == [sender, done.property]
+
+    def _take_back(self, command: Undo, sender: Sender) -> str:
+        return self._travel(command.steps, sender, self._undo, self._redo, "undo", "Undone")
+
+    def _do_again(self, command: Redo, sender: Sender) -> str:
+        return self._travel(command.steps, sender, self._redo, self._undo, "redo", "Redone")
+
+    def _travel(
+        self, steps: int, sender: Sender, back: Any, forth: Any, verb: str, participle: str
+    ) -> str:
+        if not back:
+            raise ConfigError(f"There is nothing to {verb}.")
+        labels = []
+        moment = self._now
+        for _ in range(max(1, min(steps, len(back)))):
+            done = back.pop()
+            self._count += 1
+            step = Step(self._count, done.step.label, sender.browser)
+            forth.append(_Done(step, moment))
+            moment = done.moment
+            labels.append(done.step.label)
+        self._show(moment)
+        self._now = self._moment()
+        self._last = (-SAME_S, Sender(), None)
+        return (
+            f"{participle}: {labels[0]}."
+            if len(labels) == 1
+            else f"{participle}: {len(labels)} steps."
+        )
+
+    def _moment(self) -> Moment:
+        before = self._now
+        return Moment(
+            self._settings.settings,
+            self._displays.list.kept(before.displays),
+            self._tools.kept(before.tools),
+            *self._files.origin(),
+        )
+
+    def _show(self, moment: Moment) -> None:
+        self._displays.list.restore(moment.displays)
+        self._tools.restore(moment.tools)
+        self._settings.settings = moment.settings
+        self._views.start_with(moment.settings.view)
+        self._files.set_origin(moment.path, moment.report)

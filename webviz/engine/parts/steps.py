@@ -1,0 +1,169 @@
+"""What undo goes back to, and how the difference of two such moments reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from webviz.api.declared import Declared, make
+from webviz.api.properties import properties_of
+from webviz.api.views import View
+from webviz.files.config import Settings, Unreadable
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One entry of the list of displays, or one tool.
+
+    Args:
+        class_: of the display, group or tool; None for an entry that cannot be shown.
+        values: all of its properties as plain values.
+        content: to make it again from: the entry itself if it cannot be shown, else None.
+        group: id of the group it is in, "" for none.
+    """
+
+    class_: type[Declared] | None
+    values: Mapping[str, Any]
+    content: Unreadable | None = None
+    group: str = ""
+
+    @property
+    def name(self) -> str:
+        """As people see it."""
+        return self.content.name if self.content else str(self.values["name"])
+
+
+def kept(content: Declared | Unreadable, group: str, before: Kept | None) -> Kept:
+    """A snapshot of an entry; the one from before if it is still the same, to save memory."""
+    if isinstance(content, Unreadable):
+        now = Kept(None, {}, content, group)
+    else:
+        now = Kept(type(content), msgspec.to_builtins(content), None, group)
+    return before if now == before and before is not None else now
+
+
+def made_again(kept: Kept) -> Declared | Unreadable:
+    """What was kept, made anew."""
+    if kept.class_ is None:
+        assert kept.content is not None
+        return kept.content
+    return make(kept.class_, dict(kept.values))
+
+
+@dataclass(frozen=True)
+class Moment:
+    """All that undo brings back.
+
+    Args:
+        settings: of the config.
+        displays: by id, in the order of the list.
+        tools: by id, in the order of the toolbar.
+        path: of the config file, None for none.
+        report: on what of a .rviz file has no counterpart.
+    """
+
+    settings: Settings = field(default_factory=Settings)
+    displays: Mapping[str, Kept] = field(default_factory=dict)
+    tools: Mapping[str, Kept] = field(default_factory=dict)
+    path: Path | None = None
+    report: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Difference:
+    """What was done between two moments.
+
+    Args:
+        label: in a few words, "" if nothing was.
+        property: (id, name) if one property of one display or tool was changed, and nothing else;
+            of a setting the id is "".
+    """
+
+    label: str
+    property: tuple[str, str] | None = None
+
+
+def difference(before: Moment, after: Moment) -> Difference:
+    """What was done between two moments.
+
+    An entry that can be shown because its plug-in came is the same one.
+    """
+    if before.path != after.path:
+        return Difference(f"Open {after.path.name}" if after.path else "Open another config")
+    for old, new in ((before.displays, after.displays), (before.tools, after.tools)):
+        gone = [kept for id, kept in old.items() if id not in new]
+        come = [kept for id, kept in new.items() if id not in old]
+        if gone and come:
+            return Difference("Open another config")
+        if gone or come:
+            outer = next(kept.name for kept in gone or come)
+            return Difference(f"{'Remove' if gone else 'Add'} {outer}")
+        changes = [(id, name) for id in new for name in _changed(old[id], new[id])]
+        if changes:
+            return _of_changes(new, changes)
+    moved = _moved(before.displays, after.displays)
+    if moved:
+        return Difference(f"Move {moved}")
+    return _of_settings(before.settings, after.settings)
+
+
+def _changed(old: Kept, new: Kept) -> list[str]:
+    if old.class_ is None or new.class_ is None:
+        return []
+    return [name for name in new.values if old.values.get(name) != new.values[name]]
+
+
+def _of_changes(new: Mapping[str, Kept], changes: list[tuple[str, str]]) -> Difference:
+    ids = list(dict.fromkeys(id for id, _ in changes))
+    if len(ids) > 1:
+        return Difference(f"Change {len(ids)} displays")
+    kept = new[ids[0]]
+    if len(changes) > 1 or kept.class_ is None:
+        return Difference(f"Change {kept.name}")
+    name = changes[0][1]
+    if name == "enabled":
+        return Difference(f"{'Show' if kept.values[name] else 'Hide'} {kept.name}", changes[0])
+    if name == "name":
+        return Difference(f"Rename to {kept.name}", changes[0])
+    labels = {each.path: each.label for each in properties_of(kept.class_)}
+    return Difference(f"Change {labels.get(name, name)} of {kept.name}", changes[0])
+
+
+def _moved(old: Mapping[str, Kept], new: Mapping[str, Kept]) -> str:
+    """The name of what was moved, "" if nothing was."""
+    for id, kept in new.items():
+        if kept.group != old[id].group:
+            return kept.name
+    before, after = list(old), list(new)
+    if before == after:
+        return ""
+    # Of two neighbours that changed places, either may have been moved: the first that stands
+    # alone, without which the others are in the order they were in.
+    for id in after:
+        if [i for i in after if i != id] == [i for i in before if i != id]:
+            return new[id].name
+    return next(new[id].name for id, other in zip(after, before, strict=True) if id != other)
+
+
+def _of_settings(old: Settings, new: Settings) -> Difference:
+    if old.fixed_frame != new.fixed_frame:
+        return Difference(f"Fixed frame {new.fixed_frame}")
+    if old.views != new.views:
+        return Difference(_of_views(old.views, new.views))
+    labels = {"background": "background", "frame_rate": "frame rate", "view": "the view to start"}
+    for name, label in labels.items():
+        if getattr(old, name) != getattr(new, name):
+            return Difference(f"Change {label}", ("", name))
+    return Difference("" if old == new else "Change settings")
+
+
+def _of_views(old: Mapping[str, View], new: Mapping[str, View]) -> str:
+    gone, come = old.keys() - new.keys(), new.keys() - old.keys()
+    if gone:
+        return f"{'Rename' if come else 'Remove'} view {min(gone)}"
+    changed = come or {name for name in new if new[name] != old[name]}
+    return f"Save view {min(changed)}"
