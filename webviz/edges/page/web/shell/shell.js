@@ -4,6 +4,7 @@ import * as channel from "../channel.js";
 import { panels } from "../panels/panels.js";
 import { el, set } from "../dom.js";
 import { recall, remember } from "../remember.js";
+import * as commands from "./commands.js";
 import * as header from "./header.js";
 import * as theme from "./theme.js";
 import * as toasts from "./toasts.js";
@@ -33,6 +34,7 @@ export function install() {
 
 function build() {
   theme.install();
+  commands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
   toasts.install(scene);

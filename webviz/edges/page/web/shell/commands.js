@@ -1,0 +1,60 @@
+// Everything that can be done, by name; and the one place that listens to keys.
+
+import { keyOf } from "./keys.js";
+
+const TYPED = "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, "
+  + "[contenteditable]:not([contenteditable=false])";
+
+const fixed = new Set();
+const makers = new Set();
+
+/**
+ * Adds a command; returns what takes it away.
+ *
+ * `{name, run}`, and if there are: `icon`; `key`, or several in a list, such as "Ctrl+Shift+s", "g",
+ * "Delete", in the words of `keyOf`; `group` in the list of keys; `note`, which stands quietly behind
+ * the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`, whether it
+ * can be done now. A key with Ctrl that means nothing in a field is marked with `inFields`.
+ */
+export function command(wanted) {
+  fixed.add(wanted);
+  return () => fixed.delete(wanted);
+}
+
+/** Adds commands that come and go: `make()` returns those of the moment. Returns what ends it. */
+export function provide(make) {
+  makers.add(make);
+  return () => makers.delete(make);
+}
+
+/** All commands that can be done now. */
+export function all() {
+  const commands = [...fixed, ...[...makers].flatMap((make) => make())];
+  return commands.filter(({ isThere }) => !isThere || isThere());
+}
+
+/** The keys of a command, in a list. */
+export const keysOf = ({ key }) => (key ? [key].flat() : []);
+
+/** Whether somebody types where an event happens. */
+export const isTyping = (event) => Boolean(event.target.closest?.(TYPED));
+
+export function install() {
+  // Within viser's listeners, which are on the document and further out, and around those of
+  // controls, which come first. Dialogs and menus keep their keys to themselves.
+  document.body.addEventListener("keydown", (event) => {
+    if (event.defaultPrevented || event.isComposing) return;
+    const key = keyOf(event);
+    const isInField = isTyping(event);
+    const matches = (one) => keysOf(one).includes(key) && (!isInField || one.inFields);
+    // As in RViz, the last one with a key has it.
+    const found = all().findLast(matches);
+    if (!found) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.repeat) return;
+    // What was typed counts before anything is saved.
+    if (isInField) document.activeElement.blur();
+    found.run();
+  });
+}
