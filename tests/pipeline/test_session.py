@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from webviz.api.declared import Topic, to_values
 from webviz.api.group import Group
 from webviz.api.status import Level
 from webviz.engine.commands import (
@@ -22,16 +23,20 @@ from webviz.engine.commands import (
     MoveDisplay,
     Open,
     Refresh,
+    ResetDisplay,
     Save,
     SetBackground,
     SetFrameRate,
     SetProperty,
+    WriteDisplays,
 )
 from webviz.engine.requests import MAX_FILES
 from webviz.engine.state import File, State
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import load, parse
 from webviz_displays.axes import Axes
+from webviz_displays.grid import Grid
+from webviz_displays.laser_scan import LaserScan
 from webviz_displays.path import Path as PathDisplay
 
 
@@ -251,6 +256,31 @@ def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> 
     b = bench(group, Axes(name="B"))
     state = do(b, DuplicateDisplay("display1"))
     assert names(state) == ["G", "  A", "  H", "    Gone", "G 2", "  A", "  H", "    Gone", "B"]
+
+
+def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
+    bench: Callable[..., Any],
+) -> None:
+    topic = Topic("/front", reliability="reliable")
+    scan = LaserScan(name="Front", enabled=False, topic=topic, size=0.5, decay_time=3.0)
+    state = do(bench(scan, Group(name="G")), ResetDisplay("display1"))
+    assert to_values(state.rows[0].display) == {
+        "name": "Front",
+        "enabled": False,
+        "topic": "/front",
+    }
+    assert names(do(bench(Group(name="G")), ResetDisplay("display1"))) == ["G"]
+
+
+def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any]) -> None:
+    unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
+    group = Branch(Group(name="G"), [Axes(name="A", length=3.0), unreadable])
+    b = bench(group, Axes(name="B"), Grid(name="Grid"))
+    written = do(b, WriteDisplays(("display2", "display5", "display1", "gone"))).answer.text
+    assert written == (
+        "- type: Group\n  name: G\n  displays:\n  - {type: Axes, length: 3.0, name: A}\n"
+        "  - type: Gone\n    list: [1]\n- {type: Grid}\n"
+    )
 
 
 def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:

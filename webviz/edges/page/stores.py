@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -26,7 +27,7 @@ class Stores:
     def replace(self, store: str, values: Mapping[str, Any]) -> list[str]:
         """Makes these the values of a store, and returns the keys that are new, changed or gone."""
         old = self._content.get(store, {})
-        new = {key: msgspec.Raw(msgspec.json.encode(value)) for key, value in values.items()}
+        new = {key: _encoded(value) for key, value in values.items()}
         self._content[store] = new
         changed = [key for key, value in new.items() if old.get(key) != value]
         return changed + [key for key in old if key not in new]
@@ -88,3 +89,10 @@ class Watched:
                 dirty.clear()
                 return Values(store, False, present, gone)
         return None
+
+
+def _encoded(value: Any) -> msgspec.Raw:
+    try:
+        return msgspec.Raw(msgspec.json.encode(value))
+    except UnicodeEncodeError:  # half of a surrogate pair, which JSON can only escape
+        return msgspec.Raw(json.dumps(msgspec.to_builtins(value)).encode())

@@ -6,11 +6,12 @@ from webviz.engine.commands.displays import (
     DuplicateDisplay,
     MoveDisplay,
     RemoveDisplay,
+    ResetDisplay,
     SetProperty,
     TraceDisplay,
     nobody,
 )
-from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save
+from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
 from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import Refresh
 from webviz.engine.commands.plugins import ReloadPlugin
@@ -54,6 +55,7 @@ __all__ = [
     "RemoveView",
     "RenameView",
     "Reset",
+    "ResetDisplay",
     "ResetView",
     "Save",
     "SaveImage",
@@ -70,5 +72,6 @@ __all__ = [
     "Undo",
     "UseTool",
     "ViewCommand",
+    "WriteDisplays",
     "nobody",
 ]

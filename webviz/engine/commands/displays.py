@@ -62,6 +62,13 @@ class DuplicateDisplay(Command):
 
 
 @dataclass(frozen=True)
+class ResetDisplay(Command):
+    """Give the properties of a display their defaults, but for its name, switch and topics."""
+
+    display: str
+
+
+@dataclass(frozen=True)
 class MoveDisplay(Command):
     """Put a display or a group elsewhere in the list.
 

@@ -40,6 +40,13 @@ class Save(FileCommand):
 
 
 @dataclass(frozen=True)
+class WriteDisplays(FileCommand):
+    """Answer with the text that a config file has of displays, and of all that is in groups."""
+
+    displays: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Export(FileCommand):
     """Hand what is shown to somebody as the text of a config, such as a browser that downloads it.
 

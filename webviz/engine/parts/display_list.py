@@ -14,9 +14,10 @@ from typing import Any, TypeVar, cast
 
 import msgspec
 
-from webviz.api.declared import make, set_property, to_values
+from webviz.api.declared import Topic, make, set_property, to_values
 from webviz.api.display import Display
 from webviz.api.group import Group
+from webviz.api.properties import FIRST
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status
 from webviz.engine.parts.steps import Kept, kept, made_again
@@ -200,6 +201,19 @@ class DisplayList:
         for runner in before - set(self.active()):
             runner.hide()
 
+    def reset(self, id: str) -> None:
+        """Give the properties of a display their defaults, but for its name, switch and topics."""
+        entry = self.find(id)
+        if entry is None or not isinstance(entry.content, Runner):
+            return
+        display = entry.content.display
+        for name, default in msgspec.structs.asdict(type(display)()).items():
+            value = getattr(display, name)
+            if isinstance(value, Topic):
+                default = msgspec.structs.replace(default, name=value.name)
+            if name not in FIRST and value != default:
+                self.set(id, name, default)
+
     def runners(self) -> list[Runner]:
         """Every display at work."""
         return [entry.content for entry in self._entries if isinstance(entry.content, Runner)]
@@ -230,6 +244,15 @@ class DisplayList:
                     entry.content = Runner(entry.id, item, self._services)
         self._number()
         return settings
+
+    def written(self, ids: Iterable[str]) -> list[Item]:
+        """What to save of these displays and groups: a snapshot, for any thread."""
+        chosen = [entry for entry in self._entries if entry.id in set(ids)]
+        return [
+            self._item(entry)
+            for entry in chosen
+            if not any(entry is not other and entry.is_within(other) for other in chosen)
+        ]
 
     def items(self, parent: Entry | None = None) -> list[Item]:
         """What to save of a group, or of the whole list: a snapshot, for any thread."""

@@ -17,6 +17,7 @@ from webviz.engine.commands import (
     DuplicateDisplay,
     MoveDisplay,
     RemoveDisplay,
+    ResetDisplay,
     Sender,
     SetProperty,
     TraceDisplay,
@@ -52,6 +53,7 @@ class DisplaysPart(Part):
             RemoveDisplay: self._remove,
             DuplicateDisplay: self._duplicate,
             MoveDisplay: self._move,
+            ResetDisplay: self._reset_properties,
             TraceDisplay: self._trace,
         }
 
@@ -96,6 +98,9 @@ class DisplaysPart(Part):
 
     def _move(self, command: MoveDisplay, sender: Sender) -> None:
         self.list.move(command.display, command.group, command.before)
+
+    def _reset_properties(self, command: ResetDisplay, sender: Sender) -> None:
+        self.list.reset(command.display)
 
     def _trace(self, command: TraceDisplay, sender: Sender) -> None:
         self._tracer.ask(command.display, command.answer)

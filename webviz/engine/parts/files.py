@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from webviz.api.status import Status
-from webviz.engine.commands import Command, Export, Load, Open, Save, Sender
+from webviz.engine.commands import Command, Export, Load, Open, Save, Sender, WriteDisplays
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
@@ -76,7 +76,13 @@ class FilesPart(Part):
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """What does each of its commands."""
-        return {Open: self._open, Load: self._load, Save: self._save, Export: self._export}
+        return {
+            Open: self._open,
+            Load: self._load,
+            Save: self._save,
+            Export: self._export,
+            WriteDisplays: self._write_displays,
+        }
 
     def config(self) -> Config:
         """What to save to come back to this: a snapshot, for any thread."""
@@ -159,6 +165,10 @@ class FilesPart(Part):
             return ""
 
         return Job(lambda: opening.text_of(config, command.name), then)
+
+    def _write_displays(self, command: WriteDisplays, sender: Sender) -> Job[str]:
+        items = self._displays.list.written(command.displays)
+        return Job(lambda: config_file.dump_displays(items), lambda text: text)
 
     def _show(self, config: Config, path: Path | None) -> None:
         self._displays.list.clear()

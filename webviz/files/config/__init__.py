@@ -18,7 +18,7 @@ from webviz.files.config.model import (
 )
 from webviz.files.config.reading import read, read_display, read_tool
 from webviz.files.config.source import MAX_VALUES, Location, YamlDocument
-from webviz.files.config.writing import document, dump
+from webviz.files.config.writing import document, dump, dump_displays
 
 __all__ = [
     "MAX_VALUES",
@@ -36,6 +36,7 @@ __all__ = [
     "all_tools",
     "document",
     "dump",
+    "dump_displays",
     "explain",
     "is_rviz",
     "mistakes",

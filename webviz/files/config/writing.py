@@ -45,13 +45,22 @@ def document(config: Config) -> dict[str, Any]:
 
 def dump(config: Config) -> str:
     """A config as YAML text; see `document`."""
+    return _text(document(config))
+
+
+def dump_displays(items: Sequence[Item]) -> str:
+    """Displays as the list under the key `displays` of a config file."""
+    return _text([_entry(item) for item in items])
+
+
+def _text(values: Any) -> str:
     yaml = YAML(typ="safe", pure=True)
     yaml.Representer = _Representer
     yaml.default_flow_style = None  # short lists such as colours stay on one line
     yaml.width = 1 << 20  # a key with a line break cannot be read back
     yaml.sort_base_mapping_type_on_output = False  # pyright: ignore[reportAttributeAccessIssue]
     stream = io.StringIO()
-    yaml.dump(document(config), stream)
+    yaml.dump(values, stream)
     return stream.getvalue()
 
 

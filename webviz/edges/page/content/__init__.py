@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from webviz.edges.page.content.displays import displays
+from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
 from webviz.edges.page.content.viewer import clock, file, frames, settings
@@ -23,5 +23,6 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "frames": frames,
     "history": history,
     "properties": properties,
+    "rate": rate,
     "settings": settings,
 }

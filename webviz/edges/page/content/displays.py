@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.api.display import inputs
 from webviz.api.status import Level
 from webviz.engine.state import Row, State
 
@@ -15,16 +17,43 @@ def displays(state: State, _: str) -> Mapping[str, Any]:
     return {"order": [row.id for row in state.rows], **rows}
 
 
+def rate(state: State, id_: str) -> Mapping[str, Any]:
+    """Of the display with this id: "hz", how many messages arrive, to two digits; if it listens."""
+    row = next((row for row in state.rows if row.id == id_), None)
+    known = [state.traffic[name].rate_hz for name in _topics(row) if name in state.traffic]
+    return {"hz": _rounded(known[0])} if known else {}
+
+
 def _row(row: Row) -> Mapping[str, Any]:
-    worst = next((s for s in row.statuses.values() if s.level == row.level), None)
     return {
         "type": row.type,
         "name": row.name,
         "depth": row.depth,
         "enabled": row.enabled,
+        "can_edit": row.display is not None,
         "level": level_name(row.level),
-        "line": worst.text if worst is not None and row.level >= Level.WARN else "",
+        "line": _worst(row),
+        "topics": _topics(row),
     }
+
+
+def _worst(row: Row) -> str:
+    """The worst status of a display that has a problem; that of a group names the display."""
+    if row.level < Level.WARN:
+        return ""
+    key, status = next((k, s) for k, s in row.statuses.items() if s.level == row.level)
+    return f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
+
+
+def _topics(row: Row | None) -> list[str]:
+    display = row.display if row else None
+    return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []
+
+
+def _rounded(value: float) -> float:
+    if not value > 0.0:
+        return 0.0
+    return float(round(value, 1 - math.floor(math.log10(value))))
 
 
 def level_name(level: Level) -> str:

@@ -1,0 +1,66 @@
+"""What the page is told of the tree of displays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import msgspec
+import pytest
+
+from webviz.api.declared import Topic
+from webviz.api.group import Group
+from webviz.api.status import Level, Status
+from webviz.edges.page.content import MAKERS
+from webviz.edges.page.stores import Stores
+from webviz.engine.state import Row, State, Traffic
+
+MakeRow = Callable[..., Row]
+STATUSES = {
+    "Topic": Status(Level.OK, "12 Hz"),
+    "Points": Status(Level.WARN, "No points."),
+    "Transform": Status(Level.ERROR, "No transform."),
+    "Later": Status(Level.ERROR, "Another error."),
+}
+
+
+def row_of(row: Row) -> dict[str, object]:
+    return dict(MAKERS["displays"](State(rows=(row,)), "")[row.id])
+
+
+def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: MakeRow) -> None:
+    assert row_of(make_row("a", statuses=STATUSES))["line"] == "No transform."
+    assert row_of(make_row("a", statuses=STATUSES))["level"] == "error"
+    assert row_of(make_row("a", statuses={"Topic": STATUSES["Topic"]}))["line"] == ""
+
+
+def test_a_group_names_the_display_that_has_the_problem() -> None:
+    group = Row("g", "Group", Group(name="G"), "G", {"Front scan": STATUSES["Points"]})
+    assert row_of(group)["line"] == "Front scan: No points."
+
+
+def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
+    assert row_of(make_row("a", topic=Topic("/front")))["topics"] == ["/front"]
+    assert row_of(make_row("a", topic=Topic("")))["topics"] == []
+    assert row_of(Row("a", "", None, "Gone", {}))["topics"] == []
+
+
+@pytest.mark.parametrize(
+    ("hz", "shown"), [(39.84, 40.0), (9.96, 10.0), (0.5349, 0.53), (123.4, 120.0), (0.0, 0.0)]
+)
+def test_a_rate_has_two_digits_so_that_it_changes_seldom(
+    make_row: MakeRow, hz: float, shown: float
+) -> None:
+    state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(hz, 1.0)})
+    assert MAKERS["rate"](state, "a") == {"hz": shown}
+    assert MAKERS["rate"](state, "gone") == {}
+    assert MAKERS["rate"](replace(state, traffic={}), "a") == {}
+
+
+def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
+    stores = Stores()
+    stores.replace("displays", {"a": {"name": "\ud800", "topics": ("x",)}})
+    content = stores.get("displays")
+    assert content is not None
+    assert bytes(content["a"]) == b'{"name": "\\ud800", "topics": ["x"]}'
+    assert msgspec.json.encode(content).isascii()
