@@ -9,7 +9,7 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from webviz.api.context import Context, Group, Placement
+    from webviz.api.context import ColorScale, Context, Group, Placement
     from webviz.api.declared import Color, Prop, Topic
     from webviz.api.display import Display, Input, Keep, Sync
     from webviz.api.errors import Error
@@ -41,6 +41,7 @@ __all__ = [
     "Arrows",
     "Axes",
     "Color",
+    "ColorScale",
     "Context",
     "Display",
     "Error",
@@ -82,7 +83,7 @@ __all__ = [
 
 _HOMES = {
     "webviz.shell.app.viewer": ("Viewer",),
-    "webviz.api.context": ("Context", "Group", "Placement"),
+    "webviz.api.context": ("ColorScale", "Context", "Group", "Placement"),
     "webviz.api.declared": ("Color", "Prop", "Topic"),
     "webviz.api.display": ("Display", "Input", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),

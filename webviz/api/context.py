@@ -42,6 +42,22 @@ class Placement:
     interval_s: float = 0.0
 
 
+@dataclass(frozen=True)
+class ColorScale:
+    """Which values colours stand for.
+
+    Args:
+        label: what the values are, such as "intensity" or "x (m)".
+        low, high: the values of the first and the last colour.
+        colors: evenly spaced in between.
+    """
+
+    label: str
+    low: float
+    high: float
+    colors: tuple[Rgb, ...]
+
+
 class Group:
     """Nodes that move together, each under a key of its own."""
 
@@ -207,6 +223,8 @@ class Context(Group):
         self.state = state
         self.groups: dict[str, Group] = {"": self}
         self.statuses: dict[str, Status] = {}
+        self.color_scale: ColorScale | None = None
+        """For the legend in the scene; set it to say which values colours stand for."""
 
     def follow(
         self,

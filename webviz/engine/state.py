@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from webviz.api.context import ColorScale
 from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
 from webviz.api.tool import Gesture
@@ -26,6 +27,7 @@ class Row:
         statuses: sentences by key.
         depth: in how many groups it is.
         enabled: whether it is switched on, whatever its groups are.
+        color_scale: which values its colours stand for.
     """
 
     id: str
@@ -35,6 +37,7 @@ class Row:
     statuses: Mapping[str, Status]
     depth: int = 0
     enabled: bool = True
+    color_scale: ColorScale | None = None
 
     @property
     def level(self) -> Level:

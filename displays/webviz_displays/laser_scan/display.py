@@ -113,8 +113,8 @@ class LaserScan(PointsDisplay):
         if self.color_transformer == "FlatColor":
             return self.color
         if self.color_transformer == "AxisColor":
-            return self.axis_colors(xyz, Pose(), sample.pose)
-        return self.intensity_colors(self._channel(scan, hits, xyz, sample, ctx))
+            return self.axis_colors(xyz, Pose(), sample.pose, ctx)
+        return self.intensity_colors(self._channel(scan, hits, xyz, sample, ctx), ctx)
 
     def _channel(
         self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context

@@ -185,10 +185,10 @@ class PointCloud2(PointsDisplay):
             case "RGBF32":
                 colors, opacities = separate_colors(cloud, rows), None
             case "AxisColor":
-                colors, opacities = self.axis_colors(xyz, own, fixed), None
+                colors, opacities = self.axis_colors(xyz, own, fixed, ctx), None
             case "Intensity":
                 values = picked(self._channel(cloud), rows)
-                colors, opacities = self.intensity_colors(values), None
+                colors, opacities = self.intensity_colors(values, ctx), None
             case _:
                 return self.color, None
         if self.color_transformer == "Auto":

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Color, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
+from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
 from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, ramp
 from webviz_displays.shared.geometry import coordinate
 
@@ -142,13 +142,14 @@ class PointsDisplay(Display):
         """The messages within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
 
-    def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose) -> U8:
+    def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose, ctx: Context) -> U8:
         """Colours (N, 3) of AxisColor.
 
         Args:
             xyz: points (N, 3).
             own: of their coordinates in the frame of the sensor.
             fixed: of their coordinates in the fixed frame.
+            ctx: is told what the colours stand for.
         """
         pose = fixed if self.use_fixed_frame else own
         values = coordinate(pose, xyz, _AXES.index(self.axis))
@@ -156,17 +157,18 @@ class PointsDisplay(Display):
         low, high = limits.min_value, limits.max_value
         if limits.value:
             low, high = bounds(values, _LEAST_SPAN)
+        ctx.color_scale = ColorScale(f"{self.axis.lower()} (m)", low, high, RAINBOW)
         return ramp(values, low, high)
 
-    def intensity_colors(self, values: ArrayLike) -> U8:
+    def intensity_colors(self, values: ArrayLike, ctx: Context) -> U8:
         """Colours (N, 3) of Intensity for values (N,)."""
         low, high = self.min_intensity, self.max_intensity
         if self.autocompute_intensity_bounds:
             low, high = bounds(values)
-        stops = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
-        return ramp(
-            values, low, high, stops if self.use_rainbow else (self.min_color, self.max_color)
-        )
+        rainbow = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
+        stops = rainbow if self.use_rainbow else (self.min_color, self.max_color)
+        ctx.color_scale = ColorScale(str(self.channel_name), low, high, stops)
+        return ramp(values, low, high, stops)
 
     def draw_points(
         self,

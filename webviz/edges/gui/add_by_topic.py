@@ -8,10 +8,10 @@ import viser
 
 from webviz.api.panel import Send
 from webviz.api.registry import display_types
-from webviz.engine.by_topic import Pick, matching, picks
 from webviz.edges.gui.dialogs import Dialog
 from webviz.edges.gui.style import picks_style
 from webviz.edges.gui.text import note_html, plain
+from webviz.engine.by_topic import Pick, matching, picks
 from webviz.engine.state import State
 
 MAX_SHOWN = 40

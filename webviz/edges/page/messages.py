@@ -41,6 +41,16 @@ class Answer(FromPage, frozen=True):
     token: str
 
 
+class Ping(FromPage, frozen=True):
+    """Asks for a `Pong`, by which the page measures the way to the server and back."""
+
+
+class Pong(ToPage, frozen=True):
+    """Answers a `Ping`."""
+
+    kept = True
+
+
 class Beat(ToPage, frozen=True):
     """Says that the server is there; at least every second something does."""
 

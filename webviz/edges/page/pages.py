@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
-from webviz.edges.page.messages import Shell
+from webviz.edges.page.messages import Ping, Pong, Shell
 from webviz.edges.page.toolbar import Toolbar
 from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.pipeline.guard import Guard
@@ -36,6 +36,7 @@ class Pages:
         self._acts = Acts(channel, enqueue)
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
+        channel.on(Ping, lambda browser, _: channel.send(Pong(), browser))
         channel.send(Shell(debug))
 
     def update(self, state: State) -> None:

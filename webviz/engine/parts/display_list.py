@@ -336,7 +336,8 @@ class DisplayList:
         statuses = statuses_of(content) if entry.is_enabled else {}
         display = content.display
         name = type_name(type(display))
-        return Row(entry.id, name, display, display.name, statuses, depth, display.enabled)
+        scale = content.color_scale() if entry.is_enabled else None
+        return Row(entry.id, name, display, display.name, statuses, depth, display.enabled, scale)
 
     def _insert(
         self, block: list[Entry], parent: Entry | None, before: Entry | None = None

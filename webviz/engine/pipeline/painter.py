@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from webviz.api.context import Context, Placement
+from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
 from webviz.api.sample import Sample
@@ -36,6 +36,7 @@ class Painter:
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
+        self._scales: dict[str, ColorScale | None] = {}
         self._drawn: dict[str, dict[int, Sample]] = {}
         self._seen: list[tuple[History, int]] | None = None
         self._depended: object = None
@@ -86,6 +87,7 @@ class Painter:
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
         self._statuses.clear()
+        self._scales.clear()
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
@@ -117,6 +119,10 @@ class Painter:
                 result[key] = status if status.level >= before.level else before
         return result
 
+    def color_scale(self) -> ColorScale | None:
+        """Which values colours stand for, as the hooks said when they were last called."""
+        return next((scale for scale in self._scales.values() if scale is not None), None)
+
     def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
         if not overrides(display, "depends"):
             return False
@@ -137,6 +143,7 @@ class Painter:
                 self._draw_sample(name, display, guard, held, frames)
         if not samples:
             self._statuses.pop(_voice(name), None)
+            self._scales.pop(_voice(name), None)
         self._drawn[name] = {slot: held.sample for slot, held in samples.items()}
 
     def _draw_sample(
@@ -172,6 +179,7 @@ class Painter:
             return
         self._drawing.replace(scope, context)
         self._statuses[voice or scope] = context.statuses
+        self._scales[voice or scope] = context.color_scale
 
 
 def _voice(name: str) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, Keep, inputs, overrides
 from webviz.api.frames import Frames
@@ -164,6 +165,10 @@ class Runner:
     def followed(self) -> set[str]:
         """The frames whose poses `draw` will ask for."""
         return self._painter.followed() if self.display.enabled else set()
+
+    def color_scale(self) -> ColorScale | None:
+        """Which values colours stand for, None if nothing of them can be seen."""
+        return None if self._painter.is_empty() else self._painter.color_scale()
 
     def statuses(
         self,

@@ -13,6 +13,7 @@ from typing import Any
 from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
+from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.viewer import clock, file, frames, settings
 from webviz.engine.state import State
 
@@ -22,7 +23,9 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "file": file,
     "frames": frames,
     "history": history,
+    "legend": legend,
     "properties": properties,
     "rate": rate,
     "settings": settings,
+    "watchers": watchers,
 }

@@ -38,15 +38,18 @@ export function setChildren(element, children) {
   while (element.children.length > children.length) element.lastElementChild.remove();
 }
 
+/** An element of a drawing, with attributes and children as for `el`. */
+export function svgElement(tag, attributes = {}, ...children) {
+  const element = document.createElementNS(SVG, tag);
+  set(element, attributes);
+  element.append(...children);
+  return element;
+}
+
 /** An icon of 24 x 24 units, drawn by lines; see `icons.js`. */
 export function svg(path, size = 16) {
-  const icon = document.createElementNS(SVG, "svg");
-  const shape = document.createElementNS(SVG, "path");
-  shape.setAttribute("d", path);
-  for (const [name, value] of Object.entries({
+  return svgElement("svg", {
     viewBox: "0 0 24 24", width: size, height: size, fill: "none", stroke: "currentColor",
-    "stroke-width": 1.8, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": true,
-  })) icon.setAttribute(name, value);
-  icon.append(shape);
-  return icon;
+    "stroke-width": 1.8, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true",
+  }, svgElement("path", { d: path }));
 }

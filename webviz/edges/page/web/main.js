@@ -7,6 +7,7 @@ import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
 import * as mouse from "./scene/mouse.js";
+import * as overlay from "./overlay/overlay.js";
 import * as page from "./page.js";
 import * as saveImage from "./scene/save_image.js";
 import * as shade from "./scene/shade.js";
@@ -22,7 +23,7 @@ async function install() {
   await viser.until(viser.hasScene);
   for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, saveImage, tools]) part.install();
+  for (const part of [view, mouse, saveImage, tools, overlay]) part.install();
 }
 
 const answer = (token) => channel.send({ type: "Answer", token });

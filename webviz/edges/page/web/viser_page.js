@@ -20,6 +20,8 @@ const NEEDS = {
   "cameraControl.getPosition()": "views",
   "cameraControl.getTarget()": "views",
   "cameraControl.moveTo()": "views",
+  "cameraControl.rotateTo()": "the axes that turn the view",
+  "cameraControl.normalizeRotations()": "the axes that turn the view",
   "cameraControl.dollyTo()": "zooming",
   "cameraControl.mouseButtons.left": "the mouse",
   "cameraControl.constructor.ACTION.TRUCK": "the mouse",
@@ -82,6 +84,13 @@ export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistanc
 
 /** Whether the messages are yet to be handled that make the scene after connecting. */
 export const isFirstBatch = () => page().firstMessageBatch;
+
+/** The name of the node of the scene that an object is part of, "" for none. */
+export function nodeOf(object) {
+  const names = new Map(Object.entries(nodes()).map(([name, node]) => [node, name]));
+  for (let part = object; part; part = part.parent) if (names.has(part)) return names.get(part);
+  return "";
+}
 
 /** Handles the messages that have come, as viser does when it draws a frame. */
 export function takeMessages() {

@@ -25,6 +25,9 @@ export function groundAt(x, y) {
   return [...origin.addScaledVector(direction, steps).toArray().slice(0, 2), 0];
 }
 
+/** A point of three.js in the coordinates of the fixed frame. */
+export const toFixedFrame = (point) => point.clone().applyMatrix4(toThree().clone().invert()).toArray();
+
 /** Where a point of the ground is on the canvas, in CSS pixels, or null behind the camera. */
 export function onCanvas(point) {
   const [camera, canvas] = [viser.camera(), viser.canvas()];

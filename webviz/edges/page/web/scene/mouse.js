@@ -48,8 +48,9 @@ function notches({ deltaY, deltaMode }) {
   return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
 }
 
-// The nearest thing under the mouse, or else the ground, in three.js' coordinates.
-export function pick([x, y]) {
+// The nearest thing under a point of the window: its place in three.js' coordinates, and the object;
+// on the ground the object is null, above the horizon all is.
+export function hit([x, y]) {
   const [camera, controls, canvas] = [viser.camera(), viser.controls(), viser.canvas()];
   const world = viser.node(ROOT);
   const box = canvas.getBoundingClientRect();
@@ -65,13 +66,19 @@ export function pick([x, y]) {
     if (thing.isPoints && thing.geometry) thing.geometry.boundingSphere = null;
     if (thing.isMesh || thing.isPoints) things.push(thing);
   });
-  const [hit] = ray.intersectObjects(things, false);
-  // Not its point, which is wrong for instanced meshes.
-  if (hit) return ray.ray.at(hit.distance, camera.position.clone());
+  const [first] = ray.intersectObjects(things, false);
+  if (first) {
+    // Not its point, which is wrong for instanced meshes.
+    return { point: ray.ray.at(first.distance, camera.position.clone()), object: first.object };
+  }
   const { origin, direction } = ray.ray;
   const steps = -origin.y / direction.y;
-  return steps > 0 && steps < 1e6 ? origin.addScaledVector(direction, steps) : null;
+  if (!(steps > 0 && steps < 1e6)) return null;
+  return { point: origin.addScaledVector(direction, steps), object: null };
 }
+
+/** The place under a point of the window, in three.js' coordinates, or null. */
+export const pick = (xy) => hit(xy)?.point ?? null;
 
 // RViz turns the camera to the point, and moves a view that cannot turn.
 function focus(point) {

@@ -33,6 +33,26 @@ export const type = () => (view === null ? "" : view.view);
 export const followed = () => (rig === null ? matrix() : rig);
 /** How far the point that the camera looks at is from the focal point of the view. */
 export const raised = () => (isRaised() ? raise() : vector([0, 0, 0]));
+/** Turns the camera about what it looks at, to where a direction of the fixed frame points. */
+export function lookFrom(xyz) {
+  const direction = vector(xyz).transformDirection(toThree());
+  direction.transformDirection(followed().clone().invert());
+  const controls = viser.controls();
+  const polar = Math.acos(Math.min(Math.max(direction.y, -1), 1));
+  const isSteep = Math.abs(direction.y) > 0.999;
+  const azimuth = isSteep ? controls.azimuthAngle : Math.atan2(direction.x, direction.z);
+  controls.normalizeRotations();
+  controls.rotateTo(azimuth, polar, true);
+}
+/** The axes of the fixed frame as the camera sees them: right, up, and towards it. */
+export function axes() {
+  const toCamera = camera.matrixWorldInverse.clone().multiply(toThree());
+  return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) =>
+    vector(axis).transformDirection(toCamera).toArray());
+}
+/** How many metres a pixel is where the camera looks at. */
+export const metersPerPixel = () =>
+  (2 * viser.controls().distance * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
 /** Calls `listener` whenever another view is shown. */
 export const onShow = (listener) => listeners.push(listener);
 

@@ -1,0 +1,131 @@
+"""What lies over the scene: axes, scale, legend, what is under the mouse, rates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import msgspec
+import numpy as np
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.api.context import ColorScale
+from webviz.api.nodes import Points, Pose
+from webviz.edges.scene import Scene
+from webviz.edges.scene.server import Server
+from webviz.engine.state import Row
+
+AXES = "async () => (await import('/webviz/scene/view.js')).axes()"
+CENTER = (700, 400)
+
+
+@pytest.fixture(scope="module")
+def scene(server: Server) -> Scene:
+    return Scene(server)
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "toward"),
+    [("X", 0, 1), ("-X", 0, -1), ("Y", 1, 1), ("-Y", 1, -1), ("Z", 2, 1)],
+)
+def test_the_axes_turn_the_view(tab: Tab, name: str, axis: int, toward: int) -> None:
+    tab.page.get_by_role("button", name=f"Look from {name}", exact=True).dispatch_event("click")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[axis][2] * toward > 0.999)
+
+
+def test_the_keyboard_reaches_the_axes(tab: Tab) -> None:
+    tab.page.get_by_role("button", name="Look from -Y", exact=True).focus()
+    tab.page.keyboard.press("Enter")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
+
+
+def test_lengths_are_round_and_in_the_unit_that_suits_them(tab: Tab) -> None:
+    of = """async (meters) => {
+      const { rounded, inWords } = await import('/webviz/overlay/scale_bar.js');
+      return meters.map((each) => inWords(rounded(each)));
+    }"""
+    lengths = [0.00031, 0.0049, 0.03, 0.99, 1.0, 7.0, 25.0, 1999.0, 2000.0, 6e6]
+    assert tab.page.evaluate(of, lengths) == [
+        "0.2 mm", "2 mm", "2 cm", "50 cm", "1 m", "5 m", "20 m", "1 km", "2 km", "5000 km",
+    ]  # fmt: skip
+
+
+def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
+    """Two points as far apart as the bar says are as far apart on the canvas as it is long."""
+    tab.button("Look from Z").dispatch_event("click")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[2][2] > 0.999)
+    bar = tab.page.locator(".wv-scale")
+    words, pixels = bar.inner_text(), tab.page.locator(".wv-scale-line").bounding_box()
+    number, unit = words.split()
+    meters = float(number) * {"km": 1e3, "m": 1.0, "cm": 0.01}[unit]
+    across = tab.page.evaluate(
+        """async (meters) => {
+          const { onCanvas } = await import('/webviz/scene/ground.js');
+          const [from, to] = [onCanvas([0, 0, 0]), onCanvas([meters, 0, 0])];
+          return Math.hypot(to[0] - from[0], to[1] - from[1]);
+        }""",
+        meters,
+    )
+    assert pixels is not None
+    assert pixels["width"] == pytest.approx(across, abs=3.0)
+
+
+def test_the_legend_says_what_colors_stand_for(
+    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+) -> None:
+    scale = ColorScale("intensity", 2.16949, 97.5, ((255, 0, 0), (0, 0, 255)))
+    loop.show(replace(make_row("a", "Scan <b>"), color_scale=scale), make_row("b"))
+    legend = tab.page.locator(".wv-legend")
+    tab.wait_for(lambda: legend.count() == 1)
+    assert legend.inner_text().split("\n") == ["Scan <b>: intensity", "2.169", "97.5"]
+    background = tab.page.locator(".wv-legend-bar").evaluate("e => e.style.background")
+    assert background == "linear-gradient(to right, rgb(255, 0, 0), rgb(0, 0, 255))"
+    loop.show(make_row("a"))
+    tab.wait_for(lambda: legend.count() == 0)
+
+
+def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
+    settings = msgspec.structs.replace(loop.state.settings, fixed_frame="odom")
+    loop.show(settings=settings)
+    tab.button("Look from Z").dispatch_event("click")
+    tab.wait_for(lambda: tab.page.evaluate(AXES)[2][2] > 0.999)
+    place = tab.page.evaluate(
+        """async () => {
+          const { onCanvas } = await import('/webviz/scene/ground.js');
+          const box = document.querySelector('canvas').getBoundingClientRect();
+          const [x, y] = onCanvas([-1, 0.5, 0]);
+          return [box.left + x, box.top + y];
+        }"""
+    )
+    tab.page.mouse.move(*place)
+    tab.wait_for(lambda: "x -1.0" in tab.text() or "x -0.99" in tab.text())
+    assert "m · odom" in tab.text()
+    tab.page.mouse.move(5, 5)
+    tab.wait_for(lambda: "Left: turn" in tab.text())
+
+
+def test_what_is_under_the_resting_mouse_is_named(
+    tab: Tab, loop: Loop, scene: Scene, make_row: Callable[..., Row]
+) -> None:
+    grid = np.stack(np.meshgrid(np.linspace(-3, 3, 60), np.linspace(-3, 3, 60)), -1).reshape(-1, 2)
+    xyz = np.column_stack((grid, np.full(len(grid), 0.25))).astype(np.float32)
+    scene.upsert("display7/all/laser|", "points", Points(xyz, (255, 0, 0), 0.2, "square"), Pose())
+    scene.flush()
+    loop.show(make_row("display7", "Front scan"))
+    tab.button("Look from Z").dispatch_event("click")
+    tab.page.mouse.move(*CENTER)
+    tab.wait_for(lambda: "Front scan: laser" in tab.text())
+    assert "z 0.2" in tab.text()
+    scene.remove_group("display7/all/laser|")
+    scene.flush()
+
+
+def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
+    rates = tab.page.locator(".wv-rates")
+    tab.wait_for(lambda: " ms" in rates.inner_text())
+    assert " fps" in rates.inner_text()
+    rates.click()
+    assert "Server and back" in tab.text()
+    rates.click()
+    assert "Server and back" not in tab.text()

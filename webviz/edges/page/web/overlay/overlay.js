@@ -1,0 +1,14 @@
+// What lies over the scene and explains it: axes, scale, legend, what is under the mouse, rates.
+
+import { places } from "../shell/shell.js";
+import * as gizmo from "./gizmo.js";
+import * as legend from "./legend.js";
+import * as pointer from "./pointer.js";
+import * as rates from "./rates.js";
+import * as scaleBar from "./scale_bar.js";
+
+export function install() {
+  places.status.append(rates.build(), gizmo.build());
+  places.pointer.append(pointer.build());
+  places.legend.append(legend.build(), scaleBar.build());
+}

@@ -1,0 +1,75 @@
+// Where the mouse is on the ground, and what it points at; until it moves, what its buttons do.
+
+import { el, setText } from "../dom.js";
+import { groundAt, toFixedFrame } from "../scene/ground.js";
+import { hit } from "../scene/mouse.js";
+import * as views from "../scene/view.js";
+import { watch } from "../stores.js";
+import * as viser from "../viser_page.js";
+
+const REST_MS = 150;
+const HINTS = {
+  FPS: "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at",
+  TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: center",
+};
+const HINT = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: look at";
+
+export function build() {
+  const text = el("div", { class: "wv-card wv-pointer" });
+  let names = new Map();
+  let frame = "";
+  let mouse = null;
+  let isWaiting = false;
+  let resting = 0;
+  watch("displays", (rows) => (names = rows));
+  watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
+
+  const hint = () => setText(text, HINTS[views.type()] ?? HINT);
+
+  function move(event) {
+    if (event.pointerType === "touch") return;
+    mouse = [event.clientX, event.clientY];
+    clearTimeout(resting);
+    if (event.buttons === 0) resting = setTimeout(rest, REST_MS);
+    if (isWaiting) return;
+    isWaiting = true;
+    requestAnimationFrame(() => {
+      isWaiting = false;
+      if (mouse) show(groundAt(...mouse), "");
+    });
+  }
+
+  // A ray through all that is drawn is too slow for each frame.
+  function rest() {
+    const found = mouse && hit(mouse);
+    if (found?.object) show(toFixedFrame(found.point), nameOf(found.object, names));
+  }
+
+  function leave() {
+    mouse = null;
+    clearTimeout(resting);
+    hint();
+  }
+
+  function show(point, name) {
+    if (!point) return setText(text, name);
+    const [x, y, z] = point.map((number) => number.toFixed(2));
+    const height = Math.abs(point[2]) < 0.005 ? "" : ` z ${z}`;
+    setText(text, [`x ${x} y ${y}${height} m`, frame, name].filter(Boolean).join(" · "));
+  }
+
+  const events = viser.canvas().parentElement;
+  events.addEventListener("pointermove", move);
+  events.addEventListener("pointerleave", leave);
+  views.onShow(() => mouse ?? hint());
+  hint();
+  return text;
+}
+
+// The display that an object belongs to, and the frame that it moves with, if it has one of its own.
+function nameOf(object, names) {
+  const node = viser.nodeOf(object).split("/")[2] ?? "";
+  const [id, , ...rest] = decodeURIComponent(node).split("/");
+  const part = rest.join("/").replace(/\|.*$/, "");
+  return [names.get(id)?.name ?? "", part].filter(Boolean).join(": ");
+}

@@ -1,0 +1,93 @@
+// How the page keeps up: frames a second and the way to the server and back; a click tells more.
+
+import * as channel from "../channel.js";
+import { el, setChildren, setText } from "../dom.js";
+import { watch } from "../stores.js";
+import * as viser from "../viser_page.js";
+
+const EVERY_MS = 1000;
+const PING_TICKS = 2;
+
+export function build() {
+  let frames = 0;
+  let rate = 0;
+  let trip = null;
+  let watchers = 0;
+  let ticks = 0;
+  let sent = 0;
+  const label = el("span");
+  const more = el("dl", { class: "wv-card wv-rates-more", hidden: true });
+  const button = el("button", {
+    type: "button", class: "wv-card wv-rates", "aria-expanded": "false",
+    title: "Frames drawn in a second, and the time to the server and back", onclick: toggle,
+  }, label);
+
+  channel.on("Pong", () => {
+    trip = performance.now() - sent;
+    show();
+  });
+  watch("watchers", (values) => {
+    watchers = values.get("count") ?? 0;
+    show();
+  });
+  viser.beforeRender(() => (frames += 1));
+  setInterval(tick, EVERY_MS);
+
+  function tick() {
+    rate = frames;
+    frames = 0;
+    ticks += 1;
+    if (document.hidden) return;
+    if (ticks % PING_TICKS === 0 && channel.isOpen()) {
+      sent = performance.now();
+      channel.send({ type: "Ping" });
+    }
+    show();
+  }
+
+  function show() {
+    const parts = [`${rate} fps`, trip === null ? "" : `${Math.round(trip)} ms`];
+    if (watchers > 1) parts.push(`${watchers} watching`);
+    setText(label, parts.filter(Boolean).join(" · "));
+    if (!more.hidden) explain();
+  }
+
+  function explain() {
+    const { render } = viser.gl().info;
+    const rows = [
+      ["Frames drawn", `${rate} a second; none while nothing changes`],
+      ["Server and back", trip === null ? "not measured yet" : `${trip.toFixed(1)} ms`],
+      ["Watching", `${watchers} ${watchers === 1 ? "browser" : "browsers"}`],
+      ["Drawn at once", `${render.triangles} triangles, ${render.points} points, ` +
+        `${render.calls} calls`],
+      ["Drawn by", renderer()],
+    ];
+    setChildren(more, rows.flatMap(([name, value], index) => {
+      const [term, meaning] = [more.children[2 * index] ?? el("dt"),
+        more.children[2 * index + 1] ?? el("dd")];
+      setText(term, name);
+      setText(meaning, value);
+      return [term, meaning];
+    }));
+  }
+
+  function toggle() {
+    more.hidden = !more.hidden;
+    button.setAttribute("aria-expanded", String(!more.hidden));
+    if (!more.hidden) explain();
+  }
+
+  return el("div", { class: "wv-rates-box" }, button, more);
+}
+
+let named = "";
+function renderer() {
+  if (named) return named;
+  const context = viser.gl().getContext();
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  named = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  if (/swiftshader|llvmpipe|software/i.test(named)) {
+    named = "the processor, slowly: this browser has no graphics acceleration";
+  }
+  return named;
+}
