@@ -135,11 +135,23 @@ def test_a_message_reaches_a_subscription_that_knew_the_publisher(
 
     peer.node.create_subscription(String, "/said", hear, 10)
     outlet = Outlet("/said", STRING)
-    source.graph.advertise(outlet).result(5.0)
+    source.graph.advertise([outlet]).result(5.0)
     until(lambda: peer.node.count_publishers("/said"), peer.turn)
     hello = encode(STRING, {"data": "hello"})
     until(lambda: source.graph.publish(outlet, hello).result(5.0) == 1, peer.turn)
     until(lambda: "hello" in heard, peer.turn)
+
+
+def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
+    source: RosSource, peer: Peer
+) -> None:
+    old, new = Outlet("/old_goal", STRING), Outlet("/new_goal", STRING)
+    unknown = Outlet("/unknown_goal", "no_msgs/msg/No")
+    source.graph.advertise([old]).result(5.0)
+    until(lambda: peer.node.count_publishers("/old_goal"), peer.turn)
+    source.graph.advertise([unknown, new]).result(5.0)
+    until(lambda: peer.node.count_publishers("/new_goal"), peer.turn)
+    until(lambda: not peer.node.count_publishers("/old_goal"), peer.turn)
 
 
 def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:

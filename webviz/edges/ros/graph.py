@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
@@ -22,7 +23,14 @@ from rclpy.subscription import Subscription
 
 from webviz.data.messages import decode, encode, interfaces
 from webviz.edges.ros.jobs import Jobs
-from webviz.edges.ros.types import from_cdr, learn, message_class, service_class, to_cdr
+from webviz.edges.ros.types import (
+    MessageTypeError,
+    from_cdr,
+    learn,
+    message_class,
+    service_class,
+    to_cdr,
+)
 from webviz.engine.sources.graph import Goal, NotConnected, Outlet
 
 log = logging.getLogger("webviz")
@@ -72,6 +80,7 @@ class RosGraph:
         self._node = node
         self._jobs = Jobs(wake)
         self._publishers: dict[Outlet, Publisher] = {}
+        self._advertised: frozenset[Outlet] = frozenset()
         self._clients: dict[tuple[str, str], Client] = {}
         self._listening: dict[str, Subscription] = {}
         self._feedback: dict[bytes, Callable[[bytes], None]] = {}
@@ -80,11 +89,17 @@ class RosGraph:
 
     # From any thread
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        """Make a publisher, so that subscriptions know it before the first message."""
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        """Make the advertised publishers exactly these."""
+        wanted = frozenset(outlets)
 
         def do() -> None:
-            self._publisher(outlet)
+            before, self._advertised = self._advertised, wanted
+            for outlet in before - wanted:
+                self._destroy_publisher(outlet)
+            for outlet in wanted:
+                with contextlib.suppress(MessageTypeError):  # reported by `publish`
+                    self._publisher(outlet)
 
         return self._jobs.put(do)
 
@@ -156,7 +171,7 @@ class RosGraph:
     def _publisher(self, outlet: Outlet) -> Publisher:
         if outlet not in self._publishers:
             for _ in range(len(self._publishers) - MOST_PUBLISHERS + 1):
-                self._node.destroy_publisher(self._publishers.pop(next(iter(self._publishers))))
+                self._destroy_publisher(next(iter(self._publishers)))
             profile = QoSProfile(
                 depth=outlet.depth,
                 reliability=ReliabilityPolicy[outlet.reliability.upper()],
@@ -166,6 +181,10 @@ class RosGraph:
                 message_class(outlet.type), outlet.topic, profile
             )
         return self._publishers[outlet]
+
+    def _destroy_publisher(self, outlet: Outlet) -> None:
+        if publisher := self._publishers.pop(outlet, None):
+            self._node.destroy_publisher(publisher)
 
     def _client(self, service: str, type: str) -> Client:
         if (service, type) not in self._clients:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import functools
 import itertools
 import logging
 import re
@@ -18,6 +17,7 @@ from webviz.api.display import Display
 from webviz.api.group import Group
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.state import Row
 from webviz.files import config as config_file
@@ -189,9 +189,7 @@ class DisplayList:
                 set_property(content, path, value)
         except msgspec.ValidationError as error:
             own = content.display if isinstance(content, Runner) else content
-            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
-            found = config_file.explain(error, type(own), nested)
-            raise ConfigError(f"Not changed: {config_file.sentences([found])}") from error
+            raise not_changed(error, type(own), path, value) from error
         for runner in before - set(self.active()):
             runner.hide()
 

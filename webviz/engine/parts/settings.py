@@ -9,7 +9,8 @@ import msgspec
 
 from webviz.engine.commands import Command, Sender, SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.files.config import ConfigError, Settings, explain, sentences
+from webviz.engine.parts.refusals import not_changed
+from webviz.files.config import ConfigError, Settings
 
 
 class SettingsPart(Part):
@@ -41,8 +42,7 @@ class SettingsPart(Part):
         try:
             self.settings = msgspec.convert(values, Settings)
         except msgspec.ValidationError as error:
-            found = explain(error, Settings, values)
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, Settings, key, value) from error
 
     def state(self) -> Mapping[str, Any]:
         """All settings."""

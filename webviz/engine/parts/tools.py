@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import functools
 import inspect
 import logging
 import math
@@ -20,9 +19,10 @@ from webviz.api.tool import Output, Stroke, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.sources.graph import Outlet
 from webviz.engine.state import ToolButton
-from webviz.files.config import ConfigError, ToolItem, Unreadable, explain, nearest, sentences
+from webviz.files.config import ConfigError, ToolItem, Unreadable, nearest
 
 log = logging.getLogger("webviz")
 
@@ -63,16 +63,16 @@ class ToolsPart(Part):
         return [copy.copy(item) for item in self._items.values()]
 
     def keep_up(self, commanded: bool) -> None:
-        """Make publishers in time, so that subscriptions know them before the first message."""
+        """Advertise the outputs of all tools, so that their first messages arrive."""
         wanted = {
             outlet
             for tool in self._tools().values()
             for _, output, topic in outputs(tool)
             if (outlet := self._outlet(output, topic))
         }
-        for outlet in wanted - self._advertised:
-            self.core.source.graph.advertise(outlet)
-        self._advertised = wanted
+        if wanted != self._advertised:
+            self._advertised = wanted
+            self.core.source.graph.advertise(wanted)
 
     def state(self) -> Mapping[str, Any]:
         """What the toolbar shows."""
@@ -141,9 +141,7 @@ class ToolsPart(Part):
         try:
             set_property(tool, path, value)
         except msgspec.ValidationError as error:
-            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
-            found = explain(error, type(tool), nested)
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, type(tool), path, value) from error
 
 
 def _button(id: str, tool: Tool) -> ToolButton:
@@ -158,6 +156,6 @@ def _outcome(topic: str, sent: Future[int]) -> Status:
     except (Error, CancelledError) as error:
         return Status(Level.ERROR, str(error) or "The viewer has ended.")
     if count == 0:
-        text = f"Nothing subscribes to {topic}. Start what listens to it or choose another topic."
+        text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
         return Status(Level.WARN, text)
     return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

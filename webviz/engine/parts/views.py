@@ -36,8 +36,9 @@ from webviz.engine.commands import (
 )
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
-from webviz.files.config import ConfigError, explain, nearest, sentences
+from webviz.files.config import ConfigError, nearest
 
 
 class ViewsPart(Part):
@@ -204,8 +205,7 @@ class ViewsPart(Part):
         try:
             return msgspec.convert(values | {key: value}, type(view))
         except msgspec.ValidationError as error:
-            found = explain(error, type(view), values | {key: value})
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, type(view), key, value) from error
 
     def _rig(self, cls: type[View], frame: str) -> Rig:
         return Rig() if frame == FIXED_FRAME else rig_of(cls, self.core.frames.latest(frame))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Literal, Protocol
@@ -58,8 +58,11 @@ class Graph(Protocol):
     Futures raise `NotConnected`. Bytes are CDR with the encapsulation header.
     """
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        """Make a publisher, so that subscriptions know it before the first message."""
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        """Make the advertised publishers exactly these.
+
+        Subscriptions match an advertised publisher before its first message.
+        """
         ...
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
@@ -99,7 +102,7 @@ class ReadOnly:
     def __init__(self, reason: str) -> None:
         self._reason = reason
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         """Refuse."""
         return _failed(self._reason)
 
