@@ -166,11 +166,11 @@ def test_the_button_selects_the_tool_in_its_own_browser_only(
     assert told(pages[1]) == ""
 
 
-def test_nobody_who_listens_is_reported(page: Page, graph: RememberingGraph) -> None:
+def test_a_missing_subscription_is_reported(page: Page, graph: RememberingGraph) -> None:
     graph.subscriptions = 0
     page.tab.keyboard.press("g")
     drag(page, (0.0, 0.0), (50.0, 0.0))
-    page.wait_for(lambda: told(page).startswith("Nothing subscribes to /goal_pose. "), "the answer")
+    page.wait_for(lambda: told(page).startswith("No subscription to /goal_pose. "), "the answer")
 
 
 def test_touch_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> None:

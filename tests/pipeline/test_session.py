@@ -165,7 +165,7 @@ def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> N
     b = bench()
     exports = [b.viewer.enqueue(Export(lambda _: None)) for _ in range(MAX_FILES + 2)]
     b.turn()
-    assert str(exports[-1].exception(timeout=0)) == "Too many files at once."
+    assert str(exports[-1].exception(timeout=0)) == "Too many files at once. Try again later."
     b.until_done(exports[-2])
     assert [each.result() for each in exports[:-1]] == [""] * (MAX_FILES + 1)
 

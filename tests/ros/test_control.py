@@ -365,7 +365,7 @@ def test_too_many_requests_are_refused(slow: tuple[SlowViewer, RosSource], clien
     client.until(lambda: any(answer.done() for answer in answers), "one is refused")
     viewer.ready.set()
     messages = [client.wait(answer).message for answer in answers]
-    assert messages.count("Too many requests at once.") == 1
+    assert messages.count("Too many requests at once. Try again later.") == 1
     assert messages.count("Saved /picture.png.") == 4
 
 

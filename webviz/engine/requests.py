@@ -74,7 +74,7 @@ class Requests:
         try:
             self._waiting.put_nowait((command, sender, answer))
         except queue.Full:
-            answer.set_exception(Refused("Too many requests at once."))
+            answer.set_exception(Refused("Too many requests at once. Try again later."))
         if self._has_ended:
             self._refuse_waiting()
         return answer
@@ -174,7 +174,7 @@ class Requests:
         if len(self._files) < MAX_FILES:
             self._files.append(request)
         else:
-            _refuse(request, "Too many files at once.")
+            _refuse(request, "Too many files at once. Try again later.")
 
     def _refuse_waiting(self) -> None:
         """Refuse what no loop will do any more; from any thread."""

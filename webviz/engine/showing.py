@@ -30,10 +30,6 @@ class Showing:
         self._guard = guard
         self._background: Color | None = None
 
-    def is_watched(self) -> bool:
-        """Whether any browser is connected."""
-        return self._guard.attempt("Scene", True, self._scene.has_watchers)
-
     def draw(self, runners: Sequence[Runner], frames: Frames, background: Color) -> None:
         """Bring the scene up to date and send what changed."""
         guard = self._guard

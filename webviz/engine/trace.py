@@ -97,7 +97,7 @@ class Tracer:
             if not self._asked[asked]:
                 del self._asked[asked]
         if sum(map(len, self._asked.values())) >= MAX_ASKED:
-            raise Error("Too many traces at once. Wait for some of them.")
+            raise Error("Too many traces at once. Try again later.")
         if display not in self._asked:
             self.forget(display)  # what was asked about in vain
         self._asked.setdefault(display, []).append(answer)

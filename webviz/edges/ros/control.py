@@ -260,7 +260,7 @@ class _Service:
             self._under_way.append((self._pool.submit(self._work), response, header))
             return
         refused: Future[str] = Future()
-        refused.set_exception(Error("Too many requests at once."))
+        refused.set_exception(Error("Too many requests at once. Try again later."))
         self._answer(refused, response, header)
 
     def _answer(self, done: Future[str], response: Any, header: Any) -> None:

@@ -8,7 +8,6 @@ from webviz.engine.commands.displays import (
     RemoveDisplay,
     SetProperty,
     TraceDisplay,
-    nobody,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save
 from webviz.engine.commands.panel import Refresh
@@ -67,5 +66,4 @@ __all__ = [
     "TraceDisplay",
     "UseTool",
     "ViewCommand",
-    "nobody",
 ]

@@ -20,3 +20,7 @@ class Sender:
 
 PROGRAM = Sender()
 """Python, ROS and the command line."""
+
+
+def ignore(result: object) -> None:
+    """The default callback of commands: ignore the result."""

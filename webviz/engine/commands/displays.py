@@ -7,12 +7,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
-from webviz.engine.commands.command import Command
+from webviz.engine.commands.command import Command, ignore
 from webviz.engine.trace import Trace
-
-
-def nobody(id: str) -> None:
-    """Tell nobody the id of a display that was made."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +34,7 @@ class AddDisplay(Command):
     type: str
     values: dict[str, Any] = field(default_factory=dict)
     group: str = ""
-    made: Callable[[str], None] = nobody
+    made: Callable[[str], None] = ignore
 
 
 @dataclass(frozen=True)
@@ -58,7 +54,7 @@ class DuplicateDisplay(Command):
     """
 
     display: str
-    made: Callable[[str], None] = nobody
+    made: Callable[[str], None] = ignore
 
 
 @dataclass(frozen=True)

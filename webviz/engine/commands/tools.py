@@ -8,11 +8,7 @@ from typing import Any
 
 from webviz.api.status import Status
 from webviz.api.tool import Position
-from webviz.engine.commands.command import Command
-
-
-def tell_nobody(status: Status) -> None:
-    """Report to nobody what came of a stroke."""
+from webviz.engine.commands.command import Command, ignore
 
 
 @dataclass(frozen=True)
@@ -29,7 +25,7 @@ class UseTool(Command):
     points: tuple[Position, ...]
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
-    tell: Callable[[Status], None] = tell_nobody
+    tell: Callable[[Status], None] = ignore
 
 
 @dataclass(frozen=True)
