@@ -14,7 +14,8 @@ import pytest
 import viser
 
 from webviz.api.declared import Color, Prop, Topic, set_property
-from webviz.api.display import Display, Input
+from webviz.api.display import Display
+from webviz.api.ports import Input
 from webviz.api.status import Status
 from webviz.edges.gui import Panels, take_typed
 from webviz.edges.scene import on_typed, open_server

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import Annotated, Any
 
 from webviz.api.declared import Topic
-from webviz.api.display import Display, Input
+from webviz.api.display import Display
+from webviz.api.ports import Input
 from webviz.edges.gui.add_by_topic import MANY, MAX_SHOWN, NOTHING
 from webviz.edges.gui.by_topic import Pick, matching, picks
 from webviz.engine.commands import AddDisplay

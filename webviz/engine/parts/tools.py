@@ -14,8 +14,9 @@ import msgspec
 
 from webviz.api.declared import Topic, set_property
 from webviz.api.errors import Error
+from webviz.api.ports import Output
 from webviz.api.status import Level, Status
-from webviz.api.tool import Output, Stroke, Tool, ToolContext, outputs
+from webviz.api.tool import Stroke, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
