@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from psutil import Process, wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
+from robots import link_poses
 
 import webviz
 import webviz_urdf
@@ -71,7 +72,7 @@ def test_the_demo_robot_is_drawn_whole(bench) -> None:
     assert at.statuses()["URDF"][0] == "OK"
     assert f"{visuals} of {visuals} visuals" in at.statuses()["URDF"][1]
     assert "Meshes" not in at.statuses()
-    for link, pose in robot.fk().items():
+    for link, pose in link_poses(robot).items():
         for shape in robot.links[link].visuals:
             expected = webviz.compose(pose, shape.pose)
             assert at.poses()[f"{link} visual {shape.name}"].position == pytest.approx(

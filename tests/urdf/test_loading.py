@@ -122,7 +122,7 @@ def test_a_mesh_that_needs_more_memory_than_loading_may_take_is_missing(start, t
     path = tmp_path / "bomb.gltf"
     path.write_text(json.dumps(bomb))
     robot = start(with_mesh(path))[1].result(60)
-    assert "needs more memory" in robot.missing[0].reason
+    assert "exceeds the memory limit" in robot.missing[0].reason
     assert robot.links["last"].visuals
 
 

@@ -3,12 +3,12 @@
 from webviz_urdf.build import Progress
 from webviz_urdf.glb import glb_with
 from webviz_urdf.inertia import inertia_box, mass_sphere
-from webviz_urdf.joints import Joint, Mimic
 from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import (
     Inertial,
+    Joint,
     Link,
     Missing,
     Robot,
@@ -23,7 +23,6 @@ __all__ = [
     "LoadRequest",
     "Loading",
     "LoadingStopped",
-    "Mimic",
     "Missing",
     "Progress",
     "ResolveError",
