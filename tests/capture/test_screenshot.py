@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ import psutil
 import pytest
 import trimesh
 from bags import Bag, strings
+from processes import command_lines
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -63,11 +64,6 @@ def start(tmp_path: Path):
         program.end(signal.SIGKILL)
 
 
-def browser_among(processes: list[psutil.Process]) -> psutil.Process:
-    """The browser, which is the parent of its tabs."""
-    return next(p for p in processes if "--remote-debugging" in " ".join(p.cmdline()[1:]))
-
-
 def wait_for_part(folder: Path) -> None:
     """Wait until an animation is being written."""
     deadline = time.monotonic() + PATIENCE_S
@@ -76,8 +72,8 @@ def wait_for_part(folder: Path) -> None:
         time.sleep(0.05)
 
 
-def left_of(family: list[psutil.Process]) -> list[psutil.Process]:
-    _, alive = psutil.wait_procs(family, timeout=10)
+def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
+    _, alive = psutil.wait_procs(family, timeout=PATIENCE_S)
     return alive
 
 
@@ -244,8 +240,10 @@ def test_an_interrupted_run_ends_although_its_browser_hangs(
 def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
-    family = psutil.Process(program.process.pid).children(recursive=True)
-    browser_among(family).kill()
+    family = command_lines(program.process.pid)
+    # Its tabs are its child processes, with the same options and more.
+    browser = next(p for p, line in family.items() if " --remote-debugging" in line)
+    browser.kill()
     assert program.process.wait(PATIENCE_S) == 1
     assert program.output().startswith("webviz: The browser ended while it drew")
     assert program.output().count("\n") == 1

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
+from processes import command_lines
 
 from webviz.api.views import Orbit
 from webviz.shell.pictures.browser import BrowserDied, NoBrowser
@@ -173,8 +174,8 @@ def browsers() -> list[psutil.Process]:
     """The browsers that this process has started, without their helpers."""
     return [
         process
-        for process in psutil.Process().children(recursive=True)
-        if "--remote-debugging-pipe" in process.cmdline() and "--type" not in str(process.cmdline())
+        for process, line in command_lines().items()
+        if "--remote-debugging-pipe" in line and "--type" not in line
     ]
 
 
@@ -191,7 +192,7 @@ def test_a_browser_that_dies_is_told_and_replaced(
     with pytest.raises(BrowserDied, match="The browser ended while it drew"):
         filled.check_picture("scan")
     assert list(tmp_path.rglob("*.png")) == []
-    _, alive = psutil.wait_procs(helpers, timeout=10)
+    _, alive = psutil.wait_procs(helpers, timeout=60)
     assert alive == []
     filled.look(Orbit())
     assert (filled.picture() == picture).all()
