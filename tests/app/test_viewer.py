@@ -115,7 +115,7 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     assert record.getMessage() == "The frame loop did not end within 1.5 s."
 
 
-def test_waiting_ends_when_somebody_stops_it(viewer: webviz.Viewer) -> None:
+def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
     waiting = threading.Thread(target=viewer.wait)
     waiting.start()
     viewer.stop()

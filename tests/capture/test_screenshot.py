@@ -80,7 +80,7 @@ def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
 def test_a_picture_of_a_bag(run, tmp_path):
     result = run_in(tmp_path, "--bag", str(run), "--at", "2", "-o", "a.png", *SMALL)
     assert result.returncode == 0, result.stderr
-    assert result.stdout == "webviz: wrote a.png, a picture of 320 x 240 pixels.\n"
+    assert result.stdout == "webviz: wrote a.png, 1 picture of 320 x 240 pixels.\n"
     with PIL.Image.open(tmp_path / "a.png") as image:
         pixels = np.asarray(image)
     assert pixels.shape == (240, 320, 3)
@@ -139,7 +139,7 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path):
     assert result.returncode == 0, result.stderr
 
 
-def test_help_tells_every_exit_status(capsys):
+def test_help_lists_every_exit_status(capsys):
     assert cli(["screenshot", "--help"]) == 0
     text = capsys.readouterr().out
     for status in ("0  ", "1  ", "2  ", "3  ", "130"):
@@ -168,13 +168,13 @@ def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, senten
     ("arguments", "sentence"),
     [
         ([], "needs --output FILE."),
-        (["-o", "a.png", "--at", "3"], "--at is for a bag: give one with --bag"),
-        (["-o", "a.png", "--map", "m.yaml"], "--map is for a bag"),
+        (["-o", "a.png", "--at", "3"], "--at needs --bag"),
+        (["-o", "a.png", "--map", "m.yaml"], "--map needs --bag"),
         (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is not a valid time"),
         (["-o", "a.png", "--bag", "x", "--size", "big"], "Write it as 1280x720"),
         (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
-        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for animations"),
-        (["-o", "a.png", "--timeout", "-1"], "Give a number above 0."),
+        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps needs an animation"),
+        (["-o", "a.png", "--timeout", "-1"], "Must be > 0."),
         (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "`c` is not a number"),
     ],
 )
@@ -205,17 +205,17 @@ def test_a_full_disk_is_one_sentence(run, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("number", "everybody"),
+    ("number", "whole_family"),
     [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False)],
     ids=["Ctrl-C in a terminal", "SIGINT", "SIGTERM"],
 )
 def test_an_interrupted_run_leaves_no_file_and_no_process(
-    run, tmp_path, start: Callable[..., Program], number, everybody
+    run, tmp_path, start: Callable[..., Program], number, whole_family
 ):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
     family = psutil.Process(program.process.pid).children(recursive=True)
-    for process in family if everybody else ():
+    for process in family if whole_family else ():
         process.send_signal(number)
     assert program.end(number) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"

@@ -124,7 +124,7 @@ until_signal(work)
     family = family_of(program)
     assert len(family) == 2
     assert program.end(signal.SIGTERM) == 1
-    assert program.output() == "at work\nwebviz: ended by force, still busy after 3 s.\n"
+    assert program.output() == "at work\nwebviz: still busy after 3 s; exiting by force.\n"
     check_nothing_is_left(family)
 
 

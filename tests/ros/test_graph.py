@@ -67,7 +67,7 @@ executor.spin()
 
 
 class Peer:
-    """A node of somebody else, which the test spins."""
+    """Another node, spun by the test."""
 
     def __init__(self, domain: int) -> None:
         self._context = Context()
@@ -167,7 +167,7 @@ def test_an_unknown_type_is_refused_and_the_node_goes_on(source: RosSource) -> N
 
 def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     def answer(request: Any, response: Any) -> Any:
-        response.success, response.message = request.data, "as told"
+        response.success, response.message = request.data, "done"
         return response
 
     peer.node.create_service(SetBool, "/switch", answer)
@@ -176,7 +176,7 @@ def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     future: Future[bytes] = source.graph.call("/switch", "std_srvs/srv/SetBool", request, 10.0)
     until(future.done, peer.turn)
     response = decode("std_srvs/srv/SetBool_Response", future.result())
-    assert (response.success, response.message) == (True, "as told")
+    assert (response.success, response.message) == (True, "done")
 
 
 def test_a_service_that_no_node_offers_is_named(source: RosSource) -> None:

@@ -184,7 +184,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     while len(seen) < 10 or len(set(seen[-10:])) > 1:  # it goes on, or has not begun
         scene.link.update("/webviz/a", {"points": blob})
         scene.link.flush()
-        time.sleep(0.05)  # long enough to be sent, if anybody reads
+        time.sleep(0.05)  # long enough to be sent, if the browser reads
         seen.append(min(cursors.values(), default=-len(seen)))
     for index in range(MAX_TOMBSTONES + 1000):
         scene.link._queue(wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
@@ -194,7 +194,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     wait_until(lambda: scene.link.live_messages < 200)
 
 
-def test_nobody_has_to_acknowledge_in_an_empty_room(scene: Scene) -> None:
+def test_acknowledging_without_browsers_returns_at_once(scene: Scene) -> None:
     scene.link.acknowledge(timeout=0.0)
 
 

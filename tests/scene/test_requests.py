@@ -66,7 +66,7 @@ def test_two_headers_of_one_name_are_no_error(ask: Ask) -> None:
     assert b"Content-Encoding: gzip" in head
 
 
-def test_the_page_may_be_in_no_other_page_and_tells_no_other_site_of_itself(ask: Ask) -> None:
+def test_the_page_cannot_be_embedded_and_sends_no_referrer(ask: Ask) -> None:
     _, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + b"\r\n")
     assert b"frame-ancestors 'none'" in head
     assert b"connect-src 'self' ws://localhost wss://localhost data: blob:" in head

@@ -94,9 +94,9 @@ def test_each_session_has_a_domain_of_its_own() -> None:
     assert os.environ.get("ROS_DOMAIN_ID") == before
 
 
-def test_a_domain_where_somebody_is_already_is_left_alone() -> None:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as somebody:
-        somebody.bind(("", 7400 + 250 * 42 + 10))
+def test_a_domain_in_use_is_skipped() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(("", 7400 + 250 * 42 + 10))
         taken = set()
         for _ in range(98):
             with isolated_domain() as domain:

@@ -139,7 +139,7 @@ def test_an_update_leaves_what_still_passes(filled: Stage, tmp_path: Path, album
     assert path.stat().st_size < 15_000
 
 
-def test_a_display_that_nobody_would_miss_is_named(filled: Stage, album: Album) -> None:
+def test_a_display_that_makes_no_difference_is_named(filled: Stage, album: Album) -> None:
     filled.check_picture("scan", each_display=True)
     filled.set("style", "Points", "Scan")
     filled.set("size_pixels", 1.0, "Scan")
@@ -179,7 +179,7 @@ def browsers() -> list[psutil.Process]:
     ]
 
 
-def test_a_browser_that_dies_is_told_and_replaced(
+def test_a_browser_that_dies_is_reported_and_replaced(
     filled: Stage, darkroom: Darkroom, tmp_path: Path
 ) -> None:
     before = browsers()
