@@ -232,7 +232,7 @@ def test_a_program_uses_a_tool_as_a_page_does(
     assert said == "Published to /goal_pose, 1 subscription."
     ((_, goal),) = graph.published
     assert (goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.z) == (1.0, 2.0, 1.0)
-    with pytest.raises(webviz.Error, match=r"There is no tool `2D Gaol Pose`: did you mean"):
+    with pytest.raises(webviz.Error, match=r"Unknown tool `2D Gaol Pose`: did you mean"):
         viewer.tool("2D Gaol Pose").send(0.0, 0.0)
     with pytest.raises(webviz.Error, match="a stroke has 1 to 1000 points within"):
         viewer.tool("2D Goal Pose").send(math.nan, 0.0)

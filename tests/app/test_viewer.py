@@ -166,7 +166,7 @@ def test_time_stands_still_while_paused(viewer: webviz.Viewer, source: HandFedSo
 def test_a_config_is_saved_changed_and_opened_again(
     viewer: webviz.Viewer, tmp_path: Path, refused: Refused
 ) -> None:
-    assert refused(viewer.save) == "This config has no file yet: give it a name."
+    assert refused(viewer.save) == "This config has no file yet. Choose a name."
     viewer.add("Grid", name="Floor")
     path = tmp_path / "floor.yaml"
     assert viewer.save(path) == path
@@ -235,4 +235,4 @@ def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused:
     )
     viewer.remove_view("Above")
     assert viewer.views == {}
-    assert refused(lambda: viewer.save_view("Here")).startswith("No browser is open")
+    assert refused(lambda: viewer.save_view("Here")).startswith("No browser is connected")

@@ -75,7 +75,7 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
 def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:
     answer = do(bench(Axes(name="A")), Save()).answer
     assert answer.level is Level.ERROR
-    assert answer.text == "This config has no file yet: give it a name."
+    assert answer.text == "This config has no file yet. Choose a name."
 
 
 def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
@@ -217,7 +217,7 @@ def test_a_session_that_cannot_be_kept_is_logged(
     bench: Callable[..., Any], caplog: pytest.LogCaptureFixture
 ) -> None:
     bench(Axes(name="A"), autosave=Path("/dev/null/last.yaml")).viewer.close()
-    assert "The session is not kept" in caplog.text
+    assert "The session is not saved" in caplog.text
 
 
 def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any]) -> None:

@@ -407,7 +407,7 @@ def test_a_saved_view_is_chosen_by_a_parameter(
     client.until(lambda: client.get("view") == "Close", "the parameter has the view")
     assert client.set("view", "Above") == ""
     assert viewer.view == viewer.views["Above"]
-    assert client.set("view", "Abve") == "There is no saved view `Abve`: did you mean `Above`?"
+    assert client.set("view", "Abve") == "Unknown saved view `Abve`: did you mean `Above`?"
     assert client.set("view", "") != ""
     assert client.get("view") == "Above"
     viewer.view = {"distance": 7.0}
@@ -417,7 +417,7 @@ def test_a_saved_view_is_chosen_by_a_parameter(
 def test_a_view_at_the_start_that_is_not_saved_is_refused(
     open_viewer: Callable[..., webviz.Viewer],
 ) -> None:
-    with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: none are known$"):
+    with pytest.raises(webviz.Error, match=r"^Unknown saved view `Above`: none are known$"):
         open_viewer(parameters=["view:=Above"])
 
 

@@ -1,4 +1,4 @@
-"""What people ask of a viewer: queued by the panel, services or Python, done by the frame loop."""
+"""The commands of a viewer: sent by the panel, ROS or Python, carried out by the frame loop."""
 
 from webviz.engine.commands.command import PROGRAM, Command, Sender
 from webviz.engine.commands.displays import (

@@ -1,4 +1,4 @@
-"""What is about tools."""
+"""Commands for tools."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class UseTool(Command):
     Args:
         tool: id of the tool, or its name.
         points, yaw, keys: of the stroke.
-        tell: called with what came of it, from any thread, so it must not block.
+        tell: called with the result from any thread; must not block.
     """
 
     tool: str

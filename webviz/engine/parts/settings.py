@@ -1,4 +1,4 @@
-"""What holds for the scene as a whole: the fixed frame, the background, the frame rate."""
+"""The settings of the scene as a whole: fixed frame, background, frame rate."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from webviz.files.config import ConfigError, Settings
 
 
 class SettingsPart(Part):
-    """The settings of a config at work."""
+    """The current settings."""
 
     name = "Settings"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self.settings = Settings()
-        """All that is shown besides displays."""
+        """Everything in the config except displays and tools."""
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {
             SetFixedFrame: self._set_fixed_frame,
             SetBackground: self._set_background,

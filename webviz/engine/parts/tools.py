@@ -1,4 +1,4 @@
-"""The tools of the toolbar, and what they publish."""
+"""The tools of the toolbar, and their publishers."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ log = logging.getLogger("webviz")
 MAX_POINTS = 1000
 """Of a stroke."""
 DEPTH = 5
-"""Of a publisher, as RViz has it."""
+"""Queue depth of a publisher, RViz's."""
 Tell = Callable[[Status], None]
 
 
 class ToolsPart(Part):
-    """All tools; each browser has its own active one, which only its page knows."""
+    """All tools. Which one is active is known to each page alone."""
 
     name = "Tools"
 
@@ -47,11 +47,11 @@ class ToolsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {UseTool: self._use, SetToolProperty: self._set}
 
     def show(self, items: Sequence[ToolItem]) -> None:
-        """Have these tools instead of those before."""
+        """Replace all tools."""
         self._items = {}
         for item in items:
             self._made += 1
@@ -60,7 +60,7 @@ class ToolsPart(Part):
                 log.warning("%s", item.reason)
 
     def items(self) -> list[ToolItem]:
-        """What to save: a snapshot, for any thread."""
+        """The tools to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
 
     def keep_up(self, commanded: bool) -> None:
@@ -76,7 +76,7 @@ class ToolsPart(Part):
             self.core.source.graph.advertise(wanted)
 
     def state(self) -> Mapping[str, Any]:
-        """What the toolbar shows."""
+        """The buttons of the toolbar."""
         return {"tools": tuple(_button(id, tool) for id, tool in self._tools().items())}
 
     def statuses(self) -> Mapping[str, Status]:
@@ -93,7 +93,7 @@ class ToolsPart(Part):
             return tools[wanted]
         names = {tool.name: tool for tool in tools.values()}
         if wanted not in names:
-            raise ConfigError(f"There is no tool `{wanted[:80]}`: {nearest(wanted, names)}")
+            raise ConfigError(f"Unknown tool `{wanted[:80]}`: {nearest(wanted, names)}")
         return names[wanted]
 
     def _use(self, command: UseTool, sender: Sender) -> None:
@@ -122,7 +122,7 @@ class ToolsPart(Part):
         sent.add_done_callback(lambda sent: tell(_outcome(topic.name, sent)))
 
     def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
-        """Where an output goes; None if the name of its topic is not valid."""
+        """The outlet of an output; None if its topic has no valid name."""
         try:
             name = self.core.source.resolve(topic.name) if topic.name else ""
         except ValueError:
@@ -151,7 +151,7 @@ def _button(id: str, tool: Tool) -> ToolButton:
 
 
 def _outcome(topic: str, sent: Future[int]) -> Status:
-    """What to report of a message that was published."""
+    """The result of publishing a message."""
     try:
         count = sent.result()
     except (Error, CancelledError) as error:

@@ -209,7 +209,7 @@ class Running:
         if isinstance(view, str):
             if view not in (saved := self.state.settings.views):
                 hint = config_file.nearest(view, saved)
-                raise Error(f"There is no saved view `{view}`: {hint}")
+                raise Error(f"Unknown saved view `{view}`: {hint}")
             view = saved[view]
         looked = None if view is None else checked_view(view)
         pixels = self._snapshots.take(self.url, size, looked)
