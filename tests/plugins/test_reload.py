@@ -186,7 +186,7 @@ def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Any, plu
     plugin.edit(("class Fence", "class Polygon"))
     assert type(shown(b, plugin)) is not old
     assert "Plugin" not in b.statuses(0)
-    assert "has no display Fence any more" in b.statuses(1)["Plugin"][1]
+    assert "no longer has a display Fence" in b.statuses(1)["Plugin"][1]
 
 
 def test_code_that_raises_is_a_status_and_the_old_picture_stays(
