@@ -35,11 +35,7 @@ class Scan(NamedTuple):
 
 
 def scan(
-    world: World,
-    first: Pose2D,
-    last: Pose2D,
-    settings: LidarSettings,
-    random: np.random.Generator,
+    world: World, first: Pose2D, last: Pose2D, settings: LidarSettings, random: np.random.Generator
 ) -> Scan:
     """Measures one revolution.
 

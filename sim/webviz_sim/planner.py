@@ -212,10 +212,7 @@ def obstacle_distance(obstacles: NDArray[np.bool_], reach: int) -> NDArray[np.fl
 
 def _shifts(steps: int) -> list[tuple[slice, slice]]:
     """Pairs of row ranges: rows, and the rows that many steps before or after them."""
-    return [
-        (slice(steps, None), slice(None, -steps)),
-        (slice(None, -steps), slice(steps, None)),
-    ]
+    return [(slice(steps, None), slice(None, -steps)), (slice(None, -steps), slice(steps, None))]
 
 
 def _resample(points: NDArray[np.float64]) -> NDArray[np.float64]:

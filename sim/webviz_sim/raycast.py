@@ -35,10 +35,7 @@ def cast_rays(
     distances = np.full(len(angles), np.inf)
     distances[_lookup(occupied, np.floor(y), np.floor(x))] = 0.0
     incidence = np.ones(len(angles))
-    for grid, start, other, along, across in (
-        (occupied, x, y, dx, dy),
-        (occupied.T, y, x, dy, dx),
-    ):
+    for grid, start, other, along, across in ((occupied, x, y, dx, dy), (occupied.T, y, x, dy, dx)):
         limit = np.minimum(distances, reach)
         found = _first_crossing(grid, start, other, along, across, limit)
         nearer = found < distances

@@ -6,15 +6,7 @@ from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.robot import (
-    Inertial,
-    Joint,
-    Link,
-    Missing,
-    Robot,
-    RobotDescriptionError,
-    Shape,
-)
+from webviz_urdf.robot import Inertial, Joint, Link, Missing, Robot, RobotDescriptionError, Shape
 
 __all__ = [
     "Inertial",

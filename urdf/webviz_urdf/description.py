@@ -11,6 +11,7 @@ from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 from trimesh.transformations import quaternion_from_matrix
 
 from webviz.api.nodes import Pose
+from webviz.data.words import listed
 from webviz_urdf.document import parse_document
 from webviz_urdf.robot import JOINT_TYPES, Joint, Missing, RobotDescriptionError
 
@@ -141,6 +142,5 @@ def _broken_mimics(joints: list[yourdfpy.Joint]) -> list[str]:
     return warnings
 
 
-def _listed(names: list[str], most: int = 5) -> str:
-    shown = ", ".join(f"'{name}'" for name in names[:most])
-    return shown + (f" and {len(names) - most} more" if len(names) > most else "")
+def _listed(names: list[str]) -> str:
+    return listed([f"'{name}'" for name in names], 5)

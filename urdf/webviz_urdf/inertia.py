@@ -50,9 +50,7 @@ def inertia_box(link: Link) -> Mesh | None:
     return _placed(primitives.box(*size.tolist()), axes, inertial)
 
 
-def _principal(
-    inertia: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _principal(inertia: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Principal moments (3,) and, as columns of (3, 3), right-handed principal axes.
 
     If the products of inertia are only noise, the given axes are kept: equal moments, as of a cube,
