@@ -80,7 +80,7 @@ def test_without_file_descriptors_browsers_are_refused_and_served_again_later() 
         [sys.executable, "-c", FEW_FILES], capture_output=True, text=True, timeout=60, check=True
     )
     assert run.stdout.split() == ["HTTP/1.1", "503", "HTTP/1.1", "200"]
-    assert run.stderr == "Connections are turned away: Too many open files.\n"
+    assert run.stderr == "Refused a connection: Too many open files.\n"
 
 
 def test_a_browser_may_send_a_burst_and_then_a_steady_rate() -> None:

@@ -118,4 +118,4 @@ def test_a_sparing_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixtur
     for second in (0.0, 1.0, 59.0, 60.5):
         at(second, "It rains")
     at(61.0, "It snows")
-    assert caplog.messages == ["It rains", "It rains (2 more like it before)", "It snows"]
+    assert caplog.messages == ["It rains", "It rains (2 similar lines omitted)", "It snows"]
