@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from webviz.api.context import ColorScale, Context, Group, Placement
     from webviz.api.declared import Color, Prop, Topic
-    from webviz.api.display import Display, Input, Keep, Sync
+    from webviz.api.display import Display, Keep, Sync
     from webviz.api.errors import Error
     from webviz.api.frames import FramePoses, Frames, compose
     from webviz.api.nodes import (
@@ -30,9 +30,10 @@ if TYPE_CHECKING:
         Solid,
     )
     from webviz.api.panel import Panel, Send, Ui
+    from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
     from webviz.api.status import Level, Status
-    from webviz.api.tool import Output, Stroke, Tool, ToolContext
+    from webviz.api.tool import Stroke, Tool, ToolContext
     from webviz.engine.state import State
     from webviz.shell.app.viewer import Viewer
     from webviz.shell.pictures.capture import capture
@@ -85,7 +86,7 @@ _HOMES = {
     "webviz.shell.app.viewer": ("Viewer",),
     "webviz.api.context": ("ColorScale", "Context", "Group", "Placement"),
     "webviz.api.declared": ("Color", "Prop", "Topic"),
-    "webviz.api.display": ("Display", "Input", "Keep", "Sync"),
+    "webviz.api.display": ("Display", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),
     "webviz.api.frames": ("FramePoses", "Frames", "compose"),
     "webviz.api.nodes": (
@@ -104,9 +105,10 @@ _HOMES = {
         "Solid",
     ),
     "webviz.api.panel": ("Panel", "Send", "Ui"),
+    "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Status"),
-    "webviz.api.tool": ("Output", "Stroke", "Tool", "ToolContext"),
+    "webviz.api.tool": ("Stroke", "Tool", "ToolContext"),
     "webviz.engine.state": ("State",),
     "webviz.shell.pictures.capture": ("capture",),
 }

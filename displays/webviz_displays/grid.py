@@ -76,18 +76,14 @@ class Grid(Display):
         plane, normal = _inner(*wanted)
         reach = self.cell_size * max(plane, normal) + max(map(abs, self.offset))
         if reach > REACH_M:
-            ctx.error(
-                "Grid",
-                f"The grid reaches {reach:g} m. Choose smaller cells or a smaller offset.",
-            )
+            problem = f"The grid reaches {reach:g} m. Choose smaller cells or a smaller offset."
+            ctx.error("Grid", problem)
             return
         segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
         color = faded_color(self.color, self.alpha)
         group = ctx.follow(frame_of(self.reference_frame))
-        if self.line_style == "Lines":
-            group.lines("grid", segments, color)
-        else:
-            group.lines("grid", segments, color, self.line_width, "m")
+        width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
+        group.lines("grid", segments, color, width, unit)
         if (plane, normal) == wanted:
             ctx.ok("Grid", f"{_count(plane, normal)} lines.")
             return

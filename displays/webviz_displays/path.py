@@ -10,14 +10,12 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
+from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import evenly
-from webviz_displays.shared.arrows import along_x
 from webviz_displays.shared.colors import faded_color
-from webviz_displays.shared.geometry import (
-    is_drawable,
-    origin_near,
-    transformed,
-)
+from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
+
+F64 = NDArray[np.float64]
 
 MOST_POSES = 100_000
 """Poses drawn per path; they take up to 50 ms of the frame loop."""
@@ -75,8 +73,7 @@ class Path(Display):
         Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Length of the arrows' heads."),
     ] = 0.2
     shaft_diameter: Annotated[
-        float,
-        Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the shafts."),
+        float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the shafts.")
     ] = 0.1
     head_diameter: Annotated[
         float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the heads.")
@@ -100,7 +97,7 @@ class Path(Display):
             more = f", as {bad.sum() - 1} more" if bad.sum() > 1 else ""
             ctx.error("Path", f"{_fault(path, index)}{more}: the path is not drawn.")
             return
-        ctx.ok("Path", f"Showing {count} pose{'s' if count != 1 else ''}.")
+        ctx.ok("Path", f"Showing {counted(count, 'pose')}.")
         positions, orientations = path.poses.positions, path.poses.orientations
         if count > MOST_POSES:
             ctx.warn("Path", f"Showing {MOST_POSES} of {count} poses, evenly picked.")
@@ -117,20 +114,13 @@ class Path(Display):
         color = faded_color(self.color, self.alpha)
         if self.alpha == 0:
             ctx.warn("Path", "The line is invisible: alpha is 0. Increase it to show the line.")
-        elif self.line_style == "Lines":
-            group.strip("line", xyz, color)
         else:
-            group.strip("line", xyz, color, self.line_width, "m")
+            width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
+            group.strip("line", xyz, color, width, unit)
         if self.pose_style != "None":
             self._draw_poses(xyz, orientations, group, ctx)
 
-    def _draw_poses(
-        self,
-        xyz: NDArray[np.float64],
-        xyzw: NDArray[np.float64],
-        group: Group,
-        ctx: Context,
-    ) -> None:
+    def _draw_poses(self, xyz: F64, xyzw: F64, group: Group, ctx: Context) -> None:
         wxyz, ok = normalized(w_first(xyzw))
         if not ok.all():
             ctx.warn(
@@ -141,14 +131,9 @@ class Path(Display):
         if self.pose_style == "Axes":
             group.axes("poses", xyz, wxyz, self.length, self.radius)
         else:
-            group.arrows(
-                "poses",
-                along_x(xyz, matrices(wxyz), self.shaft_length + self.head_length),
-                self.pose_color,
-                self.shaft_diameter / 2,
-                self.head_diameter / 2,
-                self.head_length,
-            )
+            segments = along_x(xyz, matrices(wxyz), self.shaft_length + self.head_length)
+            radii = self.shaft_diameter / 2, self.head_diameter / 2
+            group.arrows("poses", segments, self.pose_color, *radii, self.head_length)
 
 
 def _fault(path: messages.Path, index: int) -> str:

@@ -8,5 +8,5 @@ from webviz_sim.node import main
 status = main()
 sys.stdout.flush()
 sys.stderr.flush()
-# Nothing is held any more, and to take the interpreter apart with ROS in it can take seconds.
+# Everything is closed; finalising an interpreter with ROS in it can take seconds.
 os._exit(status)

@@ -13,14 +13,14 @@ from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import String
 
 from webviz.edges.ros.types import message_class
-from webviz_sim import cdr, messages
+from webviz_sim import messages
 from webviz_sim.description import demo_description, read_joints
 from webviz_sim.lidar import LidarSettings, scan
 from webviz_sim.pose import Pose2D
 from webviz_sim.simulation import Simulation
 
 LOCALISATION_RATE = 10.0  # Hz, of map -> odom: AMCL sends it with every scan
-PATH_RATE = 2.0  # Hz, of /path, so that who comes late sees it too
+PATH_RATE = 2.0  # Hz, of /path, so that late subscribers receive it too
 
 _SECOND = 1_000_000_000
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -30,13 +30,13 @@ class Broadcaster:
     """Publishes the state of a simulation after each step."""
 
     def __init__(self, node: Node, simulation: Simulation, values: dict[str, Any], now: int):
-        """Creates the publishers and publishes what is latched.
+        """Creates the publishers and publishes the latched messages.
 
         Args:
             node: The node to publish from.
-            simulation: What to publish.
-            values: The node's parameters by name; read anew at every step.
-            now: The time in nanoseconds, for the stamps of what is latched.
+            simulation: The simulation to publish.
+            values: The node's parameters by name; read at every step.
+            now: The stamp of the latched messages in nanoseconds.
         """
         self._simulation = simulation
         self._values = values
@@ -47,12 +47,12 @@ class Broadcaster:
 
         urdf = demo_description()
         joints = read_joints(urdf)
-        self._fixed = [joint.transform() for joint in joints if joint.kind == "fixed"]
+        fixed = [joint.transform(now) for joint in joints if joint.kind == "fixed"]
         by_name = {joint.name: joint for joint in joints}
         self._wheels = [by_name[name] for name in messages.WHEEL_JOINTS]
         [self._scanner] = [
             Pose2D(*transform.translation[:2])
-            for transform in self._fixed
+            for transform in fixed
             if transform.child == messages.SCANNER
         ]
 
@@ -69,39 +69,35 @@ class Broadcaster:
         if values["publish_clock"]:
             self._clock = node.create_publisher(Clock, "/clock", 10)
 
-        self._tf_static.publish(cdr.tf_message((now, transform) for transform in self._fixed))
+        self._tf_static.publish(messages.tf(fixed))
         self._description.publish(String(data=urdf))
         self._map.publish(messages.occupancy_grid(simulation.world, now))
 
     def publish(self, now: int) -> None:
-        """Publishes what is due.
-
-        Args:
-            now: The time in nanoseconds that the simulation has reached.
-        """
+        """Publishes the messages that are due; `now` is the simulation's time in nanoseconds."""
         simulation, robot = self._simulation, self._simulation.robot
         values, time = self._values, self._simulation.time
         if self._clock:
-            self._clock.publish(Clock(clock=messages.stamp(now)))
+            self._clock.publish(messages.clock(now))
         self._scanner_poses.append(robot.pose @ self._scanner)
 
-        transforms = [(now, messages.planar("odom", "base_link", robot.odometry))]
+        transforms = [messages.planar("odom", "base_link", now, robot.odometry)]
         if self._localisation_due(time, LOCALISATION_RATE):
-            # AMCL dates its transform ahead, so that it holds until the next one.
+            # AMCL stamps its transform ahead, so that it is valid until the next one.
             until = now + round(values["transform_tolerance"] * _SECOND)
             correction = robot.pose @ robot.odometry.inverse()
-            transforms.append((until, messages.planar("map", "odom", correction)))
+            transforms.append(messages.planar("map", "odom", until, correction))
         if self._joints_due(time, values["joint_state_rate"]):
             self._joints.publish(messages.joint_state(robot, now))
             turned = zip(self._wheels, robot.wheels, strict=True)
-            transforms += [(now, joint.transform(angle)) for joint, angle in turned]
-        self._tf.publish(cdr.tf_message(transforms))
+            transforms += [joint.transform(now, angle) for joint, angle in turned]
+        self._tf.publish(messages.tf(transforms))
         self._odometry.publish(messages.odometry(robot, now))
 
         if self._scan_due(time, values["scan_rate"]):
             self._publish_scan(now)
         if self._path_due(time, PATH_RATE) and len(simulation.path) > 1:
-            self._path.publish(cdr.path_message(now, simulation.path))
+            self._path.publish(messages.path(simulation.path, now))
 
     def _publish_scan(self, now: int) -> None:
         values = self._values
@@ -123,7 +119,7 @@ class Broadcaster:
 
 
 class _Schedule:
-    """Says when something that happens at a rate is due, in simulated seconds."""
+    """Whether something that happens at a rate is due, in simulated seconds."""
 
     def __init__(self):
         self._next = 0.0

@@ -24,11 +24,11 @@ class Follower:
     """
 
     def __init__(self, path: NDArray[np.float64], yaw: float | None = None):
-        """Starts at the beginning.
+        """Starts at the beginning of the path.
 
         Args:
             path: Points in the map frame, shape (n, 2), n at least 2.
-            yaw: The direction to turn to at the end; None leaves it as it is.
+            yaw: Heading at the end in rad; None for any.
         """
         self._path = path
         self._yaw = yaw
@@ -45,10 +45,10 @@ class Follower:
         """The linear and angular velocity for the next step, in m/s and rad/s.
 
         Args:
-            pose: Where the robot is, in the map frame.
-            velocity: Its linear and angular velocity now.
-            speed: The fastest it may go, in m/s.
-            seconds: How long the step is.
+            pose: The robot in the map frame.
+            velocity: Its current linear and angular velocity.
+            speed: Maximum linear velocity in m/s.
+            seconds: Length of the step.
         """
         linear, angular = self._wanted(pose, speed)
         return (
@@ -58,7 +58,7 @@ class Follower:
 
     def _wanted(self, pose: Pose2D, speed: float) -> tuple[float, float]:
         here = pose.x, pose.y
-        # Look a little way ahead only, lest a path that comes back past itself is cut short.
+        # Look ahead a little only, so that a path that crosses itself is not cut short.
         window = self._path[self._passed : self._passed + 30]
         distances = np.hypot(*(window - here).T)
         nearest = int(distances.argmin())

@@ -14,7 +14,7 @@ from webviz_sim.world import World
 
 @dataclass
 class LidarSettings:
-    """What a scanner is like."""
+    """Properties of a scanner."""
 
     beams: int = 360
     """Beams of one revolution; the first looks backwards (-pi), the others follow to the left."""
@@ -29,22 +29,18 @@ class Scan(NamedTuple):
     """One revolution, as in sensor_msgs/LaserScan."""
 
     ranges: NDArray[np.float32]
-    """Shape (beams,), metres; infinite where nothing is near enough (REP 117)."""
+    """Shape (beams,), metres; infinite if nothing is within range (REP 117)."""
     intensities: NDArray[np.float32]
     """Shape (beams,), 0 to 100."""
 
 
 def scan(
-    world: World,
-    first: Pose2D,
-    last: Pose2D,
-    settings: LidarSettings,
-    random: np.random.Generator,
+    world: World, first: Pose2D, last: Pose2D, settings: LidarSettings, random: np.random.Generator
 ) -> Scan:
     """Measures one revolution.
 
     Args:
-        world: Where.
+        world: The world to scan.
         first: The scanner in the map frame at the first beam.
         last: The scanner one revolution later; in between it moves steadily.
         settings: The scanner.
@@ -61,7 +57,7 @@ def scan(
         settings.range_max / world.resolution,
     )
     ranges = distances * world.resolution
-    # A dull surface returns the less, the flatter the beam meets it and the farther it is.
+    # A matt surface returns less of a beam that is flat or comes from far away.
     intensities = 100.0 * incidence / (1.0 + (ranges / 4.0) ** 2)
     ranges = ranges + settings.noise * random.standard_normal(settings.beams)
     ranges[(ranges < settings.range_min) | (ranges > settings.range_max)] = np.inf

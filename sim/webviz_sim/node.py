@@ -15,8 +15,8 @@ from webviz_sim.world import WorldError
 if TYPE_CHECKING:
     from webviz_sim.sim_node import SimNode
 
-PATIENCE = 3.0  # s; from the end of standard input to the end by force
-MAX_LAG = 0.5  # s; a simulation farther behind than this (a suspended laptop) skips the rest
+PATIENCE = 3.0  # s from the end of standard input to a forced exit
+MAX_LAG = 0.5  # s; a simulation that is later than this (a suspended laptop) skips time
 
 
 def main(args: list[str] | None = None) -> int:
@@ -30,7 +30,7 @@ def main(args: list[str] | None = None) -> int:
     """
     args = sys.argv[1:] if args is None else args
     stopping = threading.Event()
-    # Nothing is held before ROS starts, and an exception in the middle of an import may be lost.
+    # Before ROS starts there is nothing to close, and an exception during an import may be lost.
     _on_signal(lambda: os._exit(0))
     try:
         import rclpy
@@ -52,7 +52,7 @@ def main(args: list[str] | None = None) -> int:
         if options.until_stdin_closes:
             threading.Thread(target=_end_with_stdin, daemon=True).start()
         _on_signal(stopping.set)
-        # rclpy's own handlers would shut the context down under the node's feet.
+        # rclpy's own handlers would shut down the context while the node uses it.
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
         reason = " ".join(str(error).split()).partition(", at /")[0]
@@ -66,7 +66,7 @@ def main(args: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     except InvalidParameterValueException as error:
-        # The sentence of options.refusal, which rclpy puts between words of its own.
+        # rclpy embeds the sentence of options.refusal in its own text.
         sentence = str(error).partition("Reason: ")[2].rpartition(":")[0]
         print(f"Invalid parameter: {sentence}", file=sys.stderr)
         return 1
@@ -89,7 +89,7 @@ def _run(node: "SimNode", stopping: threading.Event) -> None:
         due += period
         if abs(due - time.time_ns()) > MAX_LAG * 1e9:
             due = time.time_ns()
-        # At least once, so that commands are heard even where steps take longer than they may.
+        # At least once, so that commands are processed even if steps take too long.
         while True:
             executor.spin_once(timeout_sec=max(0.0, (due - time.time_ns()) * 1e-9))
             if stopping.is_set() or time.time_ns() >= due:
@@ -106,7 +106,7 @@ def _on_signal(action: Callable[[], object]) -> None:
 
 
 def _end_with_stdin() -> None:
-    """Ends the simulator when the program that started it has ended, in whatever way."""
+    """Ends the simulator when the program that started it has ended, even if it was killed."""
     while os.read(sys.stdin.fileno(), 1024):
         pass
     os.kill(os.getpid(), signal.SIGTERM)
@@ -131,6 +131,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--until-stdin-closes",
         action="store_true",
-        help="end also when standard input ends, which the program that started it holds",
+        help="also exit when standard input is closed, as when the starting program ends",
     )
     return parser

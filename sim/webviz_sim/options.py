@@ -1,4 +1,4 @@
-"""The ROS parameters of the simulator: what there is, and what values make sense."""
+"""The ROS parameters of the simulator and their valid values."""
 
 import math
 from dataclasses import dataclass
@@ -21,16 +21,16 @@ class Option:
     read_only: bool = False
 
     def refusal(self, name: str, value: Any) -> str | None:
-        """Why a value will not do, in one sentence; None if it will."""
+        """Why a value is invalid, in one sentence; None if it is valid."""
         kind = type(self.default)
         if kind is list:
             if len(value) in (0, 3) and all(map(math.isfinite, value)):
                 return None
             return f"{name} must be [x, y, yaw] or [], not {list(value)}."
-        # Who writes 10 for a rate means 10.0.
+        # A rate of 10 means 10.0.
         if type(value) is not kind and not (kind is float and type(value) is int):
             return f"{name} must be {_KINDS[kind]}, not {value!r}."
-        # So written that it refuses NaN.
+        # Written so that NaN is refused.
         if isinstance(value, int | float) and not self.low <= value <= self.high:
             return f"{name} must be between {self.low:g} and {self.high:g}, not {value:g}."
         return None
@@ -47,21 +47,21 @@ OPTIONS = {
         "Where the robot starts in the map, [x, y, yaw] in m and rad; []: any free spot.",
         read_only=True,
     ),
-    "seed": Option(0, "Of all noise.", 0, 2**32 - 1, read_only=True),
+    "seed": Option(0, "Seed of all noise.", 0, 2**32 - 1, read_only=True),
     "rate": Option(50.0, "Steps, /odom and /tf per second.", 1, 500, read_only=True),
     "stamped_cmd_vel": Option(
         False, "/cmd_vel is a TwistStamped instead of a Twist.", read_only=True
     ),
     "publish_clock": Option(
         False,
-        "Publish /clock, from 0, and stamp with it instead of the system's time.",
+        "Publish /clock from 0, and use it for stamps instead of the system's time.",
         read_only=True,
     ),
-    "tour": Option(True, "Tour the building while no command arrives."),
+    "tour": Option(True, "Tour the building while no commands arrive."),
     "tour_speed": Option(0.35, "Speed along a path in m/s.", 0.05, 0.6),
-    "cmd_vel_timeout": Option(0.5, "How long a /cmd_vel holds, in s.", 0.05, 10),
+    "cmd_vel_timeout": Option(0.5, "How long a /cmd_vel is valid, in s.", 0.05, 10),
     "odom_drift": Option(0.0, "Error of the odometry, as a fraction of the motion.", 0, 1),
-    "transform_tolerance": Option(0.2, "How far map -> odom is dated ahead, in s.", 0, 10),
+    "transform_tolerance": Option(0.2, "How far map -> odom is stamped ahead, in s.", 0, 10),
     "joint_state_rate": Option(20.0, "/joint_states per second.", 0.1, 500),
     "scan_rate": Option(10.0, "Revolutions of the scanner, /scan, per second.", 0.1, 100),
     "scan_beams": Option(360, "Beams of one revolution.", 1, 20_000),
@@ -70,17 +70,17 @@ OPTIONS = {
     "scan_noise": Option(0.01, "Standard deviation of a range, in m.", 0, 10),
     "scan_sweep": Option(
         False,
-        "Each beam at its own time, as a turning scanner measures, with time_increment set; "
-        "otherwise all beams at the stamp.",
+        "Measure each beam at its own time, as a rotating scanner does, and set time_increment; "
+        "otherwise measure all beams at the stamp.",
     ),
 }
 
 
 def refusal(values: dict[str, Any]) -> str | None:
-    """Why some values will not do, alone or together, in one sentence; None if they will.
+    """Why values are invalid, alone or together, in one sentence; None if they are valid.
 
     Args:
-        values: By name. Those not given, and names which are not in `OPTIONS`, are not looked at.
+        values: By name; unknown names are ignored.
     """
     for name, value in values.items():
         if name in OPTIONS and (reason := OPTIONS[name].refusal(name, value)):

@@ -11,7 +11,7 @@ from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS
 from webviz_sim.world import World
 
-MARGIN = 0.08  # m between the robot and a wall, at the least
+MARGIN = 0.08  # m, minimum distance between the robot and a wall
 COMFORT = 0.55  # m of clearance beyond which more is not worth a detour
 CELL = 0.1  # m, edge of a planning cell, unless the world's cells are larger
 SPACING = 0.05  # m between the points of a path
@@ -44,16 +44,16 @@ class Planner:
         self._cost = 1.0 + 3.0 * np.clip(near, 0.0, 1.0)
 
     def plan(self, start: Pose2D, goal: Pose2D) -> NDArray[np.float64] | None:
-        """Plans a path which keeps the robot clear of walls and of unknown space.
+        """Plans a path that keeps clear of walls and unknown space.
 
         Args:
-            start: In the map frame. Where the robot has no clearance, the path begins at the
-                nearest place where it has.
-            goal: In the map frame; likewise. The yaw does not matter.
+            start: In the map frame. If the robot has no clearance there, the path begins at the
+                nearest place with clearance.
+            goal: In the map frame; likewise. The yaw is ignored.
 
         Returns:
-            Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None where
-            there is no way.
+            Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None if there
+            is no path.
         """
         source, target = self._nearest_open(start), self._nearest_open(goal)
         if source is None or target is None:
@@ -71,13 +71,13 @@ class Planner:
         return self._smooth(_resample(points))
 
     def spread(self, start: Pose2D, count: int) -> list[Pose2D]:
-        """Chooses places to visit: reachable, with room around, and far from one another.
+        """Chooses places to visit: reachable, with room around them, and far apart.
 
-        Each place is the one farthest from all chosen before (farthest-point sampling).
+        Each place is the farthest from all previous ones (farthest-point sampling).
 
         Args:
             start: In the map frame.
-            count: How many places at most.
+            count: Maximum number of places.
         """
         source = self._nearest_open(start)
         if source is None:
@@ -102,12 +102,12 @@ class Planner:
         return Pose2D(float(x), float(y))
 
     def _roomy(self, cells: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Those of the cells with at least the usual room around them, in the map frame."""
+        """The cells with at least the usual room around them, in the map frame."""
         clearance = self._clearance[tuple(cells.T)]
         return self._to_map(cells[clearance >= min(COMFORT, np.median(clearance))].astype(float))
 
     def _reachable(self, source: Cell) -> NDArray[np.bool_]:
-        """The open cells to which there is a way from a cell."""
+        """The open cells that can be reached from a cell."""
         reached = np.zeros_like(self._open)
         reached[source] = True
         count = 0
@@ -123,7 +123,7 @@ class Planner:
         return reached
 
     def _search(self, source: Cell, target: Cell) -> dict[Cell, Cell]:
-        """A* from a cell to another; maps each cell that was met to the one before it."""
+        """A* from one cell to another; maps each visited cell to its predecessor."""
         came_from = {source: source}
         costs = {source: 0.0}
         queue = [(0.0, source)]
@@ -171,7 +171,7 @@ class Planner:
         return inside & (self._distance[index] >= RADIUS + MARGIN)
 
     def _smooth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Moves each point towards the middle of its neighbours, again and again, if it may."""
+        """Repeatedly moves each point towards the middle of its neighbours, if it stays clear."""
         for _ in range(80):
             moved = 0.5 * points[1:-1] + 0.25 * (points[:-2] + points[2:])
             allowed = self._has_clearance(moved)
@@ -182,12 +182,12 @@ class Planner:
 def obstacle_distance(obstacles: NDArray[np.bool_], reach: int) -> NDArray[np.float32]:
     """Distance from the middle of each cell to the nearest obstacle cell, in cells.
 
-    A Euclidean distance transform in two passes, first along the columns, then across them,
-    exact up to `reach` and cut off there. Beyond the edge of the grid there is obstacle.
+    A Euclidean distance transform in two passes, along the columns and across them, exact up to
+    `reach` and clamped there. The outside of the grid counts as an obstacle.
 
     Args:
         obstacles: Shape (height, width).
-        reach: The largest distance of interest, in cells.
+        reach: Maximum distance, in cells.
 
     Returns:
         Shape (height, width).
@@ -195,7 +195,7 @@ def obstacle_distance(obstacles: NDArray[np.bool_], reach: int) -> NDArray[np.fl
     padded = np.pad(obstacles, 1, constant_values=True)
 
     def squared(steps: int) -> float:
-        return max(0.0, steps - 0.5) ** 2  # to the near edge of a cell so many steps away
+        return max(0.0, steps - 0.5) ** 2  # to the near edge of a cell that many steps away
 
     vertical = np.where(padded, 0.0, float(reach) ** 2).astype(np.float32)
     for steps in range(1, reach + 1):
@@ -211,15 +211,12 @@ def obstacle_distance(obstacles: NDArray[np.bool_], reach: int) -> NDArray[np.fl
 
 
 def _shifts(steps: int) -> list[tuple[slice, slice]]:
-    """Pairs of row ranges: those that have a row so many steps before or after, and that row."""
-    return [
-        (slice(steps, None), slice(None, -steps)),
-        (slice(None, -steps), slice(steps, None)),
-    ]
+    """Pairs of row ranges: rows, and the rows that many steps before or after them."""
+    return [(slice(steps, None), slice(None, -steps)), (slice(None, -steps), slice(steps, None))]
 
 
 def _resample(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same line with points about `SPACING` apart; at least two, the ends kept."""
+    """The same line with at least two points, about `SPACING` apart; its ends are kept."""
     lengths = np.hypot(*np.diff(points, axis=0).T) if len(points) > 1 else np.zeros(0)
     travelled = np.concatenate([[0.0], np.cumsum(lengths)])
     count = max(2, math.ceil(travelled[-1] / SPACING) + 1)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-_CHUNK = 48  # grid lines looked at together: about as far as indoor beams reach, 2.4 m at 0.05
+_CHUNK = 48  # grid lines per pass, 2.4 m at 0.05 m: about as far as indoor beams reach
 
 
 def cast_rays(
@@ -13,33 +13,29 @@ def cast_rays(
     angles: NDArray[np.float64],
     reach: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Casts rays and returns how far each one gets, exactly.
+    """Casts rays and returns the exact length of each.
 
-    A ray changes cells only where it crosses a grid line, so its hit is at the first crossing
-    behind which the cell is occupied (the idea of Amanatides and Woo, "A Fast Voxel Traversal
-    Algorithm for Ray Tracing", 1987). Here the crossings are not walked one by one but computed
-    in chunks for all rays. Outside the grid there is nothing to hit.
+    A ray changes cells only where it crosses a grid line, so its hit is the first crossing into an
+    occupied cell (Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987).
+    Here crossings are computed in chunks for all rays. The outside of the grid is free.
 
     Args:
         occupied: Shape (height, width), indexed [row, column].
-        x: Shape (n,), where each ray starts, in cells.
-        y: Shape (n,), the same across the rows.
-        angles: Shape (n,), direction of each ray in radians, from the x axis.
-        reach: How far to look, in cells.
+        x: Shape (n,), start of each ray along the columns, in cells.
+        y: Shape (n,), start of each ray along the rows, in cells.
+        angles: Shape (n,), direction of each ray in radians from the x axis.
+        reach: Maximum length, in cells.
 
     Returns:
-        Two arrays of shape (n,): the distance to the hit in cells, infinite where there is none
+        Two arrays of shape (n,): the distance to the hit in cells, infinite if there is none
         within reach; and the cosine of the angle between the ray and the normal of the cell face
-        it hit, 1 where there is no hit or the ray starts inside an occupied cell.
+        it hit, 1 if there is no hit or the ray starts inside an occupied cell.
     """
     dx, dy = np.cos(angles), np.sin(angles)
     distances = np.full(len(angles), np.inf)
     distances[_lookup(occupied, np.floor(y), np.floor(x))] = 0.0
     incidence = np.ones(len(angles))
-    for grid, start, other, along, across in (
-        (occupied, x, y, dx, dy),
-        (occupied.T, y, x, dy, dx),
-    ):
+    for grid, start, other, along, across in ((occupied, x, y, dx, dy), (occupied.T, y, x, dy, dx)):
         limit = np.minimum(distances, reach)
         found = _first_crossing(grid, start, other, along, across, limit)
         nearer = found < distances
@@ -64,10 +60,10 @@ def _first_crossing(
         other: Shape (n,), coordinate along them.
         along: Shape (n,), the direction's component perpendicular to the grid lines.
         across: Shape (n,), its component along them.
-        limit: Shape (n,), how far each ray is of interest.
+        limit: Shape (n,), maximum length of each ray.
 
     Returns:
-        Shape (n,), infinite where nothing is hit within the limit.
+        Shape (n,), infinite if nothing is hit within the limit.
     """
     distances = np.full(len(start), np.inf)
     sign = np.where(along < 0, -1.0, 1.0)

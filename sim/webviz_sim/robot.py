@@ -1,4 +1,4 @@
-"""The robot's body: how a differential drive moves, and what walls do to it."""
+"""A differential drive: how it moves, and how walls stop it."""
 
 import math
 from dataclasses import dataclass, field
@@ -11,20 +11,20 @@ from webviz_sim.world import World
 # Of the bundled robot (webviz_urdf/demo/robot.urdf), in metres.
 WHEEL_RADIUS = 0.05
 WHEEL_SEPARATION = 0.30
-RADIUS = 0.20  # of the circle around base_link which contains the robot
+RADIUS = 0.20  # of the circle around base_link that contains the robot
 
 MAX_LINEAR = 0.6  # m/s
 MAX_ANGULAR = 2.0  # rad/s
 
 
 def drive(pose: Pose2D, linear: float, angular: float, seconds: float) -> Pose2D:
-    """Moves a pose with constant velocities for a while: exactly, along a circular arc.
+    """Moves a pose with constant velocities, exactly: along a circular arc.
 
     Args:
-        pose: Where to start.
+        pose: The start.
         linear: Forward velocity in m/s.
         angular: Counter-clockwise velocity in rad/s.
-        seconds: How long.
+        seconds: Duration.
     """
     half = 0.5 * angular * seconds
     # The chord of the arc; np.sinc(x) is sin(pi x) / (pi x) and well behaved at 0.
@@ -43,7 +43,7 @@ class Robot:
     drift: float = 0.0
     """Standard deviation of the odometry's error, as a fraction of the motion of one step."""
     odometry: Pose2D = field(default_factory=Pose2D)
-    """base_link in the odom frame, as the wheels tell it."""
+    """base_link in the odom frame, as measured by the wheels."""
     linear: float = 0.0
     angular: float = 0.0
     """The velocities of the last step, in m/s and rad/s, after limits and walls."""
@@ -74,15 +74,15 @@ class Robot:
         return (self.linear - turn) / WHEEL_RADIUS, (self.linear + turn) / WHEEL_RADIUS
 
     def _free_fraction(self, linear: float, angular: float, seconds: float) -> float:
-        """How much of a step's forward motion is possible: 1, or less where a wall is met."""
+        """The possible share of a step's forward motion, less than 1 at a wall."""
         if linear == 0.0 or self.world.clearance(self.pose, RADIUS) < RADIUS:
-            return 1.0  # what somebody put into a wall may leave it
+            return 1.0  # a robot placed inside a wall may leave it
 
         def fits(fraction: float) -> bool:
             pose = drive(self.pose, linear * fraction, angular, seconds)
             return self.world.clearance(pose, RADIUS) >= RADIUS
 
-        # A step is split so finely that no wall fits between two places looked at.
+        # A step is split so finely that no wall fits between two checked places.
         pieces = math.ceil(abs(linear) * seconds / (0.5 * self.world.resolution))
         blocked = next((i for i in range(1, pieces + 1) if not fits(i / pieces)), None)
         if blocked is None:

@@ -1,4 +1,4 @@
-"""The node `/sim`: its parameters, and whom it obeys."""
+"""The node `/sim`: its parameters and commands."""
 
 import math
 from typing import Any
@@ -18,13 +18,13 @@ from webviz_sim.world import load_world
 
 
 class SimNode(Node):
-    """Steps a simulation, publishes what a real robot would, and listens to commands."""
+    """Steps a simulation, publishes what a real robot would, and receives commands."""
 
     def __init__(self, start: int):
-        """Creates the node and publishes what is latched.
+        """Creates the node and publishes the latched messages.
 
         Args:
-            start: The time in nanoseconds; not used with `publish_clock`.
+            start: The time in nanoseconds; ignored with `publish_clock`.
 
         Raises:
             WorldError: The world cannot be loaded, or has no room for the robot.
@@ -63,10 +63,10 @@ class SimNode(Node):
         return 1.0 / self._values["rate"]
 
     def step(self, now: int) -> None:
-        """Lets one period pass and publishes what is then due.
+        """Advances by one period and publishes the messages that are due.
 
         Args:
-            now: The time in nanoseconds, for the stamps; not used with `publish_clock`.
+            now: The time in nanoseconds, for the stamps; ignored with `publish_clock`.
         """
         self._simulation.step(self.period)
         self._publish(now)
@@ -101,7 +101,7 @@ class SimNode(Node):
         if isinstance(goal, str):
             self._warn(f"Ignored a /goal_pose {goal}.")
         elif not self._simulation.go_to(goal):
-            self._warn(f"There is no way to the goal at x {goal.x:.2f} m, y {goal.y:.2f} m.")
+            self._warn(f"No path to the goal at x {goal.x:.2f} m, y {goal.y:.2f} m.")
 
     def _put(self, message: PoseWithCovarianceStamped) -> None:
         pose = to_map_pose(message.header, message.pose.pose)
@@ -119,7 +119,7 @@ class SimNode(Node):
 
 
 def to_map_pose(header: Header, pose) -> Pose2D | str:
-    """The pose in the map, or what is wrong with it."""
+    """The pose in the map, or why it is invalid."""
     if header.frame_id.removeprefix("/") != "map":
         return f"in the frame {header.frame_id!r}: send it in map"
     return messages.to_pose(pose.position, pose.orientation) or "that is not finite"

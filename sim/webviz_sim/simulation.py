@@ -1,4 +1,4 @@
-"""The whole simulation, without ROS: who drives, and what happens in one step."""
+"""The simulation without ROS: commands, goals, the tour, and what happens in one step."""
 
 import math
 from dataclasses import dataclass
@@ -12,34 +12,34 @@ from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS, Robot
 from webviz_sim.world import World, WorldError
 
-RESUME_AFTER = 2.0  # s without a command after which the robot follows its own path again
+RESUME_AFTER = 2.0  # s without a command after which the tour continues
 REST = 1.0  # s at each place of the tour
-REST_AT_GOAL = 5.0  # s at a goal somebody gave, before the tour goes on
-PATIENCE = 6.0  # s without progress after which a path is given up
+REST_AT_GOAL = 5.0  # s at a goal before the tour continues
+PATIENCE = 6.0  # s without progress after which a path is abandoned
 PROGRESS = 0.05  # m
-BESIDE_GOAL = 0.5  # m from a goal without room for the robot to a place that will do
+BESIDE_GOAL = 0.5  # m; a free place this near to an occupied goal is accepted
 
 
 @dataclass
 class SimulationSettings:
-    """What may change while the simulation runs."""
+    """Settings that may change while the simulation runs."""
 
     tour: bool = True
-    """Whether the robot tours the world when nobody commands it."""
+    """Whether the robot tours the world while no commands arrive."""
     tour_speed: float = 0.35
-    """How fast it follows a path, in m/s."""
+    """Speed along a path in m/s."""
     cmd_vel_timeout: float = 0.5
-    """How long a velocity command holds, in seconds."""
+    """How long a velocity command is valid, in seconds."""
     odom_drift: float = 0.0
     """See `Robot.drift`."""
 
 
 class Simulation:
-    """A robot in a world, and whoever drives it, in steps of fixed length.
+    """A robot in a world, simulated in steps of fixed length.
 
-    Commands go before goals, goals before the tour. A command drops the goal; once there has
-    been none for `RESUME_AFTER`, the tour goes on, if there is to be one. The same calls in the
-    same order give the same states, whatever the speed of the machine.
+    Commands take precedence over goals, goals over the tour. A command drops the goal; after
+    `RESUME_AFTER` without commands the tour continues, if enabled. Equal calls in equal order give
+    equal states, whatever the speed of the machine.
     """
 
     def __init__(
@@ -50,8 +50,8 @@ class Simulation:
         Args:
             world: The world.
             settings: May be changed between steps.
-            start: Where the robot starts, in the map frame; None: where there is room, near the
-                middle of the free space.
+            start: Start of the robot in the map frame; None for a place with room near the middle
+                of the free space.
             seed: Of the odometry's drift.
 
         Raises:
@@ -68,7 +68,7 @@ class Simulation:
         self.robot = Robot(world, start, np.random.default_rng(seed))
         self.time = 0.0
         self.places = self.planner.spread(start, count=12)
-        """The tour: where the robot goes next comes first."""
+        """The places of the tour, the next one first."""
         self._command = (0.0, 0.0)
         self._commanded_at = -math.inf
         self._follower: Follower | None = None
@@ -82,7 +82,7 @@ class Simulation:
         return self._follower.remaining() if self._follower else np.empty((0, 2))
 
     def command(self, linear: float, angular: float) -> None:
-        """Takes over: velocities in m/s and rad/s, which hold for `cmd_vel_timeout`."""
+        """Drives with velocities in m/s and rad/s for `cmd_vel_timeout`."""
         self._command = linear, angular
         self._commanded_at = self.time
         self._follower = None
@@ -97,16 +97,16 @@ class Simulation:
         return True
 
     def put(self, pose: Pose2D) -> None:
-        """Puts the robot somewhere else in the map; the odometry does not notice."""
+        """Moves the robot to a place in the map; its odometry does not change."""
         self.robot.pose = pose
         self._follower = None
 
     def reset_odometry(self) -> None:
-        """Makes the place where the robot stands the origin of the odom frame."""
+        """Makes the robot's place the origin of the odom frame."""
         self.robot.odometry = Pose2D()
 
     def step(self, seconds: float) -> None:
-        """Lets time pass."""
+        """Advances the simulation."""
         linear, angular = self._velocity(seconds)
         self.robot.drift = self.settings.odom_drift
         self.robot.step(linear, angular, seconds)
@@ -156,7 +156,7 @@ class Simulation:
         self._follower = None
 
     def _is_stuck(self) -> bool:
-        """Whether the robot has neither moved nor turned for a while though it had a path."""
+        """Whether the robot has not moved for a while although it had a path."""
         pose, since = self._progress
         here = self.robot.pose
         if math.dist(pose[:2], here[:2]) > PROGRESS:

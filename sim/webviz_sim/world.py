@@ -1,4 +1,4 @@
-"""The world: an occupancy image and its yaml, read as nav2's map_server reads them."""
+"""The world: an occupancy image and its YAML, read as by nav2's map_server."""
 
 import math
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from webviz_sim.pose import Pose2D
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
 
-# The occupancies from which map_saver, by its defaults, takes a cell for occupied or free.
+# Occupancies at which a cell counts as occupied or free by map_saver's defaults.
 OCCUPIED_FROM, FREE_BELOW = 65, 25
 
 
@@ -41,7 +41,7 @@ class World:
 
     @cached_property
     def traversable(self) -> NDArray[np.bool_]:
-        """Shape (height, width): where the robot is known to be able to go."""
+        """Shape (height, width): cells that are known to be free."""
         return (self.cells >= FREE) & (self.cells < FREE_BELOW)
 
     @cached_property
@@ -50,7 +50,7 @@ class World:
         return np.array([[cos, -sin], [sin, cos]])
 
     def to_grid(self, pose: Pose2D) -> Pose2D:
-        """A pose of the map frame in the grid's own frame, with x and y in cells."""
+        """A pose in the map frame converted to the grid's frame, with x and y in cells."""
         local = self.origin.inverse() @ pose
         return Pose2D(local.x / self.resolution, local.y / self.resolution, local.yaw)
 
@@ -70,13 +70,9 @@ class World:
         return cells * self.resolution @ self._rotation.T + (self.origin.x, self.origin.y)
 
     def clearance(self, pose: Pose2D, reach: float) -> float:
-        """Distance from a point to the nearest wall, exactly; at most `reach`.
+        """Exact distance in metres from a point to the nearest wall, at most `reach`.
 
-        Beyond the edge of the grid there is wall.
-
-        Args:
-            pose: Where, in the map frame; the yaw does not matter.
-            reach: How far to look, in metres.
+        The outside of the grid counts as wall. The pose is in the map frame, its yaw is ignored.
         """
         height, width = self.cells.shape
         x, y, _ = self.to_grid(pose)
@@ -86,7 +82,7 @@ class World:
         low, high = max(0, math.floor(y - cells)), max(0, math.ceil(y + cells))
         rows, columns = np.nonzero(self.occupied[low:high, left:right])
         if len(rows):
-            # From a point to a unit square: how far it is outside, along each axis.
+            # Distance from a point to a unit square along each axis.
             dx = np.maximum(np.abs(columns + (left + 0.5 - x)) - 0.5, 0.0)
             dy = np.maximum(np.abs(rows + (low + 0.5 - y)) - 0.5, 0.0)
             edge = min(edge, math.sqrt(np.min(dx * dx + dy * dy)))
@@ -100,7 +96,7 @@ def load_world(path: str | Path) -> World:
         path: The yaml file; `image` in it is relative to the yaml's folder.
 
     Raises:
-        WorldError: A file is missing or unreadable, or an entry is missing or wrong.
+        WorldError: A file is missing or unreadable, or an entry is missing or invalid.
     """
     path = Path(path)
     try:
@@ -152,17 +148,17 @@ def occupancy(
     occupied_thresh: float,
     free_thresh: float,
 ) -> NDArray[np.int8]:
-    """What map_server makes of an image.
+    """The occupancies that map_server computes from an image.
 
     Args:
         shade: Shape (height, width), mean of the colour channels, 0 black to 1 white.
         alpha: The same shape, 0 transparent to 1 opaque; None for an image without alpha.
         mode: `trinary`: occupied, free or unknown; alpha counts as a fourth colour channel.
-            `scale`: between the thresholds, occupancies in proportion; transparent is unknown.
+            `scale`: occupancies are proportional between the thresholds; transparent is unknown.
             `raw`: a pixel of 0 to 100 out of 255 is the occupancy, all others are unknown.
-        negate: White is occupied and black free, instead of the reverse.
-        occupied_thresh: Above it a cell is occupied, from 0 to 1.
-        free_thresh: Below it a cell is free, from 0 to 1.
+        negate: White is occupied and black is free.
+        occupied_thresh: Cells above it are occupied, from 0 to 1.
+        free_thresh: Cells below it are free, from 0 to 1.
 
     Returns:
         Shape (height, width), 0 free to 100 occupied, -1 unknown.

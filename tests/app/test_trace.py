@@ -65,7 +65,7 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
     assert second.received_ns > first.received_ns
 
 
-def test_a_trace_of_what_nobody_watches_is_refused_with_what_to_do(
+def test_a_trace_without_browsers_is_refused_with_what_to_do(
     viewer: webviz.Viewer, refused: Callable[[Callable[[], object]], str]
 ) -> None:
     plan = viewer.add("Path", topic="/plan", name="Plan")

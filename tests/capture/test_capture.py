@@ -94,7 +94,7 @@ def test_without_its_background_a_picture_has_only_what_is_drawn(capture):
     assert opaque.mean(axis=0) == pytest.approx(scan(shot.pixels).mean(axis=0), abs=1)
 
 
-def test_a_display_that_shows_nothing_is_told_with_the_reason(capture):
+def test_a_display_that_shows_nothing_is_reported_with_the_reason(capture):
     config = CONFIG + "- {type: Path, topic: /plan}\n- {type: Path, enabled: false}\n"
     shot: Capture = capture(config)
     assert not shot.is_ok
@@ -137,7 +137,7 @@ def test_a_config_can_be_a_file_a_text_or_a_config(capture, tmp_path):
     assert all((picture == pictures[0]).all() for picture in pictures)
 
 
-def test_another_fixed_frame_is_told_where_it_is_not_known(capture):
+def test_an_unknown_fixed_frame_is_reported(capture):
     shot: Capture = capture(CONFIG, fixed_frame="mapp")
     assert not shot.is_ok
     assert 'Did you mean "map"?' in shot.pictures[0].shown.general["Fixed Frame"].text

@@ -46,7 +46,7 @@ def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(robot, tmp_pat
         assert (np.asarray(image) == (255, 0, 255)).all(axis=2).sum() > 20
 
 
-def test_a_display_that_never_becomes_ok_is_told_after_the_time_out(robot, tmp_path):
+def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(robot, tmp_path):
     result = screenshot(tmp_path, "--timeout", "3")
     assert result.returncode == 3, result.stderr
     assert "not all displays are OK within 3 s" in result.stderr

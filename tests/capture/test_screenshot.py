@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ import psutil
 import pytest
 import trimesh
 from bags import Bag, strings
+from processes import command_lines
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -63,11 +64,6 @@ def start(tmp_path: Path):
         program.end(signal.SIGKILL)
 
 
-def browser_among(processes: list[psutil.Process]) -> psutil.Process:
-    """The browser, which is the parent of its tabs."""
-    return next(p for p in processes if "--remote-debugging" in " ".join(p.cmdline()[1:]))
-
-
 def wait_for_part(folder: Path) -> None:
     """Wait until an animation is being written."""
     deadline = time.monotonic() + PATIENCE_S
@@ -76,15 +72,15 @@ def wait_for_part(folder: Path) -> None:
         time.sleep(0.05)
 
 
-def left_of(family: list[psutil.Process]) -> list[psutil.Process]:
-    _, alive = psutil.wait_procs(family, timeout=10)
+def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
+    _, alive = psutil.wait_procs(family, timeout=PATIENCE_S)
     return alive
 
 
 def test_a_picture_of_a_bag(run, tmp_path):
     result = run_in(tmp_path, "--bag", str(run), "--at", "2", "-o", "a.png", *SMALL)
     assert result.returncode == 0, result.stderr
-    assert result.stdout == "webviz: wrote a.png, a picture of 320 x 240 pixels.\n"
+    assert result.stdout == "webviz: wrote a.png, 1 picture of 320 x 240 pixels.\n"
     with PIL.Image.open(tmp_path / "a.png") as image:
         pixels = np.asarray(image)
     assert pixels.shape == (240, 320, 3)
@@ -143,7 +139,7 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path):
     assert result.returncode == 0, result.stderr
 
 
-def test_help_tells_every_exit_status(capsys):
+def test_help_lists_every_exit_status(capsys):
     assert cli(["screenshot", "--help"]) == 0
     text = capsys.readouterr().out
     for status in ("0  ", "1  ", "2  ", "3  ", "130"):
@@ -172,13 +168,13 @@ def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, senten
     ("arguments", "sentence"),
     [
         ([], "needs --output FILE."),
-        (["-o", "a.png", "--at", "3"], "--at is for a bag: give one with --bag"),
-        (["-o", "a.png", "--map", "m.yaml"], "--map is for a bag"),
+        (["-o", "a.png", "--at", "3"], "--at needs --bag"),
+        (["-o", "a.png", "--map", "m.yaml"], "--map needs --bag"),
         (["-o", "a.png", "--bag", "x", "--at", "soon"], "'soon' is not a valid time"),
         (["-o", "a.png", "--bag", "x", "--size", "big"], "Write it as 1280x720"),
         (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
-        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps is for animations"),
-        (["-o", "a.png", "--timeout", "-1"], "Give a number above 0."),
+        (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps needs an animation"),
+        (["-o", "a.png", "--timeout", "-1"], "Must be > 0."),
         (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "`c` is not a number"),
     ],
 )
@@ -209,17 +205,17 @@ def test_a_full_disk_is_one_sentence(run, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("number", "everybody"),
+    ("number", "whole_family"),
     [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False)],
     ids=["Ctrl-C in a terminal", "SIGINT", "SIGTERM"],
 )
 def test_an_interrupted_run_leaves_no_file_and_no_process(
-    run, tmp_path, start: Callable[..., Program], number, everybody
+    run, tmp_path, start: Callable[..., Program], number, whole_family
 ):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
     family = psutil.Process(program.process.pid).children(recursive=True)
-    for process in family if everybody else ():
+    for process in family if whole_family else ():
         process.send_signal(number)
     assert program.end(number) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"
@@ -244,8 +240,10 @@ def test_an_interrupted_run_ends_although_its_browser_hangs(
 def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
-    family = psutil.Process(program.process.pid).children(recursive=True)
-    browser_among(family).kill()
+    family = command_lines(program.process.pid)
+    # Its tabs are its child processes, with the same options and more.
+    browser = next(p for p, line in family.items() if " --remote-debugging" in line)
+    browser.kill()
     assert program.process.wait(PATIENCE_S) == 1
     assert program.output().startswith("webviz: The browser ended while it drew")
     assert program.output().count("\n") == 1

@@ -34,7 +34,7 @@ def test_a_time_is_a_place_in_the_bag(text, seconds):
 
 
 @pytest.mark.parametrize("at", [-0.5, 46.3, 99, 1.6e9, 1.8e9])
-def test_a_time_outside_of_the_bag_is_told_the_range(at):
+def test_a_time_outside_of_the_bag_is_refused_with_the_range(at):
     with pytest.raises(TimeError) as caught:
         position_ns(at, Span(), "run.mcap")
     assert "is outside of run.mcap. Give 0 to 46.202 s" in str(caught.value)

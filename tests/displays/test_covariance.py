@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from webviz_displays.odometry import covariance
-from webviz_displays.shared.shapes import WEDGE, TriangleMesh, copies
+from webviz_displays.odometry.covariance import WEDGE
 
 EYE = np.eye(3)[None]
 HERE = np.zeros((1, 3))
@@ -13,10 +13,9 @@ QUARTER = np.array([[[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]])
 """90 degrees about z."""
 
 
-NO_FACES = np.zeros((0, 3), np.uint32)
 AROUND = np.linspace(0.0, 2 * np.pi, 25)
-DISC = TriangleMesh(np.array([(np.cos(a), np.sin(a), 0.0) for a in AROUND]), NO_FACES)
-SPHERE = TriangleMesh(np.concatenate((np.eye(3), -np.eye(3))), NO_FACES)
+DISC = np.array([(np.cos(a), np.sin(a), 0.0) for a in AROUND])
+SPHERE = np.concatenate((np.eye(3), -np.eye(3)))
 
 
 def given(*entries: tuple[int, int, float]) -> covariance.Covariances:
@@ -28,8 +27,8 @@ def given(*entries: tuple[int, int, float]) -> covariance.Covariances:
     return result
 
 
-def corners(shape: TriangleMesh, placed: covariance.Placed) -> NDArray[np.float64]:
-    return copies(shape, *placed)[0].astype(np.float64)
+def corners(shape: NDArray[np.float64], placed: covariance.Placed) -> NDArray[np.float64]:
+    return placed.images(shape).reshape(-1, 3)
 
 
 def extent(points: NDArray[np.float64]) -> list[float]:
@@ -124,11 +123,10 @@ def test_rounding_below_zero_is_no_negative_eigenvalue() -> None:
 
 
 def test_the_wedge_is_counter_clockwise_seen_from_above() -> None:
-    a, b, c = (WEDGE.vertices[WEDGE.faces[:, i]] for i in range(3))
-    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    a, b, c = WEDGE
+    assert np.cross(b - a, c - a)[2] > 0
 
 
-def test_copies_keep_their_faces_apart() -> None:
-    vertices, faces = copies(WEDGE, np.array([(0.0, 0, 0), (5, 0, 0)]), np.stack([np.eye(3)] * 2))
-    assert faces.tolist() == [[0, 1, 2], [3, 4, 5]]
-    assert vertices[3:].tolist() == [[5, 0, 0], [6, -1, 0], [6, 1, 0]]
+def test_each_copy_of_a_shape_has_a_place_of_its_own() -> None:
+    placed = covariance.Placed(np.array([(0.0, 0, 0), (5, 0, 0)]), np.stack([np.eye(3)] * 2))
+    assert placed.images(WEDGE)[1].tolist() == [[5, 0, 0], [6, -1, 0], [6, 1, 0]]

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import pytest
 from robot_arm import is_loaded, wait
+from robots import link_poses
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -80,7 +81,7 @@ def test_the_links_of_panda_stand_where_its_joints_put_them(bench: Benches) -> N
         w, x, y, z = joint.origin.wxyz
         at.transform(joint.parent, joint.child, joint.origin.position, (x, y, z, w))
     wait(at, lambda: is_loaded(at))
-    poses = robot.fk()
+    poses = link_poses(robot)
     for key, pose in at.poses().items():
         link = key.partition(" visual ")[0]
         assert pose.position == pytest.approx(poses[link].position, abs=1e-6)

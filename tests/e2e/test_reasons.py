@@ -77,7 +77,7 @@ def wait_until_ok(page: Page, *gone: str) -> None:
     assert not [words for words in gone if words in text]
 
 
-def test_a_frame_never_seen_is_told_with_the_nearest_name(robot: Robot, page: Page) -> None:
+def test_an_unknown_frame_is_reported_with_the_nearest_name(robot: Robot, page: Page) -> None:
     robot.scans["/unseen"] = Scan("base_lnk")
     select(page, "Unseen")
     wait_for(page, 'Frame "base_lnk" does not exist. Did you mean "base_link"?')
@@ -85,7 +85,7 @@ def test_a_frame_never_seen_is_told_with_the_nearest_name(robot: Robot, page: Pa
     wait_until_ok(page, "does not exist")
 
 
-def test_two_trees_are_told_by_their_roots(robot: Robot, page: Page) -> None:
+def test_two_trees_are_reported_by_their_roots(robot: Robot, page: Page) -> None:
     robot.links["world", "drone"] = 0.0
     robot.scans["/trees"] = Scan("drone")
     select(page, "Trees")

@@ -182,7 +182,7 @@ def test_a_machine_whose_clock_is_two_seconds_ahead_is_named_until_it_is_set_rig
     page.wait_for(lambda: "synchronise" not in page.text(), "that it clears", 10)
 
 
-def test_two_static_publishers_of_one_frame_are_told_with_both_parents_and_who_they_are(
+def test_two_static_publishers_of_one_frame_are_reported_with_both_parents_and_their_nodes(
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
     page = view()
@@ -214,7 +214,7 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_followed_without_
     assert "Transforms:" not in page.text()
 
 
-def test_two_moving_publishers_with_different_parents_are_told_until_one_stops(
+def test_two_moving_publishers_with_different_parents_are_reported_until_one_stops(
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
     page = view()

@@ -14,7 +14,8 @@ import pytest
 import viser
 
 from webviz.api.declared import Color, Prop, Topic, set_property
-from webviz.api.display import Display, Input
+from webviz.api.display import Display
+from webviz.api.ports import Input
 from webviz.api.status import Status
 from webviz.edges.gui import Panels, take_typed
 from webviz.edges.scene import on_typed, open_server
@@ -68,6 +69,10 @@ class Loop:
         self.state = replace(self.state, rows=rows, **changes)
         self.panel.update(self.state)
 
+    def is_asked(self) -> bool:
+        """Whether something was enqueued."""
+        return not self._queue.empty()
+
     def drain(self) -> None:
         """Collect what was enqueued, and answer what only asks for a new state."""
         while not self._queue.empty():
@@ -117,9 +122,9 @@ class Tab:
         return text.locator("xpath=ancestor::div[2]//*[self::input or self::textarea]").first
 
     def fill(self, label: str, text: str) -> None:
-        """Enter something, at most as fast as the page takes it: one edit in 50 ms."""
+        """Enter something, at most as fast as the page takes it."""
         self.field(label).fill(text)
-        self.page.wait_for_timeout(100)
+        self.pause()
 
     def boxes(self) -> playwright.Locator:
         """The check boxes in the list of displays."""
@@ -130,9 +135,10 @@ class Tab:
         return self.page.locator(":has(> div > .webviz-list) button").all_inner_texts()
 
     def click(self, name: str) -> None:
-        """Click on a button of the panel, and let the loop do what it was asked."""
+        """Click on a button of the panel, and let the loop do what it is asked thereby."""
+        self.loop.drain()
         self.page.get_by_role("button", name=name, exact=True).click()
-        self.page.wait_for_timeout(100)
+        self.wait_for(self.loop.is_asked)
         self.loop.drain()
 
     def show_tab(self, name: str) -> None:
@@ -151,12 +157,16 @@ class Tab:
     def check(self, label: str) -> None:
         """Check a box by its label."""
         self.page.get_by_label(label, exact=True).check()
-        self.page.wait_for_timeout(100)
+        self.pause()
 
     def uncheck(self, label: str) -> None:
         """Clear a box by its label."""
         self.page.get_by_label(label, exact=True).uncheck()
-        self.page.wait_for_timeout(100)
+        self.pause()
+
+    def pause(self) -> None:
+        """Let the page take the next edit: it takes one in 50 ms, by its own clock."""
+        self.page.evaluate("() => new Promise((done) => setTimeout(done, 60))")
 
     def text(self) -> str:
         """All that can be read on the page."""

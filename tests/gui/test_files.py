@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import playwright.sync_api as playwright
 import pytest
+import viser
 
 from webviz.api.status import Level
+from webviz.edges.gui.dialogs import Dialog, Dialogs
 from webviz.edges.gui.file_names import file_name, title_of
 from webviz.engine.commands import Export, Load, Open, Save
 from webviz.engine.state import Answer, File
@@ -104,11 +108,15 @@ def test_a_refused_name_is_told_with_the_reason(loop: Any, tab: Any) -> None:
     assert loop.commands == []
 
 
+def has_focus(control: playwright.Locator) -> bool:
+    return control.evaluate("(element) => element === document.activeElement")
+
+
 def choose(tab: Any, name: str) -> None:
     tab.click("Open")
     tab.field("File").click()
     tab.page.get_by_role("option", name=name).click()
-    tab.page.wait_for_timeout(100)
+    tab.pause()
     tab.dialog_button("Open").click()
 
 
@@ -127,7 +135,8 @@ def test_unsaved_changes_are_discarded_only_when_that_was_meant(
     choose(tab, "nav2.rviz")
     question = "Open nav2.rviz and discard unsaved changes?"
     tab.wait_for(lambda: loop.turn() or question in tab.text())
-    tab.page.keyboard.press("Enter")  # the focus is on Cancel
+    tab.wait_for(lambda: has_focus(tab.dialog_button("Cancel")))
+    tab.page.keyboard.press("Enter")
     tab.wait_for(lambda: loop.turn() or tab.page.get_by_role("dialog").count() == 0)
     assert loop.commands == []
     upload(tab, tmp_path / "mine.yaml")
@@ -138,6 +147,25 @@ def test_unsaved_changes_are_discarded_only_when_that_was_meant(
     tab.wait_for(lambda: loop.turn() or loop.commands)
     assert loop.commands == [Load("version: 1\n", "mine.yaml")]
     tab.wait_for(lambda: loop.turn() or tab.page.get_by_role("dialog").count() == 0)
+
+
+def test_a_dialog_has_the_focus_on_its_first_control_however_slowly_it_is_made(
+    server: viser.ViserServer, loop: Any, tab: Any
+) -> None:
+    class Slow(Dialog):
+        def __init__(self, client: viser.ClientHandle) -> None:
+            super().__init__(client.gui, "Slow")
+            with self.modal:
+                time.sleep(0.3)  # as on a machine that has much to do
+                for name in ("First", "Second"):
+                    self.gui.add_button(name)
+
+    dialogs = Dialogs(server, lambda command, browser=None: None)
+    for browser in server.get_clients():
+        dialogs.open(browser, Slow)
+    dialogs.update(loop.state)
+    tab.dialog_button("Second").wait_for()
+    tab.wait_for(lambda: has_focus(tab.dialog_button("First")))
 
 
 def test_a_folder_without_files_has_nothing_to_open(loop: Any, tab: Any) -> None:

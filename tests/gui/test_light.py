@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -67,9 +68,9 @@ def test_what_changes_all_the_time_is_sent_now_and_then(loop: Any, tab: Any) -> 
     offers = {f"/scan{i}": Offer((publisher,)) for i in range(500)}
     loop.show(offers=offers)
     settled(tab)
-    frames = tab.frames_received
+    frames, began = tab.frames_received, time.monotonic()
     for i in range(100):
         traffic = {"/scan1": Traffic(float(i), 10.0)}
         loop.show(offers=offers, clock=Clock(1 + i * 20_000_000), traffic=traffic)
         tab.page.wait_for_timeout(20)
-    assert tab.frames_received - frames <= 12
+    assert tab.frames_received - frames <= 6 * (time.monotonic() - began)

@@ -42,7 +42,7 @@ def test_what_is_entered_becomes_a_command_of_the_right_type(
     tab.fill("Size (m)", "0.25")
     tab.fill("Count", "7")
     tab.field("Filled").uncheck()
-    tab.page.wait_for_timeout(100)
+    tab.pause()
     tab.fill("Channel", "ring")
     tab.fill("Length (m)", "2")
     tab.fill("Offset", "1.5")

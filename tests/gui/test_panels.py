@@ -82,7 +82,7 @@ def test_a_button_that_fails_says_so_in_the_browser(
     registry.register("tests", {"Frames": Frames})
     loop.show()
     tab.show_tab("Frames")
-    tab.click("Break")
+    tab.page.get_by_role("button", name="Break", exact=True).click()
     sentence = "The panel Frames failed: ZeroDivisionError: division by zero"
     tab.wait_for(lambda: loop.turn() or sentence in tab.text())
     assert [record.message for record in caplog.records] == [sentence]

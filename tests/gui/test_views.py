@@ -86,7 +86,7 @@ def test_views_are_saved_under_a_name_or_a_number(views: Any, loop: Any) -> None
     views.wait_for(lambda: last(loop) == (SaveView("View 2"), Sender(views.id)))
     name = views.page.locator(":has(> div > .webviz-row-saved-views) input")
     name.fill("Door")
-    views.page.wait_for_timeout(200)
+    views.pause()
     views.click("Save this")
     views.wait_for(lambda: last(loop) == (SaveView("Door"), Sender(views.id)))
 

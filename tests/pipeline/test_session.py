@@ -80,7 +80,7 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
 def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:
     answer = do(bench(Axes(name="A")), Save()).answer
     assert answer.level is Level.ERROR
-    assert answer.text == "This config has no file yet: give it a name."
+    assert answer.text == "This config has no file yet. Choose a name."
 
 
 def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
@@ -170,7 +170,7 @@ def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> N
     b = bench()
     exports = [b.viewer.enqueue(Export(lambda _: None)) for _ in range(MAX_FILES + 2)]
     b.turn()
-    assert str(exports[-1].exception(timeout=0)) == "Too many files at once."
+    assert str(exports[-1].exception(timeout=0)) == "Too many files at once. Try again later."
     b.until_done(exports[-2])
     assert [each.result() for each in exports[:-1]] == [""] * (MAX_FILES + 1)
 
@@ -222,7 +222,7 @@ def test_a_session_that_cannot_be_kept_is_logged(
     bench: Callable[..., Any], caplog: pytest.LogCaptureFixture
 ) -> None:
     bench(Axes(name="A"), autosave=Path("/dev/null/last.yaml")).viewer.close()
-    assert "The session is not kept" in caplog.text
+    assert "The session is not saved" in caplog.text
 
 
 def test_a_config_is_handed_out_as_text(folder: Path, bench: Callable[..., Any]) -> None:
@@ -264,7 +264,9 @@ def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
     topic = Topic("/front", reliability="reliable")
     scan = LaserScan(name="Front", enabled=False, topic=topic, size=0.5, decay_time=3.0)
     state = do(bench(scan, Group(name="G")), ResetDisplay("display1"))
-    assert to_values(state.rows[0].display) == {
+    (row,) = state.rows
+    assert row.display is not None
+    assert to_values(row.display) == {
         "name": "Front",
         "enabled": False,
         "topic": "/front",

@@ -217,7 +217,7 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     assert "already" in looking.refused(RenameView("Map", "Other"))
     assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
     assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
-    assert "no saved view `Map`" in looking.refused(RemoveView("Map"))
+    assert "Unknown saved view `Map`" in looking.refused(RemoveView("Map"))
     assert "needs a name" in looking.refused(SaveView("", ALICE))
 
 
@@ -247,5 +247,5 @@ def test_a_picture_is_asked_of_one_browser(looking: Looking) -> None:
 def test_without_browsers_there_is_nothing_to_change(bench: Callable[..., Bench]) -> None:
     looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
     cameras.shown.clear()
-    assert "No browser is open" in looking.refused(ResetView())
-    assert "No browser is open" in looking.refused(SaveView("A"))
+    assert "No browser is connected" in looking.refused(ResetView())
+    assert "No browser is connected" in looking.refused(SaveView("A"))

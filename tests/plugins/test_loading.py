@@ -71,12 +71,12 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
         ("import sys\nsys.exit('bye')\n", ":2 does not load: SystemExit: bye."),
         (
             "x = 1\n",
-            " has no plug-in: no subclass of Display, Tool or Panel ",
+            " has no plug-in. Define a subclass of Display, Tool or Panel ",
         ),
-        ("from webviz_displays.grid import Grid\n", " has no plug-in: "),
+        ("from webviz_displays.grid import Grid\n", " has no plug-in. "),
         (
             f"{IMPORT}class Grid(Display): pass\n",
-            " cannot be used: an installed package has a display named Grid; rename the class.",
+            " cannot be used: an installed package has a display named Grid. Rename the class.",
         ),
         (
             f"from __future__ import annotations\n{IMPORT}class A(Display):\n    b: Nothing = 1\n",
@@ -116,10 +116,10 @@ def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path
 
 def test_a_save_is_noticed_once(plugin: Any) -> None:
     watcher = Watcher([plugin.path])
-    assert watcher.look() == []
+    assert watcher.changed() == []
     plugin.edit(("25, 255, 0", "25, 255, 128"))
-    assert watcher.look() == [plugin.path]
-    assert watcher.look() == []
+    assert watcher.changed() == [plugin.path]
+    assert watcher.changed() == []
 
 
 def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Any) -> None:
@@ -127,7 +127,7 @@ def test_a_save_within_the_grain_of_the_clock_is_noticed_by_its_size(plugin: Any
     time = plugin.path.stat().st_mtime_ns
     plugin.edit(("25, 255, 0", "25, 255, 128"))
     os.utime(plugin.path, ns=(time, time))
-    assert watcher.look() == [plugin.path]
+    assert watcher.changed() == [plugin.path]
 
 
 def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Any, tmp_path: Path) -> None:
@@ -135,8 +135,8 @@ def test_a_save_by_a_new_file_and_a_removal_are_noticed(plugin: Any, tmp_path: P
     fresh = tmp_path / "fresh"
     fresh.write_text(plugin.path.read_text())
     fresh.replace(plugin.path)
-    assert watcher.look() == [plugin.path]
+    assert watcher.changed() == [plugin.path]
     plugin.path.unlink()
-    assert watcher.look() == [plugin.path]
+    assert watcher.changed() == [plugin.path]
     plugin.path.write_text("")
-    assert watcher.look() == [plugin.path]
+    assert watcher.changed() == [plugin.path]

@@ -107,7 +107,7 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
         "print(main(['--plugin', 'own.py', '--port', '0']))"
     )
     assert said.splitlines() == [
-        "webviz: own.py cannot be used: an installed package has a display named Fence; "
-        "rename the class.",
+        "webviz: own.py cannot be used: an installed package has a display named Fence. "
+        "Rename the class.",
         "1",
     ]

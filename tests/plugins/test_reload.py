@@ -137,7 +137,7 @@ def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(b: Any, plug
     [
         ("def draw(self", "def draw(self(", "is not valid Python"),
         ("from typing import", "import nowhere_at_all\nfrom typing import", "ModuleNotFoundError"),
-        ("class Polygon(Display)", "class Grid(Display)", "display named Grid; rename the class"),
+        ("class Polygon(Display)", "class Grid(Display)", "display named Grid. Rename the class"),
     ],
 )
 def test_a_broken_save_keeps_the_picture_and_says_what_is_wrong(
@@ -176,7 +176,7 @@ def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Any, plu
     plugin.edit(("class Polygon", "class Fence"))
     old = type(shown(b, plugin))
     level, text = b.statuses()["Plugin"]
-    assert (level, "has no display Polygon any more" in text) == ("ERROR", True)
+    assert (level, "no longer has a display Polygon" in text) == ("ERROR", True)
     assert outlines(b) == [(GREEN, 1.0)]
     assert "type: Polygon" in dump(b.viewer.config())
     b.viewer.enqueue(AddDisplay("Fence"))
@@ -186,7 +186,7 @@ def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Any, plu
     plugin.edit(("class Fence", "class Polygon"))
     assert type(shown(b, plugin)) is not old
     assert "Plugin" not in b.statuses(0)
-    assert "has no display Fence any more" in b.statuses(1)["Plugin"][1]
+    assert "no longer has a display Fence" in b.statuses(1)["Plugin"][1]
 
 
 def test_code_that_raises_is_a_status_and_the_old_picture_stays(

@@ -141,16 +141,16 @@ def config(tmp_path: Path) -> Path:
     return path
 
 
-def test_parameters_tell_what_is_shown_whoever_changed_it(
+def test_parameters_follow_the_state_of_the_viewer(
     open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
 ) -> None:
     viewer = open_viewer()
-    client.until(lambda: client.get("fixed_frame") == "map", "the frame is told")
+    client.until(lambda: client.get("fixed_frame") == "map", "the parameter has the frame")
     assert client.get("config_file") == ""
     viewer.fixed_frame = "base"
-    client.until(lambda: client.get("fixed_frame") == "base", "the new frame is told")
+    client.until(lambda: client.get("fixed_frame") == "base", "the parameter has the new frame")
     viewer.open(config)
-    client.until(lambda: client.get("config_file") == str(config), "the file is told")
+    client.until(lambda: client.get("config_file") == str(config), "the parameter has the file")
     assert client.get("fixed_frame") == "odom"
 
 
@@ -201,7 +201,7 @@ def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
         assert viewer.statuses["Fixed Frame"].level is Level.OK
         choose("base_lnk")
         assert viewer.fixed_frame == "base_lnk"
-        client.until(lambda: client.get("fixed_frame") == "base_lnk", "it is told")
+        client.until(lambda: client.get("fixed_frame") == "base_lnk", "the parameter")
         assert viewer.statuses["Fixed Frame"] == Status(
             Level.ERROR, 'Fixed frame "base_lnk" does not exist. Did you mean "base_link"?'
         )
@@ -249,7 +249,7 @@ def test_only_configs_of_its_folder_and_of_those_allowed_are_opened_by_a_paramet
         assert "is outside" in reason
         assert "--config-folder" in reason
     for other in ("secret.txt", "allowed/secret.txt"):
-        assert "its name must end with .yaml or .rviz" in client.set("config_file", other)
+        assert "Its name must end with .yaml or .rviz" in client.set("config_file", other)
     assert viewer.path == str(config)
     assert client.set("config_file", "allowed/deep/a.yaml") == ""
     assert viewer.path == str(tmp_path / "allowed/deep/a.yaml")
@@ -284,7 +284,7 @@ def test_without_a_file_the_services_say_what_to_do(
     for name in ("load_config", "save_config"):
         answer = client.call(f"/webviz/{name}")
         assert not answer.success
-        assert "config_file" in answer.message or "save it once" in answer.message
+        assert "config_file" in answer.message or "Save it on the page" in answer.message
 
 
 @pytest.mark.parametrize(("name", "type"), [("reset", Trigger), ("reset_time", Empty)])
@@ -365,7 +365,7 @@ def test_too_many_requests_are_refused(slow: tuple[SlowViewer, RosSource], clien
     client.until(lambda: any(answer.done() for answer in answers), "one is refused")
     viewer.ready.set()
     messages = [client.wait(answer).message for answer in answers]
-    assert messages.count("Too many requests at once.") == 1
+    assert messages.count("Too many requests at once. Try again later.") == 1
     assert messages.count("Saved /picture.png.") == 4
 
 
@@ -391,8 +391,8 @@ def test_without_std_srvs_the_rest_works(
         with caplog.at_level(logging.WARNING, "webviz"):
             source.control.open(SlowViewer())
             assert client.get("fixed_frame") in ("", "map")
-            client.until(lambda: client.get("fixed_frame") == "map", "the frame is told")
-        assert "install ros-jazzy-std-srvs" in caplog.text
+            client.until(lambda: client.get("fixed_frame") == "map", "the parameter has the frame")
+        assert "Install ros-jazzy-std-srvs" in caplog.text
     finally:
         source.close()
 
@@ -404,20 +404,20 @@ def test_a_saved_view_is_chosen_by_a_parameter(
     path.write_text(VIEWS)
     viewer = open_viewer(path, ["view:=Close"])
     assert viewer.view == viewer.views["Close"]
-    client.until(lambda: client.get("view") == "Close", "the view is told")
+    client.until(lambda: client.get("view") == "Close", "the parameter has the view")
     assert client.set("view", "Above") == ""
     assert viewer.view == viewer.views["Above"]
-    assert client.set("view", "Abve") == "There is no saved view `Abve`: did you mean `Above`?"
+    assert client.set("view", "Abve") == "Unknown saved view `Abve`: did you mean `Above`?"
     assert client.set("view", "") != ""
     assert client.get("view") == "Above"
     viewer.view = {"distance": 7.0}
-    client.until(lambda: client.get("view") == "", "that it is none of the saved ones is told")
+    client.until(lambda: client.get("view") == "", "the parameter is empty for an unsaved view")
 
 
 def test_a_view_at_the_start_that_is_not_saved_is_refused(
     open_viewer: Callable[..., webviz.Viewer],
 ) -> None:
-    with pytest.raises(webviz.Error, match=r"^There is no saved view `Above`: none are known$"):
+    with pytest.raises(webviz.Error, match=r"^Unknown saved view `Above`: none are known$"):
         open_viewer(parameters=["view:=Above"])
 
 

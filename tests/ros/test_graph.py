@@ -67,7 +67,7 @@ executor.spin()
 
 
 class Peer:
-    """A node of somebody else, which the test spins."""
+    """Another node, spun by the test."""
 
     def __init__(self, domain: int) -> None:
         self._context = Context()
@@ -135,11 +135,23 @@ def test_a_message_reaches_a_subscription_that_knew_the_publisher(
 
     peer.node.create_subscription(String, "/said", hear, 10)
     outlet = Outlet("/said", STRING)
-    source.graph.advertise(outlet).result(5.0)
+    source.graph.advertise([outlet]).result(5.0)
     until(lambda: peer.node.count_publishers("/said"), peer.turn)
     hello = encode(STRING, {"data": "hello"})
     until(lambda: source.graph.publish(outlet, hello).result(5.0) == 1, peer.turn)
     until(lambda: "hello" in heard, peer.turn)
+
+
+def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
+    source: RosSource, peer: Peer
+) -> None:
+    old, new = Outlet("/old_goal", STRING), Outlet("/new_goal", STRING)
+    unknown = Outlet("/unknown_goal", "no_msgs/msg/No")
+    source.graph.advertise([old]).result(5.0)
+    until(lambda: peer.node.count_publishers("/old_goal"), peer.turn)
+    source.graph.advertise([unknown, new]).result(5.0)
+    until(lambda: peer.node.count_publishers("/new_goal"), peer.turn)
+    until(lambda: not peer.node.count_publishers("/old_goal"), peer.turn)
 
 
 def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:
@@ -155,7 +167,7 @@ def test_an_unknown_type_is_refused_and_the_node_goes_on(source: RosSource) -> N
 
 def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     def answer(request: Any, response: Any) -> Any:
-        response.success, response.message = request.data, "as told"
+        response.success, response.message = request.data, "done"
         return response
 
     peer.node.create_service(SetBool, "/switch", answer)
@@ -164,7 +176,7 @@ def test_a_service_answers(source: RosSource, peer: Peer) -> None:
     future: Future[bytes] = source.graph.call("/switch", "std_srvs/srv/SetBool", request, 10.0)
     until(future.done, peer.turn)
     response = decode("std_srvs/srv/SetBool_Response", future.result())
-    assert (response.success, response.message) == (True, "as told")
+    assert (response.success, response.message) == (True, "done")
 
 
 def test_a_service_that_no_node_offers_is_named(source: RosSource) -> None:

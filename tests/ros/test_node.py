@@ -126,7 +126,7 @@ def test_publishers_of_both_durabilities_are_all_heard(
     until(both, "both are heard")
 
 
-def test_an_explicit_choice_is_obeyed_though_it_connects_to_nobody(
+def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
     talker: Node, listen: Callable[..., RosSource]
 ) -> None:
     publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
@@ -138,21 +138,21 @@ def test_an_explicit_choice_is_obeyed_though_it_connects_to_nobody(
     assert heard(source) == []
 
 
-def test_a_topic_of_another_type_is_not_subscribed_but_told(
+def test_a_topic_of_another_type_is_reported_and_not_subscribed(
     talker: Node, listen: Callable[..., RosSource]
 ) -> None:
     talker.create_publisher(Int32, "/words", 5)
     source = listen()
     want(source)
-    told = ("/talker", "std_msgs/msg/Int32")
+    expected = ("/talker", "std_msgs/msg/Int32")
 
     def publishers() -> list[tuple[str, str]]:
         offer = source.offers().get("/words")
         return [(p.node, p.type) for p in offer.publishers] if offer else []
 
-    # DDS may tell of a publisher before it tells which node it belongs to.
-    until(lambda: publishers() == [told], "a publisher with its node")
-    until(lambda: talker.count_subscribers("/words") == 0, "nobody subscribes")
+    # DDS may announce a publisher before its node.
+    until(lambda: publishers() == [expected], "a publisher with its node")
+    until(lambda: talker.count_subscribers("/words") == 0, "no subscription")
 
 
 def test_what_is_no_longer_wanted_is_unsubscribed(
@@ -166,7 +166,7 @@ def test_what_is_no_longer_wanted_is_unsubscribed(
     until(lambda: publisher.get_subscription_count() == 0, "unsubscribed")
 
 
-def test_a_type_nobody_knows_is_a_problem_in_words(listen: Callable[..., RosSource]) -> None:
+def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
     source = listen()
     source.want({"/x": Subscription("no_such_msgs/msg/Thing", Topic("/x"))})
     offer = until(

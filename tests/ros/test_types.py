@@ -242,7 +242,7 @@ def test_a_real_package_and_a_composed_class_understand_each_other(ros):
     assert received == [sent]
 
 
-def test_the_node_describes_a_composed_type_to_whoever_asks(ros):
+def test_the_node_describes_a_composed_type_on_request(ros):
     from type_description_interfaces.srv import GetTypeDescription
 
     node, executor = ros
@@ -322,7 +322,7 @@ def test_a_real_service_and_a_composed_client_understand_each_other(ros):
     node, executor = ros
 
     def answer(request, response):
-        response.success, response.message = not request.data, "was told"
+        response.success, response.message = not request.data, "was done"
         return response
 
     node.create_service(SetBool, "/switch", answer)
@@ -333,4 +333,4 @@ def test_a_real_service_and_a_composed_client_understand_each_other(ros):
     spin_until(executor, future.done)
     answer = future.result()
     assert isinstance(answer, Raw)
-    assert answer.cdr[:21] == bytes([0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0]) + b"was told\0"
+    assert answer.cdr[:21] == bytes([0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0]) + b"was done\0"

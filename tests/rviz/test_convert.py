@@ -64,7 +64,7 @@ def test_mistakes_are_one_sentence(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert convert(small, small) == 1
-    assert "is the file to convert. Choose another TARGET." in capsys.readouterr().err
+    assert "SOURCE and TARGET are both" in capsys.readouterr().err
     assert convert(tmp_path / "none.rviz", tmp_path / "a.yaml") == 1
     assert "No such file or directory." in capsys.readouterr().err
     (tmp_path / "bad.rviz").write_text("a: 1")
@@ -78,9 +78,9 @@ def test_a_command_without_a_target_says_what_is_missing(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert convert(small) == 2
-    assert "Give the TARGET to write, or --report." in capsys.readouterr().err
+    assert "Missing TARGET. Give the file to write, or --report." in capsys.readouterr().err
     assert convert("--report", tmp_path / "a.yaml") == 2
-    assert "--report is for a .rviz file" in capsys.readouterr().err
+    assert "--report needs a .rviz file" in capsys.readouterr().err
 
 
 def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:

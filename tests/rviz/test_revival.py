@@ -10,7 +10,8 @@ from rviz_trees import lost, texts
 
 from webviz.api import registry
 from webviz.api.declared import Topic
-from webviz.api.display import Display, Input
+from webviz.api.display import Display
+from webviz.api.ports import Input
 from webviz.files import rviz
 from webviz.files.config import Branch, Unreadable, dump
 from webviz.files.opening import parse

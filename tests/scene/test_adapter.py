@@ -17,11 +17,12 @@ from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
 from webviz.edges.scene import Scene
-from webviz.edges.scene.adapter import MAX_TOMBSTONES, _Orientation, _Position
+from webviz.edges.scene.adapter.link import MAX_TOMBSTONES
+from webviz.edges.scene.adapter.poses import OrientationMessage, PositionMessage
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:
-    """If this fails, viser changed: compare `_windows` in adapter.py with its new loop."""
+    """If this fails, viser changed: compare `_windows` in replay.py with its new loop."""
     source = inspect.getsource(AsyncMessageBuffer._window_loop)
     assert hashlib.sha256(source.encode()).hexdigest().startswith("622c10d1a9e84168")
 
@@ -63,9 +64,9 @@ def test_nodes_have_the_properties_that_we_update(props: type[Any], names: set[s
 @pytest.mark.parametrize(
     ("ours", "original"),
     [
-        (_Position("/a", (1.0, 2.0, 3.0)), wire.SetPositionMessage("/a", (1.0, 2.0, 3.0))),
+        (PositionMessage("/a", (1.0, 2.0, 3.0)), wire.SetPositionMessage("/a", (1.0, 2.0, 3.0))),
         (
-            _Orientation("/a", (0.6, 0.8, 0.0, 0.0)),
+            OrientationMessage("/a", (0.6, 0.8, 0.0, 0.0)),
             wire.SetOrientationMessage("/a", (0.6, 0.8, 0.0, 0.0)),
         ),
     ],
@@ -99,7 +100,7 @@ def test_many_moves_at_once_leave_what_single_ones_leave(
     for name in ("/webviz/a", "/webviz/b"):
         ids = buffer.ids_from_entity_state_key["scene", name]
         messages = [buffer.message_from_id[number] for number in sorted(ids)]
-        assert {type(message) for message in messages} == {_Position, _Orientation}
+        assert {type(message) for message in messages} == {PositionMessage, OrientationMessage}
         assert len(messages) == 2
         keys = {buffer.id_from_redundancy_key[message.redundancy_key()] for message in messages}
         assert keys == ids
@@ -184,7 +185,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     while len(seen) < 10 or len(set(seen[-10:])) > 1:  # it goes on, or has not begun
         scene.link.update("/webviz/a", {"points": blob})
         scene.link.flush()
-        time.sleep(0.05)  # long enough to be sent, if anybody reads
+        time.sleep(0.05)  # long enough to be sent, if the browser reads
         seen.append(min(cursors.values(), default=-len(seen)))
     for index in range(MAX_TOMBSTONES + 1000):
         scene.link._queue(wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
@@ -194,7 +195,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     wait_until(lambda: scene.link.live_messages < 200)
 
 
-def test_nobody_has_to_acknowledge_in_an_empty_room(scene: Scene) -> None:
+def test_acknowledging_without_browsers_returns_at_once(scene: Scene) -> None:
     scene.link.acknowledge(timeout=0.0)
 
 

@@ -1,4 +1,4 @@
-"""What pages and the server tell each other beside viser's connection."""
+"""The channel between pages and server, next to viser's connection."""
 
 from __future__ import annotations
 
@@ -51,15 +51,15 @@ def channel(server: Server, **options: Any) -> Iterator[Connection]:
 
 
 def key_of(peer: Any) -> tuple[int, str]:
-    """What viser's connection is told of the channel: who it is, and the key."""
+    """The browser id and channel key that viser's connection receives."""
     for message in peer.replay():
         if message["type"] == "RunJavascriptMessage":
-            told = msgspec.json.decode(message["source"].partition("(")[2].removesuffix(");"))
-            return told["browser"], told["key"]
+            received = msgspec.json.decode(message["source"].partition("(")[2].removesuffix(");"))
+            return received["browser"], received["key"]
     raise AssertionError("no bootstrap")
 
 
-def told(page: Connection) -> dict[str, Any]:
+def receive(page: Connection) -> dict[str, Any]:
     """The next message that is not only a sign of life."""
     while (message := msgspec.json.decode(page.recv(10)))["type"] == "Beat":
         pass
@@ -84,11 +84,11 @@ def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
     assert heard == [(browser, Wish("rain"))]
 
 
-def test_a_page_is_told_what_waited_for_it_and_only_the_newest_of_what_is_kept(
+def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
     server: Server, call: Callable[..., Any]
 ) -> None:
     server.channel.send(Weather("rain"))
-    server.channel.send(News("nobody is here"))
+    server.channel.send(News("no browser is here"))
     server.channel.send(Weather("sun"))
     browser, key = key_of(call())
     other, _ = key_of(call())
@@ -97,7 +97,7 @@ def test_a_page_is_told_what_waited_for_it_and_only_the_newest_of_what_is_kept(
     server.channel.send(Weather("wind"))
     with channel(server) as page:
         page.send(hello(key))
-        got = [told(page) for _ in range(2)]
+        got = [receive(page) for _ in range(2)]
     assert got == [{"type": "News", "text": "for you"}, {"type": "Weather", "text": "wind"}]
 
 
@@ -121,7 +121,7 @@ def test_a_key_opens_one_channel_only(server: Server, call: Callable[..., Any]) 
     with channel(server) as page, channel(server) as thief:
         server.channel.send(News("hello"))
         page.send(hello(key))
-        told(page)
+        receive(page)
         thief.send(hello(key))
         with pytest.raises(websockets.exceptions.ConnectionClosed):
             thief.recv(10)
@@ -183,14 +183,14 @@ def test_a_page_that_reads_nothing_has_to_connect_anew(
         wait_until(lambda: browser not in live)
 
 
-def test_when_the_channel_ends_the_page_is_told_by_viser(
+def test_when_the_channel_ends_viser_notifies_the_page(
     server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
 ) -> None:
     browser, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
         server.channel.send(News("hello"))
-        told(page)
+        receive(page)
     wait_until(lambda: browser not in server._websock_server._live_connections)
 
 

@@ -20,7 +20,7 @@ from webviz.edges.scene.connections import MAX_BROWSERS, Allowance
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
-def test_one_browser_more_than_are_served_is_told_so(
+def test_one_browser_too_many_is_refused_with_the_reason(
     ask: Callable[..., Any],
     call: Callable[..., Any],
     wait_until: Callable[[Callable[[], bool]], None],
@@ -80,7 +80,7 @@ def test_without_file_descriptors_browsers_are_refused_and_served_again_later() 
         [sys.executable, "-c", FEW_FILES], capture_output=True, text=True, timeout=60, check=True
     )
     assert run.stdout.split() == ["HTTP/1.1", "503", "HTTP/1.1", "200"]
-    assert run.stderr == "Connections are turned away: Too many open files.\n"
+    assert run.stderr == "Refused a connection: Too many open files.\n"
 
 
 def test_a_browser_may_send_a_burst_and_then_a_steady_rate() -> None:
@@ -126,7 +126,7 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
         pytest.fail("the server took a million frames")
 
 
-def test_word_of_a_form_that_nobody_has_is_not_kept(
+def test_changes_of_an_unknown_form_are_not_kept(
     server: viser.ViserServer,
     call: Callable[..., Any],
     wait_until: Callable[[Callable[[], bool]], None],
@@ -138,8 +138,8 @@ def test_word_of_a_form_that_nobody_has_is_not_kept(
     sender.send({"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid})
     sender.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
     wait_until(lambda: done.value)
-    told = [m["uuid"] for m in call().replay() if m["type"] == "GuiFormDirtyMessage"]
-    assert told == [form._impl.uuid]
+    kept = [m["uuid"] for m in call().replay() if m["type"] == "GuiFormDirtyMessage"]
+    assert kept == [form._impl.uuid]
 
 
 def test_a_message_that_is_too_large_for_its_kind_is_dropped(

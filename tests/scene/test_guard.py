@@ -94,14 +94,14 @@ def test_a_server_on_every_interface_is_served_under_any_address_but_not_under_a
 
 def test_a_taken_port_is_an_error_and_not_another_port(server: viser.ViserServer) -> None:
     with pytest.raises(
-        PortInUse, match=rf"^Port {server.get_port()} of 127.0.0.1 is in use; [^.]*"
+        PortInUse, match=rf"^Port {server.get_port()} of 127.0.0.1 is in use\. [^.]*"
     ):
         open_server(port=server.get_port())
 
 
 @pytest.mark.parametrize("port", [-1, 65536, 99999])
 def test_a_port_that_there_is_not_is_refused(port: int) -> None:
-    with pytest.raises(CannotListen, match=rf"^{port} is not a valid port; "):
+    with pytest.raises(CannotListen, match=rf"^{port} is not a valid port\. "):
         open_server(port=port)
 
 

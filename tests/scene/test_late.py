@@ -49,7 +49,7 @@ def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
     assert sent == ["other"]
 
 
-def test_work_that_fails_is_told_and_does_not_stop_the_rest(caplog: Any) -> None:
+def test_work_that_fails_is_logged_and_does_not_stop_the_rest(caplog: Any) -> None:
     late, sent = Late(), list[int]()
     late.put("/bad", lambda: 1 // 0, sent.append)
     late.put("/good", lambda: 1, sent.append)

@@ -66,7 +66,7 @@ def test_two_headers_of_one_name_are_no_error(ask: Ask) -> None:
     assert b"Content-Encoding: gzip" in head
 
 
-def test_the_page_may_be_in_no_other_page_and_tells_no_other_site_of_itself(ask: Ask) -> None:
+def test_the_page_cannot_be_embedded_and_sends_no_referrer(ask: Ask) -> None:
     _, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + b"\r\n")
     assert b"frame-ancestors 'none'" in head
     assert b"connect-src 'self' ws://localhost wss://localhost data: blob:" in head
@@ -118,4 +118,4 @@ def test_a_sparing_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixtur
     for second in (0.0, 1.0, 59.0, 60.5):
         at(second, "It rains")
     at(61.0, "It snows")
-    assert caplog.messages == ["It rains", "It rains (2 more like it before)", "It snows"]
+    assert caplog.messages == ["It rains", "It rains (2 similar lines omitted)", "It snows"]

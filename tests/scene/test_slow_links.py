@@ -11,7 +11,7 @@ from viser import _messages as wire
 
 from webviz.api.nodes import Points, Pose
 from webviz.edges.scene import Scene
-from webviz.edges.scene.adapter import _Marker
+from webviz.edges.scene.adapter.acknowledging import Marker
 from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
 from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
 from webviz.edges.scene.points import PART
@@ -22,7 +22,7 @@ class Queue:
 
     def __init__(self) -> None:
         self.live: dict[int, Any] = {}
-        self.outbox = Outbox(_Marker)
+        self.outbox = Outbox(Marker)
         self._count = 0
 
     def push(self, message: Any) -> None:
@@ -82,11 +82,11 @@ def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
     queue = Queue()
     for name in ("/a", "/b"):
         queue.cloud(name)
-    queue.push(_Marker("1"))
+    queue.push(Marker("1"))
     sent = [queue.window()]
     queue.cloud("/a")
     sent += [queue.window(), queue.window(), queue.window()]
-    assert sent == [["/a"], ["/b", "_Marker"], ["/a"], []]
+    assert sent == [["/a"], ["/b", "Marker"], ["/a"], []]
 
 
 def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(

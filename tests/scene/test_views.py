@@ -42,7 +42,7 @@ class Window(Page):
         self.clicks: list[Any] = []
         url = f"http://127.0.0.1:{self.server.get_port()}"
         super().__init__(browser, url, WIDTH, HEIGHT)
-        self.wait_for(scene.cameras.views, "the page has told its view")
+        self.wait_for(scene.cameras.views, "the page has reported its view")
         self.server.scene.on_click()(self.clicks.append)
 
     @property
@@ -58,10 +58,12 @@ class Window(Page):
         return self.scene.cameras.size(browser)
 
     def look(self, view: View) -> None:
-        """Show a view, and wait until the server is told so by the page."""
+        """Show a view, and wait until the page has reported it."""
         self.scene.cameras.show(view)
         (browser,) = self.scene.cameras._browsers.values()
-        self.wait_for(lambda: self.view and browser.obeyed == browser.number, "the page has told")
+        self.wait_for(
+            lambda: self.view and browser.obeyed == browser.number, "the report of the page"
+        )
         self.settle_down()
 
     def settle_down(self) -> None:
@@ -132,7 +134,7 @@ ANYTHING = [
 
 
 @pytest.mark.parametrize("view", ANYTHING, ids=lambda view: type(view).__name__)
-def test_a_browser_tells_the_view_that_it_was_given(window: Window, view: View) -> None:
+def test_a_browser_reports_the_view_that_it_was_given(window: Window, view: View) -> None:
     window.look(view)
     assert window.view == view
 
@@ -187,7 +189,7 @@ def test_scale_is_kept_when_the_page_gets_another_size(window: Window) -> None:
     window.draw(4)
     assert window.pixel_of(2.0, 1.0) == pytest.approx((450 + 40, 200 - 40), abs=0.05)
     window.resize(WIDTH, HEIGHT)
-    window.wait_for(lambda: window.size == (WIDTH, HEIGHT), "it is told")
+    window.wait_for(lambda: window.size == (WIDTH, HEIGHT), "the size")
 
 
 PICKED = [
@@ -325,8 +327,8 @@ def test_the_camera_comes_and_goes_as_far_as_in_rviz(window: Window, view: View)
 def test_the_mouse_looks_around_and_walks_in_fps(window: Window) -> None:
     window.look(FPS(position=(0.0, 0.0, 2.0)))
     window.drag(100, 40)
-    told = "5 mrad/px to the right and down"
-    view = window.tell(lambda view: math.dist((view.yaw, view.pitch), (-0.5, 0.2)) < 1e-3, told)
+    what = "5 mrad/px to the right and down"
+    view = window.tell(lambda view: math.dist((view.yaw, view.pitch), (-0.5, 0.2)) < 1e-3, what)
     assert isinstance(view, FPS)
     assert math.dist(view.position, (0.0, 0.0, 2.0)) < 0.01
     window.look(FPS(position=(0.0, 0.0, 2.0)))
@@ -340,9 +342,9 @@ def test_turning_and_zooming_xy_orbit_keep_its_focal_point(window: Window) -> No
     window.look(XYOrbit(distance=10.0, pitch=0.8, focal_point=(1.0, 2.0, 0.0)))
     window.drag(80, 60)
     window.tab.mouse.wheel(0, -120)
-    told = "it turned and came closer"
-    view = window.tell(lambda v: abs(v.distance - 8.8) + abs(v.pitch - 1.1) < 1e-2, told)
-    window.tell(lambda v: math.dist(v.focal_point, (1.0, 2.0, 0.0)) < 1e-2, f"{told}: {view}")
+    what = "it turned and came closer"
+    view = window.tell(lambda v: abs(v.distance - 8.8) + abs(v.pitch - 1.1) < 1e-2, what)
+    window.tell(lambda v: math.dist(v.focal_point, (1.0, 2.0, 0.0)) < 1e-2, f"{what}: {view}")
 
 
 def test_moving_xy_orbit_keeps_its_focal_point_on_the_ground(window: Window) -> None:
@@ -411,5 +413,5 @@ def test_a_page_that_lost_its_connection_keeps_its_view(window: Window) -> None:
         window.server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
     window.wait_for(lambda: set(window.server.get_clients()) - before, "it is back")
     window.wait_for(
-        lambda: list(window.scene.cameras.views().values()) == [view], "it told its view"
+        lambda: list(window.scene.cameras.views().values()) == [view], "its view was reported"
     )

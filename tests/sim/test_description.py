@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.typesys import Stores, get_typestore
 
-from webviz_sim import cdr
-from webviz_sim.description import Transform, demo_description, read_joints
+from webviz.data.messages import FrameTransform
+from webviz_sim import messages
+from webviz_sim.description import demo_description, read_joints
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 FRAMES = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
@@ -18,7 +19,7 @@ NUMBERS = st.floats(allow_nan=False)
 
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory):
-    """The bundled robot, read by somebody else's library, without its meshes."""
+    """The bundled robot, read by another library, without its meshes."""
     path = tmp_path_factory.mktemp("urdf") / "robot.urdf"
     path.write_text(demo_description())
     return yourdfpy.URDF.load(str(path), load_meshes=False, build_scene_graph=True)
@@ -45,7 +46,7 @@ def test_joints_move_the_links_as_another_urdf_reader_moves_them(robot, angle):
     assert [j.name for j in joints if j.kind == "continuous"] == robot.actuated_joint_names
     robot.update_cfg([angle] * len(robot.actuated_joint_names))
     for joint in joints:
-        transform = joint.transform(angle if joint.kind == "continuous" else 0.0)
+        transform = joint.transform(0, angle if joint.kind == "continuous" else 0.0)
         expected = robot.get_transform(transform.child, transform.parent)
         assert np.allclose(matrix(transform.rotation), expected[:3, :3])
         assert np.allclose(transform.translation, expected[:3, 3])
@@ -62,21 +63,23 @@ def test_the_bundled_robot_is_valid_and_stands_on_the_floor(robot):
 @settings(deadline=None)
 @given(
     st.lists(
-        st.tuples(
+        st.builds(
+            FrameTransform,
+            FRAMES,
+            FRAMES,
             st.integers(0, 2**31 * 10**9 - 1),
-            st.builds(
-                Transform, FRAMES, FRAMES, st.tuples(*[NUMBERS] * 3), st.tuples(*[NUMBERS] * 4)
-            ),
+            st.tuples(*[NUMBERS] * 3),
+            st.tuples(*[NUMBERS] * 4),
         ),
         max_size=4,
     )
 )
-def test_serialised_transforms_are_read_back_as_they_were(stamped):
-    message = read_cdr(cdr.tf_message(stamped), "tf2_msgs/msg/TFMessage")
-    assert len(message.transforms) == len(stamped)
-    for read, (stamp, transform) in zip(message.transforms, stamped, strict=True):
+def test_serialised_transforms_are_read_back_as_they_were(transforms):
+    message = read_cdr(messages.tf(transforms), "tf2_msgs/msg/TFMessage")
+    assert len(message.transforms) == len(transforms)
+    for read, transform in zip(message.transforms, transforms, strict=True):
         time, turn, shift = read.header.stamp, read.transform.rotation, read.transform.translation
-        assert time.sec * 10**9 + time.nanosec == stamp
+        assert time.sec * 10**9 + time.nanosec == transform.stamp_ns
         assert (read.header.frame_id, read.child_frame_id) == (transform.parent, transform.child)
         assert (shift.x, shift.y, shift.z) == transform.translation
         assert (turn.x, turn.y, turn.z, turn.w) == transform.rotation
@@ -84,7 +87,7 @@ def test_serialised_transforms_are_read_back_as_they_were(stamped):
 
 def test_a_serialised_path_is_read_back_with_poses_along_it():
     points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
-    raw = cdr.path_message(1_500_000_007, points)
+    raw = messages.path(points, 1_500_000_007)
     path = read_cdr(raw, "nav_msgs/msg/Path")
     assert path.header.frame_id == "map"
     assert [[p.pose.position.x, p.pose.position.y] for p in path.poses] == points.tolist()

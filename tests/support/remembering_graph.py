@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
@@ -16,10 +17,10 @@ class RememberingGraph:
 
     subscriptions: int = 1
     published: list[tuple[Outlet, Any]] = field(default_factory=list)
-    advertised: list[Outlet] = field(default_factory=list)
+    advertised: Collection[Outlet] = ()
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        self.advertised.append(outlet)
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        self.advertised = outlets
         return done(None)
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:

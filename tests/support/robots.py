@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 import webviz_urdf
+from webviz import Pose, compose
 from webviz.shell.testing import Shown
-from webviz_urdf import load_file
+from webviz_urdf import Robot, load_file
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo/robot.urdf"
 
@@ -22,9 +23,23 @@ def robots_folder() -> Path:
     return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))
 
 
+def link_poses(robot: Robot) -> dict[str, Pose]:
+    """The pose of each link in the root, all joints at zero."""
+    joints = {joint.child: joint for joint in robot.joints.values()}
+    poses = {robot.root: Pose()}
+    for link in robot.links:
+        chain = []
+        while link not in poses:
+            chain.append(joints[link])
+            link = joints[link].parent
+        for joint in reversed(chain):
+            poses[joint.child] = compose(poses[joint.parent], joint.origin)
+    return poses
+
+
 def place_links(seen: Shown, file: Path, below: str = "map") -> None:
     """Transforms of a robot with all joints at zero, its root on the origin of a frame."""
-    for link, pose in load_file(file).fk().items():
+    for link, pose in link_poses(load_file(file)).items():
         w, x, y, z = pose.wxyz
         if link != below:
             seen.transform(below, link, pose.position, (x, y, z, w))

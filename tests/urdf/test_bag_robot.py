@@ -7,6 +7,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from robots import link_poses
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -32,4 +33,4 @@ def test_a_robot_whose_meshes_are_elsewhere_loads_and_lists_them():
         "turtlebot4_description",
     }
     assert all("neither on AMENT_PREFIX_PATH" in m.reason for m in missing)
-    assert robot.fk().keys() == robot.links.keys()
+    assert link_poses(robot).keys() == robot.links.keys()

@@ -7,6 +7,7 @@ import re
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from robots import link_poses
 
 from webviz.api.nodes import Mesh
 from webviz_urdf import Resolver, RobotDescriptionError, load_file, load_robot
@@ -124,7 +125,7 @@ WRONG = {
     "<robot xmlns:xacro='http://ros.org/wiki/xacro'><xacro:a/></robot>": "xacro file",
     "<robot><link/></robot>": "Line 1: <link> has no 'name'",
     "<robot><link name='a'/><link name='a'/></robot>": "Two links are named 'a'",
-    "<robot><link name='a'/><link name='b'/></robot>": "'a', 'b' each have no parent",
+    "<robot><link name='a'/><link name='b'/></robot>": "'a', 'b' have no parent",
     "<robot><link name='a'><visual><origin xyz='1 2'/></visual></link></robot>": "xyz='1 2'",
     "<robot>\n<link name='a'><visual><origin xyz='1 2 x'/></visual></link></robot>": "Line 2:",
     "<robot><link name='a'><visual><origin xyz='1 nan 2'/></visual></link></robot>": "not finite",
@@ -229,7 +230,7 @@ def test_any_damage_to_a_description_is_read_or_refused_in_one_line(damage):
         assert refusal
         assert "\n" not in refusal
     else:
-        assert robot.fk().keys() == robot.links.keys()
+        assert link_poses(robot).keys() == robot.links.keys()
         nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
         assert all(isinstance(node, Mesh) for node in nodes)
 

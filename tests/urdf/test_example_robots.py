@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from robots import link_poses
 
 from webviz import compose
 from webviz.api.nodes import Glb, Mesh
@@ -54,14 +55,14 @@ def test_every_visual_is_drawn_or_said_to_be_missing(file):
         assert drawn + len(missing) == len(declared.findall(f"link/{kind}"))
         # romeo_laas_small names meshes in Ogre's format on its author's disk.
         assert not missing or "romeo_laas" in file
-    assert robot.fk().keys() == robot.links.keys()
+    assert link_poses(robot).keys() == robot.links.keys()
     for link in robot.links.values():
         assert (mass_sphere(link) is None) <= (inertia_box(link) is None)
 
 
 def extents(robot, as_trimesh) -> np.ndarray:
     """Size of the robot along x, y, z of its root, joints at zero, in metres."""
-    poses = robot.fk()
+    poses = link_poses(robot)
     corners = []
     for link in robot.links.values():
         for shape in link.visuals:
@@ -108,12 +109,3 @@ def test_the_textures_of_anymal_are_kept():
     robot = load("anymal_c_simple_description/urdf/anymal.urdf")
     nodes = [shape.node for link in robot.links.values() for shape in link.visuals]
     assert sum(isinstance(node, Glb) and b"image/jpeg" in node.data for node in nodes) == 45
-
-
-def test_mimic_fingers_of_panda_move_together():
-    robot = load("panda_description/urdf/panda.urdf")
-    (mimic,) = [joint for joint in robot.joints.values() if joint.mimic]
-    assert mimic.mimic is not None
-    closed, opened = robot.fk(), robot.fk({mimic.mimic.joint: 0.04})
-    apart = np.subtract(opened[mimic.child].position, closed[mimic.child].position)
-    assert np.linalg.norm(apart) == pytest.approx(0.04)

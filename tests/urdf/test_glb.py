@@ -109,5 +109,5 @@ def test_recolouring_keeps_the_geometry_and_the_original(two_parts):
 
 @pytest.mark.parametrize("data", [b"", b"glTF", b"x" * 100])
 def test_what_is_no_glb_is_refused(data):
-    with pytest.raises(ValueError, match="no binary glTF"):
+    with pytest.raises(ValueError, match="not a binary glTF"):
         glb_with(data, alpha=0.5)

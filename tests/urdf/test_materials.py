@@ -78,7 +78,7 @@ def test_a_material_defined_inside_a_link_is_used_by_name_in_another(colors):
 def test_the_first_definition_of_a_name_counts_and_the_conflict_is_named(load, colors):
     text = links(visual(material("m", "0 1 0 1")), visual(material("m", "0 0 1 1")))
     assert colors(text) == [GREEN, GREEN]
-    assert "'m' is defined again" in load(text).warnings[0]
+    assert "'m' is redefined" in load(text).warnings[0]
 
 
 def test_a_material_of_the_robot_wins_over_one_of_a_link(colors):

@@ -3,18 +3,10 @@
 from webviz_urdf.build import Progress
 from webviz_urdf.glb import glb_with
 from webviz_urdf.inertia import inertia_box, mass_sphere
-from webviz_urdf.joints import Joint, Mimic
 from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.robot import (
-    Inertial,
-    Link,
-    Missing,
-    Robot,
-    RobotDescriptionError,
-    Shape,
-)
+from webviz_urdf.robot import Inertial, Joint, Link, Missing, Robot, RobotDescriptionError, Shape
 
 __all__ = [
     "Inertial",
@@ -23,7 +15,6 @@ __all__ = [
     "LoadRequest",
     "Loading",
     "LoadingStopped",
-    "Mimic",
     "Missing",
     "Progress",
     "ResolveError",

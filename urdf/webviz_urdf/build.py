@@ -1,8 +1,9 @@
-"""From a parsed description to a robot: reads the meshes and dresses them."""
+"""Builds a robot from a parsed description: reads meshes and applies materials."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 import yourdfpy
@@ -13,15 +14,15 @@ from webviz_urdf.description import Description, pose_of
 from webviz_urdf.dress import Dresser
 from webviz_urdf.glb import MeshPart
 from webviz_urdf.materials import DEFAULT, Material, Materials
-from webviz_urdf.meshes import MeshError, MeshLibrary, Scale
+from webviz_urdf.meshes import MeshError, MeshFile, Scale, read_mesh, scaled
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import Inertial, Link, Missing, Robot, Shape
 
 Progress = Callable[[int, int, str], None]
-"""Called with the number of shapes done, their total, and the name of the link at work."""
+"""Called with the number of shapes done, their total, and the name of the current link."""
 
 MAX_BYTES = 256 << 20
-"""Of all shapes of a robot, as every browser is sent them."""
+"""Of all shapes of a robot; every browser receives them."""
 
 MAX_SHAPES = 10_000
 
@@ -33,7 +34,7 @@ def build_robot(
     collisions: bool,
     skip: Mapping[int, str],
 ) -> Robot:
-    """Read every mesh that the description names; what fails is listed in `Robot.missing`."""
+    """Read every mesh of a description; failures are listed in `Robot.missing`."""
     return _Builder(description, resolver, progress, collisions, skip).build()
 
 
@@ -51,8 +52,8 @@ class _Builder:
         self._materials = Materials(description.model)
         self._dresser = Dresser(resolver)
         self._resolver = resolver
-        self._library = MeshLibrary(resolver)
-        self._nodes: dict[tuple[object, Material], Mesh | Glb] = {}
+        self._files: dict[Path, MeshFile] = {}
+        self._nodes: dict[tuple[Path, Scale, Material], Mesh | Glb] = {}
         self._missing = [m for m in description.missing if collisions or m.kind == "visual"]
         self._warnings: dict[str, None] = {}
         self._progress = progress or (lambda done, total, link: None)
@@ -87,11 +88,11 @@ class _Builder:
     def _link(self, link: yourdfpy.Link) -> Link:
         visuals = [(visual, self._materials.of(visual, link.name)) for visual in link.visuals]
         collisions = link.collisions if self._collisions else []
-        worn = self._materials.of_collisions(link)
+        material = self._materials.of_collisions(link)
         return Link(
             link.name,
             self._shapes(link.name, "visual", visuals),
-            self._shapes(link.name, "collision", [(c, worn) for c in collisions]),
+            self._shapes(link.name, "collision", [(c, material) for c in collisions]),
             _inertial(link.inertial),
         )
 
@@ -112,7 +113,7 @@ class _Builder:
             geometry = element.geometry or yourdfpy.Geometry()
             uri = geometry.mesh.filename if geometry.mesh is not None else ""
             try:
-                self._refuse(number, uri)
+                self._check(number, uri)
                 node = self._node(geometry, material)
                 self._count(node)
             except (ResolveError, MeshError) as error:
@@ -121,18 +122,18 @@ class _Builder:
             shapes[name] = Shape(name, pose_of(element.origin), node)
         return tuple(shapes.values())
 
-    def _refuse(self, number: int, uri: str) -> None:
-        """Raise for what shall not be read: a shape, and all others with the same mesh."""
+    def _check(self, number: int, uri: str) -> None:
+        """Raise if a shape is to be skipped, or has the mesh of one that was."""
         reason = self._skip.get(number) or self._refused.get(uri)
         if reason is not None:
             if uri:
                 self._refused[uri] = reason
-            raise MeshError(f"{uri or 'The shape'} is left out. {reason}")
+            raise MeshError(f"{uri or 'The shape'} is skipped. {reason}")
         if number >= MAX_SHAPES:
             raise MeshError(f"The robot has more than {MAX_SHAPES} shapes.")
 
     def _count(self, node: Mesh | Glb) -> None:
-        """Raise if the robot is larger with a node than a robot may be."""
+        """Add the size of a node; raise if the robot becomes too large."""
         size = len(node.data) if isinstance(node, Glb) else node.vertices.nbytes + node.faces.nbytes
         if self._bytes + size > MAX_BYTES:
             raise MeshError(
@@ -142,18 +143,22 @@ class _Builder:
         self._bytes += size
 
     def _node(self, geometry: yourdfpy.Geometry, material: Material) -> Mesh | Glb:
-        """The node of a geometry; one object for all that look alike."""
+        """The node of a geometry; equal ones share one object."""
         if geometry.mesh is None:
             part = _primitive(geometry)
             self._warn(material.warning)
             return self._dresser.dress((part,), material)
-        path = self._resolver.resolve(geometry.mesh.filename)
-        file = self._library.load(path, _scale(geometry.mesh.scale))
-        brings_its_own = all(part.surface for part in file.parts)
-        self._warn(*file.warnings, *(() if brings_its_own else (material.warning,)))
-        key = (id(file), DEFAULT if brings_its_own else material)
+        path, scale = self._resolver.resolve(geometry.mesh.filename), _scale(geometry.mesh.scale)
+        if path not in self._files:
+            self._files[path] = read_mesh(path, self._resolver)
+        file = self._files[path]
+        if all(part.surface for part in file.parts):
+            material = DEFAULT  # the file has materials of its own
+        self._warn(*file.warnings, material.warning)
+        key = (path, scale, material)
         if key not in self._nodes:
-            self._nodes[key] = self._dresser.dress(file.parts, material)
+            parts = [scaled(part, scale) for part in file.parts]
+            self._nodes[key] = self._dresser.dress(parts, material)
         return self._nodes[key]
 
     def _warn(self, *sentences: str) -> None:

@@ -10,13 +10,13 @@ from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def without_broken_materials(data: bytes) -> tuple[bytes, list[str]]:
-    """A COLLADA file whose bodies no longer name materials that the file fails to define.
+    """A COLLADA file without references to materials that it does not define.
 
-    pycollada drops a body entirely when one of its materials refers to a picture or effect that
-    is not in the file (exporters leave such remains behind); Assimp, and so RViz, draws it.
+    pycollada drops a body entirely when one of its materials refers to a missing picture or
+    effect, which some exporters leave behind; Assimp, and so RViz, draws it.
 
     Returns:
-        The file, and the ids of the materials taken out.
+        The file, and the ids of the removed materials.
     """
     document = Collada(io.BytesIO(data), ignore=[DaeError])
     defined = {material.id for material in document.materials}

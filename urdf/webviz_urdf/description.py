@@ -1,19 +1,19 @@
-"""Links and joints of a checked URDF document, and whether the joints make a tree."""
+"""Links and joints of a checked URDF document; the joints must form a tree."""
 
 from __future__ import annotations
 
 import io
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import yourdfpy
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 from trimesh.transformations import quaternion_from_matrix
 
 from webviz.api.nodes import Pose
+from webviz.data.words import listed
 from webviz_urdf.document import parse_document
-from webviz_urdf.joints import JOINT_TYPES, Joint, Mimic
-from webviz_urdf.robot import Missing, RobotDescriptionError
+from webviz_urdf.robot import JOINT_TYPES, Joint, Missing, RobotDescriptionError
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class Description:
         model: yourdfpy's links, with visuals, collisions and inertials, and materials.
         joints: by name.
         root: the link without a parent.
-        missing: visuals and collisions without a geometry, which `model` leaves out.
-        warnings: sentences about what was put up with.
+        missing: visuals and collisions without a geometry, which are not in `model`.
+        warnings: sentences about tolerated faults.
     """
 
     model: yourdfpy.Robot
@@ -39,7 +39,7 @@ def parse_description(text: str) -> Description:
     """Parse URDF text.
 
     Raises:
-        RobotDescriptionError: the text is no robot, or its joints do not make one tree.
+        RobotDescriptionError: the text is not a robot, or its joints do not form one tree.
     """
     document = parse_document(text)
     xml = etree.tostring(document.root)
@@ -49,7 +49,7 @@ def parse_description(text: str) -> Description:
     _unique("joint", [joint.name for joint in model.joints])
     joints = {joint.name: _joint(joint) for joint in model.joints}
     root = _root(links, joints)
-    warnings = document.warnings + _drop_broken_mimics(joints)
+    warnings = document.warnings + _broken_mimics(model.joints)
     return Description(model, joints, root, document.missing, warnings)
 
 
@@ -76,12 +76,11 @@ def _joint(joint: yourdfpy.Joint) -> Joint:
     if joint.type not in JOINT_TYPES:
         raise RobotDescriptionError(
             f"Joint '{joint.name}' has the unknown type '{joint.type}': "
-            f"it must be one of {', '.join(JOINT_TYPES)}."
+            f"expected one of {', '.join(JOINT_TYPES)}."
         )
     x, y, z = (float(v) for v in joint.axis)  # pyright: ignore[reportOptionalIterable]
     length = math.hypot(x, y, z) or 1.0
     limit = joint.limit if joint.type in ("revolute", "prismatic") else None
-    mimic = joint.mimic
     return Joint(
         name=joint.name,
         type=joint.type,
@@ -89,9 +88,8 @@ def _joint(joint: yourdfpy.Joint) -> Joint:
         child=joint.child,
         origin=pose_of(joint.origin),
         axis=(x / length, y / length, z / length),
-        # urdfdom: a bound left out is 0.
+        # As in urdfdom a missing bound is 0.
         limits=limit and (limit.lower or 0.0, limit.upper or 0.0),
-        mimic=mimic and Mimic(mimic.joint, mimic.multiplier or 0.0, mimic.offset or 0.0),
     )
 
 
@@ -113,7 +111,7 @@ def _root(links: set[str], joints: dict[str, Joint]) -> str:
     roots = sorted(links - parent_joint.keys())
     if len(roots) > 1:
         raise RobotDescriptionError(
-            f"The links are not one tree: {_listed(roots)} each have no parent joint."
+            f"The links do not form one tree: {_listed(roots)} have no parent joint."
         )
     hanging: set[str] = set(roots)
     for link in links:
@@ -121,33 +119,28 @@ def _root(links: set[str], joints: dict[str, Joint]) -> str:
         while link not in hanging:
             if link in path:
                 loop = sorted(path[path.index(link) :])
-                raise RobotDescriptionError(f"The joints make a loop through {_listed(loop)}.")
+                raise RobotDescriptionError(f"The joints form a loop through {_listed(loop)}.")
             path.append(link)
             link = parent_joint[link].parent
         hanging.update(path)
     return roots[0]
 
 
-def _drop_broken_mimics(joints: dict[str, Joint]) -> list[str]:
-    """Free the joints that mimic nothing, or in a circle; one warning each."""
+def _broken_mimics(joints: list[yourdfpy.Joint]) -> list[str]:
+    """Warnings about joints that mimic a missing joint, or each other."""
+    leaders = {joint.name: joint.mimic and joint.mimic.joint for joint in joints}
     warnings = []
-    for name in joints:
-        seen, leader = {name}, joints[name]
-        while leader.mimic is not None:
-            if leader.mimic.joint not in joints:
-                reason = f"mimics '{leader.mimic.joint}', which is not a joint"
-            elif leader.mimic.joint in seen:
-                reason = f"mimics in a circle through '{leader.mimic.joint}'"
-            else:
-                leader = joints[leader.mimic.joint]
-                seen.add(leader.name)
-                continue
-            joints[leader.name] = replace(leader, mimic=None)
-            warnings.append(f"Joint '{leader.name}' {reason}; it is drawn as a free joint.")
-            break
+    for name, leader in leaders.items():
+        if leader and leader not in leaders:
+            warnings.append(f"Joint '{name}' mimics '{leader}', which is not a joint.")
+        seen = {name}
+        while leader and leader not in seen:
+            seen.add(leader)
+            leader = leaders.get(leader)
+        if leader == name:
+            warnings.append(f"Joint '{name}' mimics itself, directly or through other joints.")
     return warnings
 
 
-def _listed(names: list[str], most: int = 5) -> str:
-    shown = ", ".join(f"'{name}'" for name in names[:most])
-    return shown + (f" and {len(names) - most} more" if len(names) > most else "")
+def _listed(names: list[str]) -> str:
+    return listed([f"'{name}'" for name in names], 5)

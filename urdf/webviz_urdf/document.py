@@ -1,7 +1,7 @@
 """URDF text to a clean XML tree: hardened against hostile XML, every number checked.
 
-What urdfdom would silently misread or yourdfpy would answer with a bare `ValueError` is found here,
-where the line number is still known. The tree that comes out holds only what a viewer draws.
+Faults that urdfdom would misread silently, or yourdfpy report as a bare `ValueError`, are found
+here, where the line number is known. The resulting tree contains only what a viewer draws.
 """
 
 from __future__ import annotations
@@ -70,8 +70,8 @@ class Document:
 
     Args:
         root: `<robot>` with known elements and attributes only, no comments, no namespaces.
-        missing: visuals and collisions left out of `root` because they have no known geometry.
-        warnings: sentences about what was put up with.
+        missing: visuals and collisions without a known geometry, which are not in `root`.
+        warnings: sentences about tolerated faults.
     """
 
     root: etree._Element
@@ -82,8 +82,8 @@ class Document:
 def parse_document(text: str) -> Document:
     """Parse and check URDF text.
 
-    External entities, DTDs and URLs are never loaded, and a description that declares entities is
-    refused: no robot needs them.
+    External entities, DTDs and URLs are never loaded; a description that declares entities is
+    refused.
 
     Raises:
         RobotDescriptionError: one sentence with the line and the element.
@@ -133,7 +133,7 @@ def _parse_xml(text: str) -> etree._Element:
     declarations = root.getroottree().docinfo.internalDTD
     if declarations is not None and any(True for _ in declarations.iterentities()):
         raise RobotDescriptionError(
-            "The robot description declares XML entities, which the viewer does not expand."
+            "The robot description declares XML entities, which webviz does not expand."
         )
     return root
 
@@ -181,25 +181,21 @@ def _copy(
 
 
 def _no_geometry(source: etree._Element, copy: etree._Element) -> str:
-    """Why a visual or collision cannot be drawn, empty if it can.
+    """Why a visual or collision cannot be drawn, "" if it can.
 
-    Of several geometries the first counts, as in urdfdom.
+    As in urdfdom the first of several geometries counts.
     """
     geometry = copy.find("geometry")
     line = f"Line {source.sourceline}: <{copy.tag}>"
     if geometry is None:
         return f"{line} has no <geometry>."
     if len(geometry) == 0:
-        names = [etree.QName(c).localname for g in source for c in g if _is(g, "geometry")]
+        names = [etree.QName(each).localname for each in source.iterfind("{*}geometry/*")]
         what = f"<{names[0]}>, which is not a geometry of URDF" if names else "nothing"
         return f"{line} has a <geometry> with {what}."
     if geometry[0].tag == "mesh" and not geometry[0].get("filename"):
         return f"{line} has a <mesh> without a file name."
     return ""
-
-
-def _is(element: etree._Element, name: str) -> bool:
-    return etree.QName(element).localname == name
 
 
 def _numbers(
@@ -210,11 +206,11 @@ def _numbers(
     words = value.split()
     if len(words) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise RobotDescriptionError(f"{where} must be {wanted} number(s), but has {len(words)}.")
+        raise RobotDescriptionError(f"{where}: expected {wanted} numbers, got {len(words)}.")
     try:
         numbers = [float(word) for word in words]
     except ValueError:
         raise RobotDescriptionError(f"{where} is not a number.") from None
     if tag != "limit" and not all(abs(number) <= _LARGEST for number in numbers):
-        raise RobotDescriptionError(f"{where} is not finite, or beyond anything a robot has.")
+        raise RobotDescriptionError(f"{where} is not finite, or larger than {_LARGEST:g}.")
     return " ".join(map(repr, numbers))

@@ -1,4 +1,4 @@
-"""Parts and the material they wear, to nodes."""
+"""Nodes from mesh parts and materials."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from webviz_urdf.textures import TextureError, encode, mean_color, open_image
 
 
 class Dresser:
-    """Puts URDF materials on parts that bring none of their own.
+    """Applies URDF materials to parts without a material of their own.
 
     Args:
         resolver: finds the textures that materials name.
@@ -27,7 +27,7 @@ class Dresser:
         self.warnings: list[str] = []
 
     def dress(self, parts: Sequence[MeshPart], material: Material) -> Mesh | Glb:
-        """One node: a `Mesh` if one colour says all, else a `Glb`."""
+        """One node: a `Mesh` if one colour is enough, else a `Glb`."""
         dressed = [
             part if part.surface else replace(part, surface=self._surface(part, material))
             for part in parts

@@ -1,4 +1,4 @@
-"""Reading files that a stranger may have named."""
+"""Reading files that untrusted input may name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def read_file(path: Path, limit: int) -> bytes:
-    """Content of a regular file; a FIFO or device is refused without waiting for it.
+    """Read a regular file; FIFOs and devices are refused without waiting.
 
     Args:
         path: of the file.

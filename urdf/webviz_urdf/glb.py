@@ -21,7 +21,7 @@ _FLOAT, _UINT, _UBYTE = 5126, 5125, 5121
 _VERTICES, _INDICES = 34962, 34963
 _WIDTH = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 OPAQUE = 0.9998
-"""An alpha from here on is drawn opaque, as in RViz."""
+"""Alphas from this value on are drawn opaque, as in RViz."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class MeshPart:
     Args:
         vertices: float32 (N, 3), metres.
         faces: uint32 (M, 3), counter-clockwise seen from outside.
-        surface: None if the mesh file says nothing about it.
+        surface: None if the mesh file does not define one.
         normals: float32 (N, 3), unit length.
         uvs: float32 (N, 2), v upwards from the lower edge of the picture.
         colors: uint8 (N, 4), sRGB.
@@ -67,7 +67,7 @@ def write_glb(parts: Sequence[MeshPart]) -> bytes:
 
 
 def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) -> bytes:
-    """A binary glTF with another opacity or colour; the geometry is copied as it is.
+    """A binary glTF with another opacity or colour; the geometry is unchanged.
 
     Args:
         data: binary glTF.
@@ -75,7 +75,7 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
         color: replaces colours, textures and vertex colours of all parts.
 
     Raises:
-        ValueError: `data` is no binary glTF.
+        ValueError: `data` is not a binary glTF.
     """
     document, binary = _split(data)
     for material in document.setdefault("materials", [{}]):
@@ -207,6 +207,6 @@ def _join(document: dict[str, Any], binary: bytes) -> bytes:
 
 def _split(data: bytes) -> tuple[dict[str, Any], bytes]:
     if len(data) < 28 or struct.unpack_from("<2I", data) != (_MAGIC, 2):
-        raise ValueError("These bytes are no binary glTF 2.0.")
+        raise ValueError("This is not a binary glTF 2.0 file.")
     (length,) = struct.unpack_from("<I", data, 12)
     return msgspec.json.decode(data[20 : 20 + length]), data[28 + length :]

@@ -15,12 +15,12 @@ from webviz_urdf.robot import Inertial, Link
 
 _RED: Rgb = (255, 0, 0)
 _LEAD = 11340.0
-"""Density of lead, kg/m³: RViz draws a mass as if it were a ball of lead."""
+"""Density of lead, kg/m³: RViz draws a mass as a sphere of lead."""
 _TOLERANCE = 1e-6
 
 
 def mass_sphere(link: Link) -> Mesh | None:
-    """A ball of lead of the link's mass at its centre of mass, in the link's frame.
+    """A sphere of lead of the link's mass at its centre of mass, in the link's frame.
 
     Its radius is the cube root of 3 m / (4 π density), as in RViz. None without a positive mass.
     """
@@ -34,29 +34,27 @@ def mass_sphere(link: Link) -> Mesh | None:
 def inertia_box(link: Link) -> Mesh | None:
     """The uniform box that has the link's mass and moments of inertia, in the link's frame.
 
-    With principal moments I and mass m its edges are `sqrt(6 (Iy + Iz - Ix) / m)` and so on in
-    turn (gz-math's `MassMatrix3::EquivalentBox`). None for a mass or inertia that no body has:
-    not positive, or one moment larger than the sum of the other two.
+    With principal moments I and mass m its edges are `sqrt(6 (Iy + Iz - Ix) / m)` and so on
+    (gz-math's `MassMatrix3::EquivalentBox`). None for a physically impossible mass or inertia: not
+    positive, or one moment larger than the sum of the other two.
     """
     inertial = link.inertial
     if inertial is None or inertial.mass <= 0.0:
         return None
     moments, axes = _principal(inertial.inertia)
     squares = 6.0 * (moments.sum() - 2.0 * moments) / inertial.mass
-    # A box of 10¹² m comes from a mass that is a typing error.
+    # A box of 10¹² m is the result of a mistyped mass.
     if moments.min() <= 0.0 or squares.max() > 1e24 or squares.min() < -_TOLERANCE * squares.max():
         return None
     size = np.sqrt(np.maximum(squares, 0.0))
     return _placed(primitives.box(*size.tolist()), axes, inertial)
 
 
-def _principal(
-    inertia: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _principal(inertia: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Principal moments (3,) and, as columns of (3, 3), right-handed principal axes.
 
-    Where the products of inertia are only noise the given axes are kept: equal moments, as of a
-    cube, have no principal axes of their own and would turn the box at random.
+    If the products of inertia are only noise, the given axes are kept: equal moments, as of a cube,
+    have no distinct principal axes and would turn the box at random.
     """
     products = inertia - np.diag(np.diag(inertia))
     if np.abs(products).max() <= _TOLERANCE * np.abs(inertia).max():

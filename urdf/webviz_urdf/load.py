@@ -1,4 +1,4 @@
-"""A robot description and the files it names, to a robot that can be drawn."""
+"""Loads a robot from its description and the files it names."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
 MAX_BYTES = 16 << 20
-"""Of a description's file."""
+"""Of a file with a description."""
 
 
 def load_robot(
@@ -23,16 +23,14 @@ def load_robot(
     collisions: bool = True,
     skip: Mapping[int, str] = MappingProxyType({}),
 ) -> Robot:
-    """Load a robot from URDF text, as `/robot_description` has it.
-
-    What cannot be found or read is listed in `Robot.missing`, and the rest is loaded.
+    """Load a robot from URDF text; shapes that cannot be read are listed in `Robot.missing`.
 
     Args:
         description: URDF, xacro already expanded.
         resolver: finds meshes and textures.
         progress: called before each shape and once at the end.
-        collisions: False leaves collision shapes unread.
-        skip: why shapes are not to be read, by the numbers that `progress` is given.
+        collisions: whether to read collision shapes.
+        skip: reasons for skipping shapes, by their numbers as passed to `progress`.
 
     Raises:
         RobotDescriptionError: the text is not a robot; one sentence says why.
@@ -47,7 +45,7 @@ def load_file(
     collisions: bool = True,
     skip: Mapping[int, str] = MappingProxyType({}),
 ) -> Robot:
-    """Load a robot from a URDF file, or a xacro file if the `xacro` package is there.
+    """Load a robot from a URDF file, or a xacro file if the `xacro` package is installed.
 
     Raises:
         RobotDescriptionError: the file cannot be read, expanded or parsed.
@@ -77,6 +75,6 @@ def _expand(path: Path) -> str:
         ) from error
     try:
         return xacro.process_file(str(path)).toxml()
-    except Exception as error:  # xacro evaluates Python, so anything may come
+    except Exception as error:  # xacro evaluates Python, so anything may be raised
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RobotDescriptionError(f"xacro cannot expand {path}: {reason}.") from error

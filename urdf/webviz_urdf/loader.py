@@ -1,4 +1,4 @@
-"""The program of the process in which `webviz_urdf.loading` loads robots."""
+"""The process in which `webviz_urdf.loading` loads robots."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from webviz_urdf.textures import MAX_PIXELS
 
 
 def main() -> None:
-    """Load what is asked for until the other side goes, or is silent for long."""
+    """Serve requests until the connection is closed or idle for long."""
     connection = Connection(int(sys.argv[1]))
     _limit()
     while connection.poll(IDLE_S):
@@ -34,9 +34,9 @@ def _limit() -> None:
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     soft = MAX_MEMORY if most == resource.RLIM_INFINITY else min(MAX_MEMORY, most)
     resource.setrlimit(resource.RLIMIT_AS, (soft, most))
-    # If memory runs out before that, it is this process that goes.
+    # If the machine runs out of memory first, the kernel ends this process.
     Path("/proc/self/oom_score_adj").write_text("1000")
-    # Of pictures within meshes; PIL refuses what has twice as many.
+    # For pictures in meshes; PIL refuses twice this number.
     Image.MAX_IMAGE_PIXELS = MAX_PIXELS // 2
 
 
@@ -44,7 +44,7 @@ def _load(
     connection: Connection, request: LoadRequest, resolver: Resolver, skip: dict[int, str]
 ) -> Robot | Exception:
     def progress(done: int, total: int, link: str) -> None:
-        signal.alarm(round(2 * DEADLINE_S))  # if nobody is left to end this process
+        signal.alarm(round(2 * DEADLINE_S))  # in case the parent process is gone
         connection.send((done, total, link))
 
     try:
@@ -52,6 +52,8 @@ def _load(
     except RobotDescriptionError as error:
         return error
     except MemoryError:
-        return RobotDescriptionError("The robot needs more memory than loading may take.")
+        return RobotDescriptionError(
+            "Loading the robot exceeds the memory limit. Simplify its meshes."
+        )
     except Exception:
         return RuntimeError(traceback.format_exc())

@@ -1,4 +1,4 @@
-"""Loading robots in a process, where what hangs or takes too much memory can be ended."""
+"""Loading robots in a process that can be ended if it hangs or takes too much memory."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
 DEADLINE_S = 30.0
-"""For one shape. The slowest of the robots in the wild takes 1 s on a desktop."""
+"""Per shape. The slowest of public robots takes 1 s on a desktop."""
 
 START_S = 60.0
 """For a process to start and to read the description."""
@@ -30,17 +30,17 @@ MAX_MEMORY = 3 << 30
 """Bytes of address space of a process; half a gigabyte of it is taken by its imports."""
 
 MOST_FAILURES = 3
-"""Shapes at which the process may end before the robot is given up."""
+"""Shapes that may end the process before loading gives up."""
 
 
 @dataclass(frozen=True)
 class LoadRequest:
-    """A robot to load; equal ones need not be loaded again.
+    """A robot to load; equal requests give equal robots.
 
     Args:
         text: URDF, if it came as a message.
         path: of the file, if it did not.
-        changed_ns: when the file was last written, 0 if it cannot be told.
+        changed_ns: when the file was last written, 0 if unknown.
         package_paths: folders that hold ROS packages.
         collisions: whether to read collision shapes.
     """
@@ -52,7 +52,7 @@ class LoadRequest:
     collisions: bool = False
 
     def load(self, resolver: Resolver, progress: Progress, skip: dict[int, str]) -> Robot:
-        """The robot, read by this process.
+        """Load the robot in this process.
 
         Raises:
             RobotDescriptionError: it cannot be drawn; one sentence says why.
@@ -64,22 +64,22 @@ class LoadRequest:
 
 
 class LoadingStopped(Exception):
-    """A robot was not loaded because nobody wants it any more."""
+    """`Loading.stop` was called."""
 
 
 class Loading:
-    """One robot being loaded: `run` in a thread, the rest in any other."""
+    """Loads one robot; `run` blocks, the rest may be called from any thread."""
 
     def __init__(self, request: LoadRequest) -> None:
         self.at = (0, 0, "")
-        """Shapes done, their total, and the link at work."""
+        """Shapes done, their total, and the current link."""
         self._request = request
         self._resolver = Resolver(package_paths=request.package_paths)
         self._stopped = threading.Event()
         self._process: _Process | None = None
 
     def run(self) -> Robot:
-        """The robot. A shape at which the process hangs or ends is missing from it.
+        """Load the robot; shapes at which the process hangs or ends are listed as missing.
 
         Raises:
             RobotDescriptionError: it cannot be drawn; one sentence says why.
@@ -94,7 +94,7 @@ class Loading:
                 process.end()
                 done, total, link = self.at
                 if done in skip or len(skip) == MOST_FAILURES or done == total:
-                    where = f" It got as far as link '{link}'." if link else ""
+                    where = f" It stopped at link '{link}'." if link else ""
                     raise RobotDescriptionError(
                         f"Loading the robot failed. {ended}{where}"
                     ) from None
@@ -110,7 +110,7 @@ class Loading:
                 return robot
 
     def stop(self) -> None:
-        """End `run`, also while it waits."""
+        """Stop loading: `run` raises `LoadingStopped`."""
         self._stopped.set()
         if process := self._process:
             process.kill()
@@ -141,15 +141,15 @@ sys.modules["scipy"] = sys.modules["networkx"] = None
 from webviz_urdf.loader import main
 main()
 """
-"""trimesh reads meshes without these two, whose import takes longer than most robots."""
+"""trimesh reads meshes without these two, whose import takes longer than loading most robots."""
 
 
 class _Ended(Exception):
-    """The process is of no use any more."""
+    """The process hangs or has ended."""
 
 
 class _Process:
-    """A process that loads one robot after another; it ends with the connection."""
+    """A process that loads one robot after another, until the connection is closed."""
 
     def __init__(self) -> None:
         self.connection, theirs = multiprocessing.Pipe()
@@ -161,7 +161,7 @@ class _Process:
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                process_group=0,  # Ctrl-C is for us; it goes when we go
+                process_group=0,  # Ctrl-C is for the parent; closing the connection ends it
             )
 
     def is_alive(self) -> bool:
@@ -173,7 +173,7 @@ class _Process:
     def end(self) -> None:
         self.kill()
         self.connection.close()
-        with contextlib.suppress(subprocess.TimeoutExpired):  # it waits for a dead disk
+        with contextlib.suppress(subprocess.TimeoutExpired):  # it may wait for a dead disk
             self._process.wait(1.0)
 
 
@@ -182,7 +182,7 @@ _lock = threading.Lock()
 
 
 def _take() -> _Process:
-    """The process that is idle, or a new one."""
+    """An idle process, or a new one."""
     with _lock:
         while _spare:
             process = _spare.pop()

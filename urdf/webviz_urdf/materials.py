@@ -1,9 +1,9 @@
-"""Which URDF material a visual wears, by urdfdom's and RViz's rules.
+"""Which URDF material a visual has, by urdfdom's and RViz's rules.
 
 Names are global: the robot's own materials come first, then those defined inside links, in the
 order of the text; the first definition of a name wins, also over a visual's own colour
-(urdfdom's `assignMaterial`). A visual without a material, or with one that is defined nowhere, is
-drawn in RViz's ShadedRed; where urdfdom refuses the whole robot for the latter, a warning is given.
+(urdfdom's `assignMaterial`). A visual without a material, or with an undefined one, is drawn in
+RViz's ShadedRed; the latter gives a warning, while urdfdom refuses the whole robot.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ SHADED_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Material:
-    """What URDF says about a surface.
+    """A material of URDF.
 
     Args:
         rgba: 0 to 1, sRGB.
-        texture: URI of an image, empty without one.
-        warning: a sentence for whoever wears it, empty if all is well.
+        texture: URI of an image, "" without one.
+        warning: a sentence about a fault of the material, "" without one.
     """
 
     rgba: Rgba = SHADED_RED
@@ -52,7 +52,7 @@ class Materials:
                 self._define(visual.material, f"link '{link.name}'")
 
     def of(self, visual: yourdfpy.Visual, link: str) -> Material:
-        """What a visual of the link named `link` wears."""
+        """The material of a visual of the link named `link`."""
         material = visual.material
         if material is None:
             return DEFAULT
@@ -64,7 +64,7 @@ class Materials:
         )
 
     def of_collisions(self, link: yourdfpy.Link) -> Material:
-        """What the collisions of a link wear: RViz gives them its first visual's material."""
+        """The material of a link's collisions: in RViz that of its first visual."""
         return self.of(link.visuals[0], link.name) if link.visuals else DEFAULT
 
     def _define(self, material: yourdfpy.Material | None, where: str) -> None:
@@ -75,13 +75,13 @@ class Materials:
         if known != definition and material.name not in self._conflicting:
             self._conflicting.add(material.name)
             self.warnings.append(
-                f"Material '{material.name}' is defined again, differently, in {where}; "
-                "the first definition counts."
+                f"Material '{material.name}' is redefined differently in {where}; "
+                "the first definition is used."
             )
 
 
 def _definition(material: yourdfpy.Material) -> Material | None:
-    """The material's content, None if it is only a name."""
+    """The content of a material, None if it is only a name."""
     texture = (material.texture and material.texture.filename) or ""
     if material.color is not None:
         r, g, b, a = (min(max(float(v), 0.0), 1.0) for v in material.color.rgba)

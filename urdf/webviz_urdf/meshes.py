@@ -1,4 +1,4 @@
-"""Mesh files to parts: arrays in metres, with the materials that the file itself brings."""
+"""Mesh files as parts: arrays in metres, with the file's own materials."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ MAX_BYTES = 128 << 20
 """Of a mesh file; a larger one is refused rather than stalling the viewer."""
 
 MAX_TRIANGLES = 2_000_000
-"""Of a mesh file, five times as many as the finest robots of the wild have altogether."""
+"""Of a mesh file, five times as many as the most detailed public robots have in total."""
 
 FORMATS = ("dae", "stl", "obj", "ply", "off", "glb", "gltf")
-"""No archives: a small one may hold any amount."""
+"""No archives, which can expand to any size."""
 
 
 class MeshError(Exception):
-    """A mesh file that cannot be drawn; the text is one sentence that says why."""
+    """A mesh cannot be drawn; the text is one sentence that says why."""
 
 
 @dataclass(frozen=True)
 class MeshFile:
-    """A mesh as its file has it, in metres.
+    """The content of a mesh file, in metres.
 
     Args:
         parts: at least one, none of them empty.
@@ -47,43 +47,11 @@ class MeshFile:
     warnings: tuple[str, ...] = ()
 
 
-class MeshLibrary:
-    """Reads each mesh file once, and scales it once for each scale it is used with.
-
-    Args:
-        resolver: finds textures that a mesh names by URI.
-    """
-
-    def __init__(self, resolver: Resolver) -> None:
-        self._resolver = resolver
-        self._files: dict[tuple[Path, int], MeshFile] = {}
-        self._scaled: dict[tuple[Path, int, Scale], MeshFile] = {}
-
-    def load(self, path: Path, scale: Scale) -> MeshFile:
-        """The mesh at `path`, multiplied by `scale` along x, y, z.
-
-        Raises:
-            MeshError: it cannot be read, or has no triangles.
-        """
-        try:
-            version = path.stat().st_mtime_ns
-        except OSError as error:
-            raise MeshError(f"{path} cannot be read: {error.strerror}.") from error
-        key = (path, version)
-        if key not in self._files:
-            self._files[key] = read_mesh(path, self._resolver)
-        if (*key, scale) not in self._scaled:
-            file = self._files[key]
-            parts = tuple(scaled(part, scale) for part in file.parts)
-            self._scaled[(*key, scale)] = replace(file, parts=parts)
-        return self._scaled[(*key, scale)]
-
-
 def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     """Read a mesh file of one of `FORMATS`.
 
-    A COLLADA file's unit is applied and its up axis is not, as in RViz, which tells Assimp to
-    ignore it. Faces keep the shading that their file gives them.
+    A COLLADA file's unit is applied and its up axis is not, as in RViz, which makes Assimp
+    ignore it. Faces keep the shading of the file.
 
     Raises:
         MeshError: it cannot be read, has no triangles or too many, or is an archive.
@@ -100,9 +68,9 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     except OSError as error:
         raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
     except MemoryError as error:
-        raise MeshError(f"{path} needs more memory than loading may take.") from error
+        raise MeshError(f"{path} exceeds the memory limit. Simplify the mesh.") from error
     except Exception as error:
-        # Third-party parsers answer a broken file with any exception there is.
+        # Third-party parsers raise any exception for a broken file.
         raise MeshError(f"{path} cannot be read as a mesh: {_one_line(error)}.") from error
     if not parts:
         raise MeshError(f"{path} has no triangles.")
@@ -131,13 +99,13 @@ def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshP
 
 
 def scaled(part: MeshPart, scale: Scale) -> MeshPart:
-    """`part` multiplied along x, y, z; a mirrored one keeps its outside outside."""
+    """`part` multiplied along x, y, z; faces of a mirrored one are reversed."""
     if scale == (1.0, 1.0, 1.0):
         return part
     factors = np.array(scale, np.float32)
     normals = part.normals
     if normals is not None:
-        # Normals go with the inverse transpose; a flattened mesh has none that mean anything.
+        # Normals scale by the inverse; those of a flattened mesh are meaningless.
         normals = _unit(normals / factors) if factors.all() else None
     mirrored = np.prod(np.sign(factors)) < 0
     faces = np.ascontiguousarray(part.faces[:, ::-1]) if mirrored else part.faces
@@ -189,13 +157,13 @@ def _part(mesh: trimesh.Trimesh, transform: np.ndarray, unit: float) -> MeshPart
 
 
 def _unit_metres(mesh: trimesh.Trimesh) -> float:
-    """COLLADA's `<unit meter>`, which trimesh notes as "0.0254 * meters" but does not apply."""
+    """COLLADA's `<unit meter>`, which trimesh stores as "0.0254 * meters" but does not apply."""
     factor, _, name = (mesh.units or "meters").partition(" * ")
     return float(factor) if name else 1.0
 
 
 def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
-    """The file's own material, None if it names none, and texture coordinates."""
+    """The file's own material, None if it has none, and texture coordinates."""
     visual: Any = mesh.visual
     if visual.kind != "texture":
         return None, None
@@ -205,13 +173,13 @@ def _surface(mesh: trimesh.Trimesh) -> tuple[Surface | None, np.ndarray | None]:
         factor, image = material.baseColorFactor, material.baseColorTexture
     elif isinstance(material, SimpleMaterial) and material.kwargs:
         factor, image = material.diffuse, material.image
-    else:  # trimesh's stand-in for a file that has texture coordinates but no material
+    else:  # trimesh's placeholder for texture coordinates without a material
         return None, uvs
     r, g, b, a = (1.0,) * 4 if factor is None else (float(v) / 255.0 for v in factor)
     if image is not None and uvs is not None:
         r = g = b = 1.0
         return Surface((r, g, b, a or 1.0), encode(image)), uvs
-    # Exporters that mix up COLLADA's opaque modes write 0 for a solid body.
+    # Exporters that confuse COLLADA's opaque modes write 0 for a solid body.
     return Surface((r, g, b, a or 1.0)), uvs
 
 

@@ -1,4 +1,4 @@
-"""Box, sphere and cylinder as triangles, with sharp edges where the body has them."""
+"""Box, sphere and cylinder as triangles, with the sharp edges of the body."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
-"""Where a mesh or texture of a robot description lies on this machine.
+"""Locates the meshes and textures of a robot description on this machine.
 
 A description names its files as `package://` URIs, `file://` URIs or plain paths. Nothing is ever
-fetched from a network: a viewer that follows a URL found in a message would let any publisher make
-this machine call out.
+fetched from a network: otherwise any publisher could make this machine send requests.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ _LONGEST = 4096  # characters of a path on Linux
 
 
 class ResolveError(Exception):
-    """A URI leads to no file; the text is one sentence that says why."""
+    """A URI cannot be resolved to a file; the text is one sentence that says why."""
 
 
 class Resolver:
@@ -33,14 +32,14 @@ class Resolver:
     A `package://` URI is looked up below the mesh roots and package paths first, then on
     AMENT_PREFIX_PATH, then in the folders above the description's own file. A file is opened if,
     with all symbolic links followed, it lies in a mesh root or in a ROS package: that of the URI,
-    or one of those places whose `package.xml` stands above the file. Links of
+    or one found in those places, with its `package.xml` above the file. Links of
     `colcon build --symlink-install` lead into such a package.
 
     Args:
         roots: mesh roots, folders in which the user allows every file; by default those of the
             environment variable `MESH_ROOT`.
         ament_prefix_path: prefixes separated by `os.pathsep`; by default the environment's.
-        base: folder that relative paths begin at, that of the description's file.
+        base: folder of the description's file, to which paths are relative.
         package_paths: folders in which packages are searched, by their `package.xml`, at most
             `MAX_DEPTH` folders deep, as they are in mesh roots.
     """
@@ -65,7 +64,7 @@ class Resolver:
         self.base = None if base is None else Path(base).absolute()
 
     def relative_to(self, base: str | Path) -> Resolver:
-        """The same resolver for a description that lies in the folder `base`."""
+        """The same resolver for a description in the folder `base`."""
         resolver = copy.copy(self)
         resolver.base = Path(base).absolute()
         return resolver
@@ -74,7 +73,7 @@ class Resolver:
         """The file that `uri` names.
 
         Raises:
-            ResolveError: it names none, or one that the viewer refuses to open.
+            ResolveError: there is none, or webviz may not open it.
         """
         try:
             return self._resolve(uri.strip())
@@ -97,23 +96,23 @@ class Resolver:
             return self._allowed(Path("/", host + uri.partition("://")[2][len(parts.netloc) :]))
         if scheme in ("http", "https", "ftp"):
             raise ResolveError(
-                f"'{uri}' lies on a network, and the viewer reads files of this machine only: "
-                "download it and name it by package:// or file://."
+                f"'{uri}' is on a network, and webviz reads files of this machine only. "
+                "Download it and use package:// or file://."
             )
-        raise ResolveError(f"'{uri}' begins with {scheme}://, which is not package:// or file://.")
+        raise ResolveError(f"'{uri}' is unsupported. Use package:// or file://.")
 
     def _plain(self, path: str) -> Path:
         if os.path.isabs(path):
             return self._allowed(Path(path))
         if self.base is None:
             raise ResolveError(
-                f"'{path}' is a relative path, and a description that came by topic has no folder "
-                "to begin at: name it by package:// or file://."
+                f"'{path}' is a relative path, but a description from a topic has no folder. "
+                "Use package:// or file://."
             )
         return self._allowed(self.base / path)
 
     def _package(self, rest: str) -> Path:
-        # Some files in the wild have a third slash: package:///name/mesh.stl.
+        # Some public files have a third slash: package:///name/mesh.stl.
         package, _, path = rest.lstrip("/").partition("/")
         for text in dict.fromkeys((path, unquote(path))):
             if os.path.isabs(text) or os.path.normpath(text).split(os.sep)[0] == "..":
@@ -134,7 +133,7 @@ class Resolver:
         raise ResolveError(reasons[0])
 
     def _allowed(self, path: Path, package: Path | None = None) -> Path:
-        """`path` as it stands or with its %20 decoded, whichever is a file that may be opened."""
+        """`path`, unchanged or with %20 decoded, if it is a file that may be opened."""
         refused = None
         for candidate in (path, Path(unquote(str(path)))):
             target = candidate.resolve()
@@ -143,12 +142,12 @@ class Resolver:
             elif target.is_file():
                 return candidate
         if refused is None:
-            raise ResolveError(f"There is no file {path}.")
-        # Whether it exists is none of the sender's business.
+            raise ResolveError(f"{path} does not exist.")
+        # The sender must not learn whether it exists.
         candidate, target = refused
         link = "" if target == Path(os.path.normpath(candidate)) else f", a link to {target},"
         raise ResolveError(
-            f"{candidate}{link} lies outside all ROS packages and mesh roots. "
+            f"{candidate}{link} is outside all ROS packages and mesh roots. "
             f"Start webviz with --mesh-root {target.parent} to allow it."
         )
 
@@ -191,7 +190,7 @@ class Resolver:
 
 
 def _walk(root: Path, depth: int) -> Iterator[Path]:
-    """Folders from `root` down; a package is not searched for packages, as colcon has it."""
+    """Folders from `root` down; as in colcon, a package is not searched for packages."""
     for folder, children, files in os.walk(root):
         path = Path(folder)
         yield path

@@ -1,4 +1,4 @@
-"""A robot as the viewer needs it: links with things to draw, joints, and what could not be read."""
+"""A loaded robot: links with shapes, joints, and the shapes that could not be read."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import Glb, Mesh, Pose
-from webviz_urdf.joints import Joint
-from webviz_urdf.kinematics import forward_kinematics
+
+JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
 
 
 class RobotDescriptionError(Exception):
-    """A robot description that cannot be drawn at all; the text is one sentence that says why."""
+    """A robot description cannot be used; the text is one sentence that says why."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +58,34 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Joint:
+    """How a child link moves relative to its parent.
+
+    Args:
+        name: unique in the robot.
+        type: one of `JOINT_TYPES`.
+        parent, child: link names.
+        origin: pose of the joint's frame, the child's at position 0, in the parent's frame.
+        axis: unit vector in the joint's frame; zero if the description gives no direction.
+        limits: lower and upper position in rad or m; None without limits.
+    """
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    origin: Pose
+    axis: tuple[float, float, float]
+    limits: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
 class Missing:
     """A visual or collision that is not drawn.
 
     Args:
-        link: whose it is.
-        uri: the mesh as the description names it; empty if it names none.
+        link: its name.
+        uri: the mesh as the description names it, "" without a mesh.
         reason: one sentence.
         kind: "visual" or "collision".
     """
@@ -82,11 +104,11 @@ class Robot:
 
     Args:
         name: "robot" if the description gives none.
-        root: the link that has no parent.
+        root: the link without a parent.
         links: by name, in the description's order.
         joints: by name, in the description's order.
-        missing: what is not drawn, and why.
-        warnings: sentences about what was put up with.
+        missing: shapes that are not drawn.
+        warnings: sentences about tolerated faults.
     """
 
     name: str
@@ -95,12 +117,3 @@ class Robot:
     joints: Mapping[str, Joint]
     missing: tuple[Missing, ...] = ()
     warnings: tuple[str, ...] = ()
-
-    def fk(self, joint_positions: Mapping[str, float] | None = None) -> dict[str, Pose]:
-        """Pose of every link in the root link's frame.
-
-        Args:
-            joint_positions: rad or m by joint name; joints left out stand at 0, names that are no
-                joints are ignored, and so are positions of mimic joints, which their leader sets.
-        """
-        return forward_kinematics(self.root, self.joints, joint_positions or {})

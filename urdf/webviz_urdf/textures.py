@@ -1,4 +1,4 @@
-"""Pictures that meshes and materials name."""
+"""Textures of meshes and materials."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from webviz_urdf.files import read_file
 from webviz_urdf.resolve import ResolveError, Resolver
 
 MAX_EDGE = 4096
-"""Pixels; larger pictures are shrunk, since browsers refuse much more."""
+"""Pixels; larger pictures are scaled down, because browsers limit the size of textures."""
 
 MAX_PIXELS = 8192**2
 """Of a picture; a larger one is refused before it is decoded."""
@@ -26,11 +26,11 @@ _FORMATS = ("PNG", "JPEG", "TGA", "TIFF", "BMP", "GIF", "WEBP", "DDS", "PPM")
 
 
 class TextureError(Exception):
-    """A picture that is not drawn; the text is one sentence or two that say why."""
+    """A picture cannot be drawn; the text says why, in one or two sentences."""
 
 
 class TextureFolder(TrimeshResolver):
-    """Finds what a mesh file names: by URI, beside the mesh, or by its bare file name there.
+    """Finds the files that a mesh names: by URI, or next to the mesh by path or bare name.
 
     Args:
         folder: that of the mesh.
@@ -40,13 +40,13 @@ class TextureFolder(TrimeshResolver):
     def __init__(self, folder: Path, resolver: Resolver) -> None:
         self._resolver = resolver.relative_to(folder)
         self.refused: dict[str, str] = {}
-        """Why, by name, files cannot be used; whole sentences."""
+        """Sentences by name: why a file cannot be used."""
 
     def get(self, key: str) -> bytes:
         """Content of the file `key`.
 
         Raises:
-            ResolveError: it cannot be used; `refused` then has it.
+            ResolveError: it cannot be used; `refused` has the reason.
         """
         reason = ""
         # Exporters on Windows write backslashes, and absolute paths of the author's machine.
@@ -70,7 +70,7 @@ class TextureFolder(TrimeshResolver):
         return data
 
     def keys(self) -> list[str]:
-        """Nothing is listed: files are looked up by name only."""
+        """Empty: files are only looked up by name."""
         return []
 
     def write(self, name: str, data: bytes) -> None:
@@ -100,7 +100,7 @@ def open_image(path: Path) -> Image.Image:
 
 
 def _open(path: Path, data: bytes) -> Image.Image:
-    """A picture of which only the head was read, so that its size is known before its pixels."""
+    """A picture of acceptable size, of which only the header was decoded."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
@@ -121,7 +121,7 @@ def _megapixels(pixels: int) -> str:
 
 
 def encode(image: Image.Image) -> bytes:
-    """PNG, or JPEG for a picture that came as one, as glTF allows."""
+    """The picture as PNG, or as JPEG if it was one: glTF's two formats."""
     data = io.BytesIO()
     is_jpeg = image.format == "JPEG"
     if max(image.size) > MAX_EDGE:

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import functools
 import math
-import typing
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
@@ -26,28 +25,12 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 import msgspec
 
 from webviz.api.declared import Declared, Topic
+from webviz.api.ports import Input
+from webviz.api.properties import properties_of
 
 if TYPE_CHECKING:
     from webviz.api.context import Context
     from webviz.api.sample import Sample
-
-
-@dataclass(frozen=True)
-class Input:
-    """Marks a `Topic` property as an input of the display.
-
-    Args:
-        type: the message type, such as "sensor_msgs/msg/LaserScan". Messages with a header wait
-            for the transform at their stamp.
-        latched: subscribe transient local, whatever the publishers known so far offer.
-        suffix: an input without a topic name listens to the first input's topic with this suffix.
-        optional: nothing is amiss while nobody publishes it.
-    """
-
-    type: str
-    latched: bool = False
-    suffix: str = ""
-    optional: bool = False
 
 
 @dataclass(frozen=True, init=False)
@@ -194,11 +177,8 @@ def inputs_of(cls: type[Display]) -> dict[str, Input]:
     Raises:
         TypeError: its `sync` names something else.
     """
-    found = {}
-    for name, hint in typing.get_type_hints(cls, include_extras=True).items():
-        for item in getattr(hint, "__metadata__", ()):
-            if isinstance(item, Input):
-                found[name] = item
+    ports = {each.path: each.port for each in properties_of(cls)}
+    found = {path: port for path, port in ports.items() if isinstance(port, Input)}
     for name in cls.sync.inputs if cls.sync else ():
         if name not in found:
             raise TypeError(f"{cls.__name__}.sync: '{name}' is not an input of the display")

@@ -1,43 +1,52 @@
-"""What a class declares about its properties: the one place that reads declarations."""
+"""The properties of a class as it declares them: the one place that reads annotations."""
 
 from __future__ import annotations
 
 import functools
 import typing
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import msgspec
 import msgspec.inspect
 
-from webviz.api.display import Input
+from webviz.api.ports import Input, Output
 
 FIRST = ("name", "enabled")
 
 
 @dataclass(frozen=True)
 class Property:
-    """One property of a display, tool or panel.
+    """One property of a display, tool, panel, view or nested setting.
 
     Args:
         path: dotted, from the whole.
         label: RViz's name, with the unit.
         help: one sentence, or "".
-        type: its type, bounds included.
-        when: paths and values of the properties that decide whether this one has a meaning.
+        unit: "m", "s", "px", ... or "".
+        rviz: see `webviz.Prop`.
         widget: see `webviz.Prop`.
-        input: what it subscribes to, if it is a topic.
-        choices: the values it may have, in the order of declaration; () where it is no choice.
+        hint: its Python type without annotations.
+        type: the same as msgspec describes it, bounds included.
+        default: not to be changed; `msgspec.NODEFAULT` if it is required.
+        port: what it subscribes to or publishes, if it is a topic.
+        when: paths and values of the properties that decide whether this one applies.
+        choices: the values of a `Literal` in the order of declaration, else ().
         children: the properties of a nested setting.
     """
 
     path: str
     label: str
     help: str
-    type: msgspec.inspect.Type
-    when: tuple[tuple[str, tuple[object, ...]], ...]
+    unit: str
+    rviz: str
     widget: str
-    input: Input | None
+    hint: Any
+    type: msgspec.inspect.Type
+    default: Any
+    port: Input | Output | None
+    when: tuple[tuple[str, tuple[object, ...]], ...]
     choices: tuple[Any, ...]
     children: tuple[Property, ...]
 
@@ -46,7 +55,7 @@ class Property:
         return value_at(declared, self.path)
 
     def applies(self, declared: msgspec.Struct) -> bool:
-        """Whether it has a meaning as the other properties are."""
+        """Whether the other properties let it have an effect."""
         return all(value_at(declared, path) in values for path, values in self.when)
 
 
@@ -65,50 +74,71 @@ def properties_of(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
     return tuple(sorted(found, key=lambda each: each.path not in FIRST))
 
 
+def bare(hint: Any) -> Any:
+    """A type without its annotations."""
+    while typing.get_origin(hint) is Annotated:
+        hint = typing.get_args(hint)[0]
+    return hint
+
+
 def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Property, ...]:
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = typing.get_type_hints(cls, include_extras=True)
-    declared = {field.name: _declaration(field.type) for field in info.fields}
+    known = {field.name: _known(hints[field.name]) for field in info.fields}
     found = []
-    for name, (type_, known) in declared.items():
+    for field in info.fields:
+        name, hint, said = field.name, hints[field.name], known[field.name]
         # In RViz a group of properties may have a value of its own.
         own = group if name == "value" else name.replace("_", " ").title()
-        label = _with_unit(known.get("rviz") or own, known.get("unit", ""))
+        label = _with_unit(said.get("rviz") or own, said.get("unit", ""))
+        type_ = field.type
+        while isinstance(type_, msgspec.inspect.Metadata):
+            type_ = type_.type
         nested = type_.cls if isinstance(type_, msgspec.inspect.StructType) else None
         found.append(
             Property(
                 path=prefix + name,
                 label=label,
-                help=known.get("description", ""),
+                help=said.get("help", ""),
+                unit=said.get("unit", ""),
+                rviz=said.get("rviz", ""),
+                widget=said.get("widget", ""),
+                hint=bare(hint),
                 type=type_,
-                when=_conditions(name, prefix, declared, hints),
-                widget=known.get("widget", ""),
-                input=_input(hints[name]),
-                choices=_choices(hints[name]),
+                default=_default(field),
+                port=said.get("port"),
+                when=_conditions(name, prefix, known, hints),
+                choices=_choices(hint),
                 children=_properties(nested, f"{prefix}{name}.", label) if nested else (),
             )
         )
     return tuple(found)
 
 
-def _declaration(type_: msgspec.inspect.Type) -> tuple[msgspec.inspect.Type, dict[str, Any]]:
-    """The bare type of a field, and what `webviz.Prop` says of it."""
+def _known(hint: Any) -> dict[str, Any]:
+    """What the annotations of a type say; of several the outer one."""
     known: dict[str, Any] = {}
-    while isinstance(type_, msgspec.inspect.Metadata):
-        known = {**(type_.extra_json_schema or {}), **(type_.extra or {}), **known}
-        type_ = type_.type
-    return type_, known
+    for mark in getattr(hint, "__metadata__", ()):
+        if isinstance(mark, Input | Output):
+            known["port"] = mark
+        elif isinstance(mark, msgspec.Meta):
+            known |= mark.extra or {}
+            known |= {"help": mark.description} if mark.description else {}
+    return known
+
+
+def _default(field: msgspec.inspect.Field) -> Any:
+    if field.default_factory is not msgspec.NODEFAULT:
+        return field.default_factory()
+    return field.default
 
 
 def _conditions(
-    name: str,
-    prefix: str,
-    declared: dict[str, tuple[Any, dict[str, Any]]],
-    hints: dict[str, Any],
+    name: str, prefix: str, known: Mapping[str, Mapping[str, Any]], hints: Mapping[str, Any]
 ) -> tuple[tuple[str, tuple[object, ...]], ...]:
     """What must hold for a property: its own condition, and those of the property it names."""
-    when = declared[name][1].get("when")
+    when = known[name].get("when")
     if when is None:
         return ()
     other, wanted = when
@@ -116,18 +146,12 @@ def _conditions(
     # A base class may name values that only some of its displays offer.
     choices = _choices(hints[other]) or values
     condition = prefix + other, tuple(value for value in values if value in choices)
-    return (condition, *_conditions(other, prefix, declared, hints))
-
-
-def _input(hint: Any) -> Input | None:
-    marks = getattr(hint, "__metadata__", ())
-    return next((mark for mark in marks if isinstance(mark, Input)), None)
+    return (condition, *_conditions(other, prefix, known, hints))
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
     """What a Literal allows; msgspec knows it too, but sorted."""
-    while typing.get_origin(hint) is Annotated:
-        hint = typing.get_args(hint)[0]
+    hint = bare(hint)
     return typing.get_args(hint) if typing.get_origin(hint) is Literal else ()
 
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import functools
 import math
-import typing
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
@@ -27,6 +26,8 @@ import msgspec
 
 from webviz.api.declared import Declared, Topic
 from webviz.api.frames import Frames
+from webviz.api.ports import Output
+from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 
@@ -34,19 +35,6 @@ Gesture = Literal["point", "pose"]
 """A click on the ground, or a press that is dragged towards a heading."""
 
 Position = tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Output:
-    """Marks a `Topic` property as an output of a tool.
-
-    Where the topic says `auto`, it is published as RViz does: reliable, volatile, depth 5.
-
-    Args:
-        type: the message type, such as "geometry_msgs/msg/PoseStamped".
-    """
-
-    type: str
 
 
 @dataclass(frozen=True)
@@ -155,12 +143,8 @@ class Tool(Declared, kw_only=True):
 @functools.cache
 def outputs_of(cls: type[Tool]) -> dict[str, Output]:
     """The outputs of a tool class by property name, in the order of declaration."""
-    found = {}
-    for name, hint in typing.get_type_hints(cls, include_extras=True).items():
-        for item in getattr(hint, "__metadata__", ()):
-            if isinstance(item, Output):
-                found[name] = item
-    return found
+    ports = {each.path: each.port for each in properties_of(cls)}
+    return {path: port for path, port in ports.items() if isinstance(port, Output)}
 
 
 def outputs(tool: Tool) -> list[tuple[str, Output, Topic]]:

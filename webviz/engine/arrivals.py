@@ -1,4 +1,4 @@
-"""What arrives: time, transforms, and the messages of topics."""
+"""Arrivals of a turn: time, transforms and messages."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from webviz.engine.parts.transforms import TransformsPart
 
 
 class Arrivals:
-    """Takes what the source has, and lets all parts start over when time or transforms do.
+    """Takes what has arrived at the source, and resets all parts when time goes back.
 
     Args:
         core: what all parts share.
-        time: notices that time went back.
-        transforms: are inserted before any part asks for them.
+        time: detects that time went back.
+        transforms: inserts transforms before other parts look them up.
     """
 
     def __init__(self, core: Core, time: TimePart, transforms: TransformsPart) -> None:
@@ -22,7 +22,7 @@ class Arrivals:
         self._transforms = transforms
 
     def take(self, parts: Parts) -> Batches:
-        """Take what arrived since the last turn; while paused, it waits in the inbox."""
+        """Take what arrived since the last turn; while paused, messages wait in the inbox."""
         core, attempt = self._core, self._core.guard.attempt
         batches: Batches = {}
         core.now_ns = attempt("Source", core.now_ns, core.source.now_ns)
@@ -30,7 +30,7 @@ class Arrivals:
         if not self._time.is_paused:
             batches = attempt("Source", batches, core.source.inbox.drain)
         if attempt("Time", False, self._time.ros.step, core.now_ns):
-            # What arrived with it may be older or newer; what is latched is asked for again.
+            # Messages of this turn may be older or newer. Latched ones are requested again.
             batches = {}
             parts.reset()
         if attempt("Transforms", False, self._transforms.insert, batches):

@@ -36,24 +36,24 @@ from webviz.engine.statuses import failures
 from webviz.files.config import Config, Settings
 
 IDLE_S = 0.25
-"""How often to look around when nothing arrives: ages in statuses, frames that fade."""
+"""Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
-TOLD_S = 15.0
-"""How long to tell that a part of the viewer failed."""
+FAILURE_S = 15.0
+"""How long the failure of a part is shown."""
 
 
 class FrameLoop:
     """Keeps a scene true to a source, as a config says.
 
     Args:
-        config: what to show; the viewer goes on from it.
+        config: what to show first.
         source: where messages come from.
         scene: where to draw.
-        show: called with the state whenever a panel should show a new one.
-        path: the file that the config came from, None for none.
-        autosave: a file that follows every change, None for none.
-        parts: makers of more parts, besides those of webviz itself.
-        strict: raise what displays raise, as tests want it.
+        show: called with the state whenever panels should be updated.
+        path: the file of the config, None if it has none.
+        autosave: a file that follows every change, None for no autosave.
+        parts: factories of additional parts.
+        strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages.
     """
 
@@ -73,7 +73,7 @@ class FrameLoop:
         self._source = source
         self._show = show
         self._stop = threading.Event()
-        self._guard = Guard("", strict, told_s=TOLD_S, clock=clock)
+        self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
         self._requests = Requests(self._guard, self._wake)
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
@@ -116,15 +116,15 @@ class FrameLoop:
 
     @property
     def settings(self) -> Settings:
-        """All that is shown besides displays."""
+        """Everything in the config except displays and tools."""
         return self._settings.settings
 
     def enqueue(self, command: Command, sender: Sender = PROGRAM) -> Future[str]:
-        """Ask for a change from any thread; it is done on the next turn of the loop.
+        """Enqueue a command from any thread; the next turn of the loop carries it out.
 
         Returns:
-            What there is to tell of it, once it is done, drawn and shown; a
-            `webviz.engine.requests.Refused` if it could not be done.
+            Its answer, once its effect is drawn and shown; a `webviz.engine.requests.Refused` if
+            it was refused.
         """
         answer = self._requests.put(command, sender)
         self._wake()
@@ -136,7 +136,7 @@ class FrameLoop:
         self._wake()
 
     def run(self) -> None:
-        """Work until `stop`: a turn as soon as something arrives, at most `frame_rate` a second."""
+        """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
         arrived = self._source.inbox.arrived
         try:
             while not self._stop.is_set():
@@ -151,7 +151,7 @@ class FrameLoop:
             self.close()
 
     def close(self) -> None:
-        """End the slow work beside the loop, and keep the last state if that is wanted."""
+        """End all work beside the loop, and autosave."""
         self._requests.end()
         self._parts.close()
         self._workers.close()
@@ -173,7 +173,7 @@ class FrameLoop:
             parts.keep_up(bool(answers))
             self._guard("Panel", self._show, self.state())
         for answer in answers:
-            answer()  # now that what was asked for can be seen
+            answer()  # once the effect is visible
 
     def state(self) -> State:
         """A snapshot for a panel, as of the last turn."""
@@ -182,11 +182,11 @@ class FrameLoop:
         return replace(state, statuses=statuses | crashed | self._showing.statuses)
 
     def config(self) -> Config:
-        """What to save to come back to this."""
+        """The current config."""
         return self._files.config()
 
     def _move_on(self) -> None:
-        """Look at frames at the time that is shown now."""
+        """Look up frames at the time that is shown now."""
         core = self._core
         core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
 

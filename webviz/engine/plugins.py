@@ -1,7 +1,7 @@
-"""Plug-ins from a file, `--plugin FILE.py`, that follow the file while it is edited.
+"""Plug-ins from a file, `--plugin FILE.py`, reloaded whenever the file is saved.
 
-A save that does not load changes nothing but a status. After a good one every display of the file
-goes on as an instance of its new class, with the values it had.
+A version that does not load only changes a status. After one that does, every display of the file
+becomes an instance of its new class with the same values.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from webviz.api import registry
 from webviz.api.declared import Declared, make, set_property, to_values
 from webviz.api.display import Display, inputs_of
 from webviz.api.errors import Error
+from webviz.api.properties import value_at
 from webviz.api.status import Level, Status
 from webviz.engine.commands import Command, ReloadPlugin
 
@@ -30,31 +31,31 @@ if TYPE_CHECKING:
 log = logging.getLogger("webviz")
 
 POLL_S = 1.0
-"""How often to look whether a file was saved."""
+"""How often files are checked for changes."""
 STATUS = "Plugin"
-"""Key of the status that tells of a reload."""
+"""Key of the status of a reload."""
 
 
 class PluginError(Error):
-    """A file cannot be used as a plug-in; one sentence that names the file and the place in it."""
+    """A file cannot be used as a plug-in; one sentence with the file and line."""
 
 
 def load(path: Path) -> dict[str, type[Declared]]:
-    """Run a Python file and register the plug-ins it defines, in place of those it had before.
+    """Run a Python file and register the plug-ins it defines, replacing its previous ones.
 
-    Every subclass of `Display`, `Tool` or `Panel` that the file itself defines counts, by the name
-    of the class, unless that begins with an underscore.
+    Plug-ins are the subclasses of `Display`, `Tool` or `Panel` defined in the file whose names do
+    not start with an underscore.
 
     Raises:
-        PluginError: the file is missing, no Python, raises, has no plug-in, or has one that cannot
-            be made or whose name is taken. What was registered before stays.
+        PluginError: the file is missing, not valid Python, raises, has no plug-in, or has one with
+            invalid defaults or a name that is taken. Its previous plug-ins stay registered.
     """
     name = _module_name(path)
     before = sys.modules.get(name)
     module = ModuleType(name)
     module.__file__ = str(path)
     code = _compiled(path)
-    sys.modules[name] = module  # where annotations given as text are looked up
+    sys.modules[name] = module  # annotations given as text are resolved there
     try:
         types = _run(path, code, module)
     except PluginError:
@@ -66,32 +67,32 @@ def load(path: Path) -> dict[str, type[Declared]]:
 
 
 def reload(path: Path, runners: Iterable[Runner]) -> None:
-    """Load a file again after it was saved, and let its displays go on as what it says now.
+    """Reload a file after it was saved, and make its displays instances of the new classes.
 
     Args:
         path: as given to `load`.
-        runners: all displays of the viewer.
+        runners: of all displays.
     """
     name = _module_name(path)
     own = [runner for runner in runners if type(runner.display).__module__ == name]
     try:
         types = load(path)
     except PluginError as error:
-        log.warning("%s Keeping the last version that loaded.", error)
+        log.warning("%s Keeping the previous version.", error)
         for runner in own:
             runner.remarks[STATUS] = Status(Level.ERROR, str(error))
         return
-    log.info("%s was loaded again.", path)
+    log.info("Reloaded %s.", path)
     displays = {name: cls for name, cls in types.items() if issubclass(cls, Display)}
     for runner in own:
         _renew(runner, displays, path)
 
 
 class Watcher:
-    """Asks for a reload of each file that was saved.
+    """Requests a reload of each file that was saved.
 
     Args:
-        paths: files; what they are when this is made counts as known.
+        paths: of the files, as they are loaded now.
     """
 
     def __init__(self, paths: Iterable[Path]) -> None:
@@ -100,7 +101,7 @@ class Watcher:
         self._thread: threading.Thread | None = None
 
     def start(self, enqueue: Callable[[Command], object]) -> None:
-        """Look every second, in a thread, until `stop`."""
+        """Check the files every `POLL_S`, in a thread, until `stop`."""
         if self._known:
             self._thread = threading.Thread(target=self._watch, args=[enqueue], daemon=True)
             self._thread.start()
@@ -111,8 +112,8 @@ class Watcher:
         if self._thread is not None:
             self._thread.join()
 
-    def look(self) -> list[Path]:
-        """The files that changed since the last look."""
+    def changed(self) -> list[Path]:
+        """The files that changed since the last call."""
         now = {path: _stamp(path) for path in self._known}
         changed = [path for path, stamp in now.items() if stamp != self._known[path]]
         self._known = now
@@ -120,12 +121,12 @@ class Watcher:
 
     def _watch(self, enqueue: Callable[[Command], object]) -> None:
         while not self._ended.wait(POLL_S):
-            for path in self.look():
+            for path in self.changed():
                 enqueue(ReloadPlugin(path))
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:
-    """Differs after a save, in place or by a new file of the same name."""
+    """Differs after a save, in place or by replacing the file."""
     try:
         found = path.stat()
     except OSError:
@@ -138,7 +139,7 @@ def _module_name(path: Path) -> str:
 
 
 def _compiled(path: Path) -> Any:
-    """The code of a file, always from its text: caches of byte code see no save within a second."""
+    """The code of a file, always from its text: byte-code caches miss saves within a second."""
     try:
         return compile(path.read_bytes(), str(path), "exec", dont_inherit=True)
     except OSError as error:
@@ -158,17 +159,17 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
             if issubclass(cls, Display):
                 inputs_of(cls)
             make(cls, msgspec.to_builtins(cls()))  # defaults fit their own types and bounds
-    except (Exception, SystemExit) as error:  # somebody else's code may raise anything
+    except (Exception, SystemExit) as error:  # plug-ins may raise anything
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)
         text = f"{type(error).__name__}: {error}".rstrip(": ").rstrip(".")
         raise PluginError(f"{place} does not load: {text}.") from error
     if not types:
         bases = "Display, Tool or Panel"
-        raise PluginError(f"{path} has no plug-in: no subclass of {bases} is defined in it.")
+        raise PluginError(f"{path} has no plug-in. Define a subclass of {bases} in it.")
     try:
         registry.register(str(path), types)
     except ValueError as error:
-        raise PluginError(f"{path} cannot be used: {error}; rename the class.") from error
+        raise PluginError(f"{path} cannot be used: {error}. Rename the class.") from error
     return types
 
 
@@ -185,7 +186,7 @@ def _classes_of(module: ModuleType) -> dict[str, type[Declared]]:
 
 
 def _line(path: Path, trace: TracebackType | None) -> int | None:
-    """The innermost line of the file that was at work."""
+    """The innermost line of the file in a traceback."""
     lines = [each.lineno for each in traceback.extract_tb(trace) if each.filename == str(path)]
     return lines[-1] if lines else None
 
@@ -195,7 +196,7 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
     name = type(old).__name__
     runner.remarks.pop(STATUS, None)
     if name not in types:
-        text = f"{path} has no display {name} any more. Keeping the previous version."
+        text = f"{path} no longer has a display {name}. Keeping the previous version."
         runner.remarks[STATUS] = Status(Level.ERROR, text)
         log.warning("%s (%s)", text, old.name)
         return
@@ -213,24 +214,17 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
 
 
 def _carry_over(display: Display, path: str, value: Any) -> list[str]:
-    """Set a property if it still exists and the value fits; else why not, one text per property."""
-    if isinstance(value, dict) and isinstance(_value(display, path), msgspec.Struct):
-        return [
-            problem
-            for key, item in value.items()
-            for problem in _carry_over(display, f"{path}.{key}", item)
-        ]
+    """Set a property if it still exists and the value fits; else the reason, per property."""
     try:
+        if isinstance(value, dict) and isinstance(value_at(display, path), msgspec.Struct):
+            return [
+                problem
+                for key, item in value.items()
+                for problem in _carry_over(display, f"{path}.{key}", item)
+            ]
         set_property(display, path, value)
     except AttributeError:
         return [f"{path} = {value!r} (no such property)"]
-    except Exception as error:  # it does not fit, or a check of the class itself fails
+    except Exception as error:  # of validation, or of the class itself
         return [f"{path} = {value!r} ({error})"]
     return []
-
-
-def _value(display: Display, path: str) -> Any:
-    value: Any = display
-    for part in path.split("."):
-        value = getattr(value, part, None)
-    return value

@@ -1,4 +1,4 @@
-"""What people ask of a viewer: from any thread, in order, each with an answer."""
+"""Requests to a viewer: commands from any thread, in order, each with an answer."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from webviz.files.config.disk import in_thread
 
 MAX_REQUESTS = 1000
 MAX_FILES = 20
-"""Commands that wait for the disk."""
+"""File commands that wait for the disk."""
 ENDING_S = 1.0
-"""How long the end waits for a file that is being written."""
+"""How long `end` waits for a file that is being written."""
 ENDED = "The viewer has ended."
 
 T = TypeVar("T")
 
 
 class Refused(Error):
-    """A command that cannot be done; one sentence says why."""
+    """A command was refused; one sentence says why."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class Job(Generic[T]):
     """The slow part of a command: the disk, or a long text.
 
     Args:
-        work: runs in a thread of its own, so it must not touch what the frame loop changes.
-        then: called by the frame loop with the result; returns what there is to tell of it.
+        work: runs in a thread of its own; must not touch the state of the frame loop.
+        then: called by the frame loop with the result; returns the answer.
     """
 
     work: Callable[[], T]
@@ -51,17 +51,17 @@ Request = tuple[Command, Sender, Future[str]]
 class Requests:
     """Commands that wait for the frame loop.
 
-    Those about files are done one after the other, beside the loop; others overtake them.
+    File commands run one after the other beside the loop; other commands overtake them.
 
     Args:
-        guard: notes what commands raise that is not about what was asked for.
+        guard: logs unexpected exceptions of commands.
         wake: called from any thread when slow work is done.
     """
 
     def __init__(self, guard: Guard, wake: Callable[[], None]) -> None:
         self._guard = guard
         self.answer = Answer()
-        """To the last command that has one, for panels."""
+        """The last answer, for panels."""
         self._wake = wake
         self._waiting: queue.Queue[Request] = queue.Queue(MAX_REQUESTS)
         self._files: deque[Request] = deque()
@@ -69,25 +69,24 @@ class Requests:
         self._has_ended = False
 
     def put(self, command: Command, sender: Sender) -> Future[str]:
-        """Ask for something; see `FrameLoop.enqueue`."""
+        """Enqueue a command; see `FrameLoop.enqueue`."""
         answer: Future[str] = Future()
         try:
             self._waiting.put_nowait((command, sender, answer))
         except queue.Full:
-            answer.set_exception(Refused("Too many requests at once."))
+            answer.set_exception(Refused("Too many requests at once. Try again later."))
         if self._has_ended:
             self._refuse_waiting()
         return answer
 
     def obey(self, do: Callable[[Command, Sender], str | Job[Any]]) -> list[Callable[[], None]]:
-        """Do what was asked for.
+        """Carry out the waiting commands.
 
         Args:
-            do: carries out a command and returns what there is to tell of it, "" for nothing, or
-                its slow part.
+            do: carries out a command and returns its answer, "" for none, or its slow part.
 
         Returns:
-            What tells each of those who asked, to be called once all of it can be seen.
+            Callbacks that deliver the answers, to be called once the effects are visible.
         """
         answers = self._finish()
         while (request := self._next()) is not None:
@@ -96,15 +95,15 @@ class Requests:
         return answers
 
     def end(self) -> None:
-        """Let a file that is being written be finished, and refuse all that waits or comes later.
+        """Finish a file that is being written, and refuse all other commands from now on.
 
-        To be called by the frame loop.
+        Called by the frame loop.
         """
         self._has_ended = True
         if self._running is not None:
             wait([self._running[0]], ENDING_S)
-            for tell in self._finish():
-                tell()
+            for answer in self._finish():
+                answer()
         if self._running is not None:
             self._running[2].set_exception(Refused(ENDED))
             self._running = None
@@ -113,7 +112,7 @@ class Requests:
         self._refuse_waiting()
 
     def _finish(self) -> list[Callable[[], None]]:
-        """Do what is left of a command whose slow part is done."""
+        """Finish a command whose slow part is done."""
         if self._running is None or not self._running[0].done():
             return []
         done, job, answer = self._running
@@ -123,7 +122,7 @@ class Requests:
     def _attempt(
         self, answer: Future[str], act: Callable[[], str | Job[Any]]
     ) -> list[Callable[[], None]]:
-        """Act; returns what tells the one who asked, nothing while a slow part is under way."""
+        """Act; returns the callback with the answer, nothing while a slow part runs."""
         try:
             result = self._in_one_sentence(act)
             if isinstance(result, Job):
@@ -145,7 +144,7 @@ class Requests:
         working.add_done_callback(lambda _: self._wake())
 
     def _next(self) -> Request | None:
-        """The next request of somebody who still wants it, and whose turn it is."""
+        """The next request that was not cancelled and may run now."""
         while True:
             if self._files and self._running is None:
                 request = self._files.popleft()
@@ -174,10 +173,10 @@ class Requests:
         if len(self._files) < MAX_FILES:
             self._files.append(request)
         else:
-            _refuse(request, "Too many files at once.")
+            _refuse(request, "Too many files at once. Try again later.")
 
     def _refuse_waiting(self) -> None:
-        """Refuse what no loop will do any more; from any thread."""
+        """Refuse all waiting requests; from any thread."""
         with contextlib.suppress(queue.Empty):
             while True:
                 _refuse(self._waiting.get_nowait(), ENDED)

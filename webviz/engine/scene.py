@@ -1,4 +1,4 @@
-"""What the viewer needs of a scene and of its cameras."""
+"""The interfaces of a scene and its cameras."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Protocol
 
 from webviz.api.bounds import Box
 from webviz.api.declared import Color
-from webviz.api.nodes import Pose
 from webviz.api.views import View
 from webviz.engine.pipeline.drawing import Scene as DrawingScene
 
@@ -16,19 +15,19 @@ class Cameras(Protocol):
     """The cameras of browsers; see `webviz.edges.scene.cameras.Cameras`."""
 
     def start_with(self, view: View) -> None:
-        """Choose what browsers that join begin with."""
+        """Set the view that browsers start with."""
         ...
 
     def show(self, view: View, browser: int | None = None) -> None:
-        """Put the camera of a browser, or of every one, where a view says."""
+        """Show a view in one browser, or in all."""
         ...
 
     def views(self) -> Mapping[int, View]:
-        """What every browser shows now, by its id."""
+        """The current view of every browser, by its id."""
         ...
 
     def target_frames(self) -> set[str]:
-        """The frames that views follow, or begin to when a browser joins."""
+        """The target frames of current views, and of the one that browsers start with."""
         ...
 
     def size(self, browser: int) -> tuple[float, float]:
@@ -36,18 +35,18 @@ class Cameras(Protocol):
         ...
 
     def save_image(self, name: str, browser: int | None = None) -> None:
-        """Let a browser, or every one, download what it shows."""
+        """Let one browser, or all, download their picture."""
         ...
 
 
 class NoCameras:
-    """Of a scene that no browser shows."""
+    """The cameras of a scene without browsers."""
 
     def start_with(self, view: View) -> None:
-        """Nobody begins."""
+        """No effect."""
 
     def show(self, view: View, browser: int | None = None) -> None:
-        """Nobody looks."""
+        """No effect."""
 
     def views(self) -> Mapping[int, View]:
         """None."""
@@ -58,36 +57,24 @@ class NoCameras:
         return set()
 
     def size(self, browser: int) -> tuple[float, float]:
-        """There is no such browser."""
+        """Fail, as no browser exists."""
         raise KeyError(browser)
 
     def save_image(self, name: str, browser: int | None = None) -> None:
-        """Nobody downloads."""
+        """No effect."""
 
 
-class ViewedScene(Protocol):
-    """What a scene has besides drawing, to be looked at; see `webviz.edges.scene.Scene`."""
+class Scene(DrawingScene, Protocol):
+    """A scene with browsers; see `webviz.edges.scene.Scene`."""
 
     @property
     def cameras(self) -> Cameras:
-        """Of all browsers."""
-        ...
-
-    def set_pose(self, group: str, pose: Pose) -> None:
-        """Place a group in the fixed frame."""
-        ...
-
-    def remove_group(self, group: str) -> None:
-        """Remove a group with all its nodes."""
+        """The cameras of all browsers."""
         ...
 
     def bounds(self, prefix: str) -> Box | None:
-        """The box around all that is visible of the groups of a prefix."""
+        """The box around everything visible in the groups of a prefix."""
         ...
-
-
-class Scene(DrawingScene, ViewedScene, Protocol):
-    """What the viewer needs of a scene besides drawing; see `webviz.edges.scene.Scene`."""
 
     def flush(self) -> None:
         """Send everything that changed since the last flush."""
@@ -98,5 +85,5 @@ class Scene(DrawingScene, ViewedScene, Protocol):
         ...
 
     def set_background(self, rgb: Color) -> None:
-        """Fill what lies behind everything with one colour."""
+        """Set the background colour."""
         ...

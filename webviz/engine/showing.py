@@ -14,28 +14,24 @@ from webviz.engine.scene import Scene
 
 
 class Showing:
-    """Draws displays and lets views follow.
+    """Draws displays and moves views with their target frames.
 
     Args:
         scene: where to draw.
-        views: what browsers look at.
+        views: of all browsers.
         guard: for all calls.
     """
 
     def __init__(self, scene: Scene, views: ViewsPart, guard: Guard) -> None:
         self.statuses: dict[str, Status] = {}
-        """What could not be drawn; the scene drops it, so it stays missing."""
+        """Drawing errors; the scene has dropped what failed, so they stay."""
         self._scene = scene
         self._views = views
         self._guard = guard
         self._background: Color | None = None
 
-    def is_watched(self) -> bool:
-        """Whether any browser is connected."""
-        return self._guard.attempt("Scene", True, self._scene.has_watchers)
-
     def draw(self, runners: Sequence[Runner], frames: Frames, background: Color) -> None:
-        """Bring the scene up to date and send what changed."""
+        """Update the scene and send what changed."""
         guard = self._guard
         if background != self._background:
             crashed = guard("Scene", self._scene.set_background, background) is CRASHED

@@ -1,4 +1,4 @@
-"""What a panel shows of a viewer: a snapshot made by the frame loop."""
+"""The state of a viewer for panels: a snapshot made by the frame loop."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ class Row:
     Args:
         id: for commands.
         type: name of the display type.
-        display: its properties, to read; None if the entry of the config cannot be shown.
+        display: read-only; None if the entry of the config cannot be shown.
         name: as shown.
         statuses: sentences by key.
-        depth: in how many groups it is.
-        enabled: whether it is switched on, whatever its groups are.
-        color_scale: which values its colours stand for.
+        depth: number of groups it is in.
+        enabled: its own switch, whatever its groups are.
+        color_scale: the meaning of its colours.
     """
 
     id: str
@@ -47,13 +47,13 @@ class Row:
 
 @dataclass(frozen=True)
 class File:
-    """Where the config is saved.
+    """The file of the config.
 
     Args:
         path: of the file, "" if there is none.
-        is_changed: whether the viewer shows something else than the file says.
-        folder: where a name without folder is looked for and saved.
-        others: names of the config files in the folder, sorted.
+        is_changed: whether there are unsaved changes.
+        folder: base of relative paths.
+        others: names of all config files in the folder, sorted.
     """
 
     path: str = ""
@@ -64,11 +64,11 @@ class File:
 
 @dataclass(frozen=True)
 class Answer:
-    """What came of the last command that has an answer.
+    """The answer to the last command that has one.
 
     Args:
-        number: one more for each answer.
-        level, text: how it went, in a sentence.
+        number: increases with each answer.
+        level, text: the result, one sentence.
     """
 
     number: int = 0
@@ -78,14 +78,14 @@ class Answer:
 
 @dataclass(frozen=True)
 class Clock:
-    """RViz's panel "Time".
+    """The times of RViz's Time panel.
 
     Args:
-        ros_ns: ROS time that is shown; stands still while paused; 0 while it is not known.
+        ros_ns: the ROS time that is shown; constant while paused, 0 while unknown.
         ros_elapsed_ns: since the viewer started or was reset.
         wall_s: seconds since 1970.
         wall_elapsed_s: since the viewer started or was reset.
-        is_paused: whether somebody let the time stand still.
+        is_paused: whether the shown time is paused.
     """
 
     ros_ns: int = 0
@@ -97,7 +97,7 @@ class Clock:
 
 @dataclass(frozen=True)
 class Traffic:
-    """What arrives on a topic, over the last seconds."""
+    """Average traffic of a topic over the last seconds."""
 
     rate_hz: float
     bytes_per_s: float
@@ -105,12 +105,12 @@ class Traffic:
 
 @dataclass(frozen=True)
 class Inspected:
-    """A topic that somebody looks into.
+    """The inspected topic.
 
     Args:
         topic: its name.
-        text: its last message, or why there is none.
-        age_s: since the last message came, None without one.
+        text: its last message, or why it cannot be shown.
+        age_s: since the last message, None if there is none.
     """
 
     topic: str
@@ -127,7 +127,7 @@ class ToolButton:
         name: as shown.
         tooltip: one sentence.
         shortcut: the key that selects it, "" for none.
-        gesture: that the page follows.
+        gesture: followed by the page.
     """
 
     id: str
@@ -162,26 +162,26 @@ class History:
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """A viewer at one moment; each part of it fills in the fields that it owns.
+    """A viewer at one moment; each part fills in the fields that it owns.
 
     Args:
         rows: the displays in order.
-        fixed_frame: frame id that everything is drawn in.
-        frames: every frame id known, sorted.
+        fixed_frame: id of the frame that everything is drawn in.
+        frames: all known frame ids, sorted.
         topics: message types by topic name.
-        statuses: what holds for the viewer as a whole, such as "Fixed Frame".
-        settings: all that a config says besides its displays.
-        file: where that is saved.
+        statuses: of the viewer as a whole, such as "Fixed Frame".
+        settings: everything in the config except displays and tools.
+        file: of the config.
         answer: to the last command.
         clock: the time.
         offers: publishers and QoS by topic name.
-        traffic: by topic name, of the topics that are subscribed to.
-        inspected: a topic that somebody looks into.
-        transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
-        views: what each browser shows, by its id.
+        traffic: of the subscribed topics, by name.
+        inspected: the inspected topic, if any.
+        transforms: the tree of transforms as lines of text, "" if it is not inspected.
+        views: of each browser, by its id.
         tools: in the order of the toolbar.
         history: what can be undone and redone.
-        more: what parts that are not webviz's own return, by name.
+        more: fields of additional parts, by name.
     """
 
     rows: tuple[Row, ...] = ()

@@ -10,25 +10,27 @@ from webviz.data.transforms.explain import unknown_fixed_frame
 
 
 def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
-    """Whether anything can be drawn in a frame."""
+    """Whether the fixed frame is known."""
     known = buffer.frames()
     if fixed_frame in known:
         return Status(Level.OK, "OK")
     if not known:
         return Status(
-            Level.WARN, f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown."
+            Level.WARN,
+            f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown. Start a "
+            "publisher of transforms, such as robot_state_publisher.",
         )
     return Status(Level.ERROR, unknown_fixed_frame(buffer, fixed_frame))
 
 
 def import_status(report: Sequence[str]) -> Status:
-    """What of a .rviz file has no counterpart here, which needs at least one sentence."""
+    """The unsupported parts of a .rviz file, at least one sentence."""
     text = f"Parts of this .rviz file are unsupported. {' '.join(report)}"
     return Status(Level.WARN, text)
 
 
 def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
-    """Which parts of the viewer failed, by part."""
+    """The parts of the viewer that failed, by name."""
     return {
         part: Status(Level.ERROR, f"{text} The log has the details; please report this.")
         for part, text in crashes.items()

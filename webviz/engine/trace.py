@@ -1,4 +1,4 @@
-"""When one sample was published, received, ready, decoded, drawn, sent and acknowledged."""
+"""Latency traces: the times of one sample on its way to the browsers."""
 
 from __future__ import annotations
 
@@ -17,18 +17,19 @@ MAX_ASKED = 100
 class Trace:
     """The times of one sample on its way to the browsers, in nanoseconds of ROS time.
 
-    From its arrival on they follow the wall clock, so a paused or slow simulation hides no delay.
+    From its arrival on they advance with the wall clock, so that a paused or slow simulation hides
+    no delay.
 
     Args:
         input: of the display.
         number: of the sample, from 0.
         published_ns: its stamp, 0 if it has none.
-        received_ns: it arrived.
-        ready_ns: it could be placed, and had its partners if its input is synchronized.
-        decoded_ns: the display has it.
-        drawn_ns: the display drew it.
-        sent_ns: it was handed to the connections.
-        acknowledged_ns: every connected browser has applied it; None if one did not answer.
+        received_ns: its arrival.
+        ready_ns: its transform was available, and its partners if the input is synchronized.
+        decoded_ns: it was decoded.
+        drawn_ns: the display had drawn it.
+        sent_ns: it was passed to the connections.
+        acknowledged_ns: every connected browser had applied it; None if one did not answer.
     """
 
     input: str
@@ -42,7 +43,7 @@ class Trace:
     acknowledged_ns: int | None = None
 
     def times(self) -> dict[str, int]:
-        """The known times by name, in the order of the way."""
+        """The known times by name, in order."""
         names = ("published", "received", "ready", "decoded", "drawn", "sent", "acknowledged")
         return {name: ns for name in names if (ns := getattr(self, f"{name}_ns"))}
 
@@ -75,7 +76,7 @@ class _Begun:
 
 
 class Tracer:
-    """Notes the times of the next sample of each display that somebody asks about, and no others.
+    """Traces the next sample of displays on request.
 
     Args:
         clock: monotonic time in seconds, the one of `Raw.arrived_s`.
@@ -87,19 +88,19 @@ class Tracer:
         self._begun: dict[str, _Begun] = {}
 
     def ask(self, display: str, answer: Future[Trace]) -> None:
-        """Trace the next sample of a display. Cancel the answer to ask no more.
+        """Trace the next sample of a display. Cancel the answer to stop waiting.
 
         Raises:
-            Error: too many ask.
+            Error: too many traces are requested.
         """
         for asked, answers in list(self._asked.items()):
             self._asked[asked] = [each for each in answers if not each.cancelled()]
             if not self._asked[asked]:
                 del self._asked[asked]
         if sum(map(len, self._asked.values())) >= MAX_ASKED:
-            raise Error("Too many traces at once. Wait for some of them.")
+            raise Error("Too many traces at once. Try again later.")
         if display not in self._asked:
-            self.forget(display)  # what was asked about in vain
+            self.forget(display)  # left from a cancelled request
         self._asked.setdefault(display, []).append(answer)
 
     def wants(self, display: str) -> bool:
@@ -107,16 +108,16 @@ class Tracer:
         return display in self._asked
 
     def decoded(self, display: str, sample: Sample, raw: Raw, ready_s: float, at_s: float) -> None:
-        """Note that a display holds a sample, decoded at `at_s`, until a newer one."""
+        """A display holds a sample, decoded at `at_s`."""
         self._begun[display] = _Begun(sample, raw.arrived_s, ready_s, at_s)
 
     def drawn(self, display: str) -> None:
-        """Note that a display has drawn all that it holds."""
+        """A display has drawn its samples."""
         if begun := self._begun.get(display):
             begun.drawn_s = self.clock()
 
     def sent(self) -> None:
-        """Note that all that was drawn was sent, and answer."""
+        """Everything drawn was sent: answer."""
         for display in [display for display, begun in self._begun.items() if begun.drawn_s]:
             trace = self._begun.pop(display).trace(self.clock())
             for answer in self._asked.pop(display, ()):
@@ -124,5 +125,5 @@ class Tracer:
                     answer.set_result(trace)
 
     def forget(self, display: str) -> None:
-        """Forget a sample that will not be drawn."""
+        """Discard a sample that will not be drawn."""
         self._begun.pop(display, None)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
-from webviz.api.tool import Output, Stroke, Tool, ToolContext
+from webviz.api.ports import Output
+from webviz.api.tool import Stroke, Tool, ToolContext
 
 
 class GoalPose(Tool):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic, compose
+from webviz.data.words import counted
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated
 
@@ -36,11 +37,9 @@ class MapStyle:
 
     def is_like(self, other: MapStyle | None) -> bool:
         """Whether equal cells look alike; tables are cached, so identity is enough."""
-        return (
-            other is not None
-            and self.table is other.table
-            and (self.resolution, self.layer) == (other.resolution, other.layer)
-        )
+        if other is None or self.table is not other.table:
+            return False
+        return (self.resolution, self.layer) == (other.resolution, other.layer)
 
 
 @dataclass(frozen=True)
@@ -99,8 +98,7 @@ class Map(Display):
         Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
     ] = Topic()
     alpha: Annotated[
-        float,
-        Prop(ge=0, le=1, widget="slider", help="Opacity of the map; 0 is invisible."),
+        float, Prop(ge=0, le=1, widget="slider", help="Opacity of the map; 0 is invisible.")
     ] = 0.7
     color_scheme: Annotated[
         Literal["map", "costmap", "raw"],
@@ -205,8 +203,7 @@ class Map(Display):
         if folded.update_fault:
             ctx.error("Update", folded.update_fault)
         elif folded.updates:
-            count = f"{folded.updates} update{'s' if folded.updates > 1 else ''}"
-            ctx.ok("Update", f"{count} since the last whole map.")
+            ctx.ok("Update", f"{counted(folded.updates, 'update')} since the last whole map.")
 
 
 def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:

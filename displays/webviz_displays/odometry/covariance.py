@@ -32,6 +32,10 @@ _ROUNDING = 1e-9
 """A negative eigenvalue that is smaller by this factor than the largest is zero."""
 
 
+WEDGE = np.array(((0.0, 0.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0)))
+"""A flat triangle from the origin to x = 1, where it extends from y = -1 to 1."""
+
+
 class Covariances(NamedTuple):
     """Covariances of N poses, ready to be drawn.
 
@@ -54,6 +58,10 @@ class Placed(NamedTuple):
 
     centers: F64
     frames: F64
+
+    def images(self, points: F64) -> F64:
+        """Where points (P, 3) of the shape are in each copy, (M, P, 3)."""
+        return self.centers[:, None] + np.einsum("nij,pj->npi", self.frames, points)
 
 
 def read(covariances: F64) -> tuple[Covariances, Mask]:
@@ -108,7 +116,7 @@ def ellipsoids(given: Covariances, positions: F64, rotations: F64, scale: float)
 def wedges(
     given: Covariances, positions: F64, rotations: F64, scale: float, offset: float
 ) -> Placed:
-    """Yaw wedges of planar poses, for a flat wedge along x.
+    """Yaw wedges of planar poses, for a `WEDGE`.
 
     Args:
         given: of N poses.

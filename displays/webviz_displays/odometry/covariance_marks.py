@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from webviz import Group, Mesh
 from webviz.data.rotations import from_matrices
 from webviz_displays.odometry.covariance import (
+    WEDGE,
     Covariances,
     Placed,
     ellipses,
@@ -16,7 +17,6 @@ from webviz_displays.odometry.covariance import (
     wedges,
 )
 from webviz_displays.shared.pose_properties import OrientationCovariance, PositionCovariance
-from webviz_displays.shared.shapes import WEDGE, copies
 
 F64 = NDArray[np.float64]
 
@@ -66,7 +66,9 @@ def add_orientations(
     colors = (look.color,) * 3 if look.color_style == "Unique" else _RGB
     yaws = wedges(given, positions, axes, look.scale, look.offset)
     if len(yaws.centers):
-        group.add("wedges", Mesh(*copies(WEDGE, *yaws), colors[2], look.alpha))
+        vertices = yaws.images(WEDGE).reshape(-1, 3).astype(np.float32)
+        faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
+        group.add("wedges", Mesh(vertices, faces, colors[2], look.alpha))
     discs = [tip_discs(given, positions, axes, look.scale, look.offset, i) for i in (0, 1, 2)]
     placed = Placed(*map(np.concatenate, zip(*discs, strict=True)))
     if len(placed.centers):

@@ -10,11 +10,11 @@ import numpy as np
 
 from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
+from webviz.data.words import counted
 from webviz_displays.odometry import covariance
 from webviz_displays.odometry.covariance_marks import add_orientations, add_positions
 from webviz_displays.odometry.poses import GrowingTrail, Trail, fault, has_moved, is_sound
-from webviz_displays.shared.arrows import along_x
-from webviz_displays.shared.geometry import origin_near
+from webviz_displays.shared.geometry import along_x, origin_near
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
 from webviz_displays.shared.rods import add_transparent_arrows
 
@@ -66,7 +66,7 @@ class Odometry(Display):
         """All poses as one node, and their covariances as a few more."""
         if not samples:
             return
-        ctx.ok("Pose", f"Showing {len(samples)} pose{'s' if len(samples) != 1 else ''}.")
+        ctx.ok("Pose", f"Showing {counted(len(samples), 'pose')}.")
         poses = ctx.state.of(samples)
         origin = origin_near(poses.positions)
         group = ctx.follow(None, offset=Pose(origin))

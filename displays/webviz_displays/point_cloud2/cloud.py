@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.data import messages
+from webviz.data.words import listed
 from webviz_displays.shared.geometry import FARTHEST, origin_near
 
 Position = tuple[float, float, float]
@@ -75,8 +76,7 @@ class Cloud:
     @property
     def fields(self) -> str:
         """The names of the first fields, for a sentence."""
-        more = f" and {len(self.names) - _NAMED} more" if len(self.names) > _NAMED else ""
-        return (", ".join(f"{name:.40}" for name in self.names[:_NAMED]) or "none") + more
+        return listed([f"{name:.40}" for name in self.names], _NAMED) or "none"
 
     def values(self, name: str) -> NDArray[Any]:
         """A field of all points (N,) in the type of the message; the first of several elements.

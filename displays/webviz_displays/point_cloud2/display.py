@@ -58,11 +58,7 @@ class PointCloud2(PointsDisplay):
         ),
     ] = "Auto"
     channel_name: Annotated[
-        str,
-        Prop(
-            when=BY_INTENSITY,
-            help="Field that determines the colour.",
-        ),
+        str, Prop(when=BY_INTENSITY, help="Field that determines the colour.")
     ] = "intensity"
     max_points: Annotated[
         int,
@@ -73,8 +69,7 @@ class PointCloud2(PointsDisplay):
         ),
     ] = 300_000
     voxel_size: Annotated[
-        float,
-        Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all."),
+        float, Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all.")
     ] = 0.0
 
     def new_state(self) -> _State:
@@ -167,13 +162,7 @@ class PointCloud2(PointsDisplay):
         return rows, f"{sentence}."
 
     def _colors(
-        self,
-        cloud: Cloud,
-        rows: Rows | None,
-        xyz: F32,
-        own: Pose,
-        fixed: Pose,
-        ctx: Context,
+        self, cloud: Cloud, rows: Rows | None, xyz: F32, own: Pose, fixed: Pose, ctx: Context
     ) -> tuple[U8 | Rgb, U8 | None]:
         """Colours of points and, if the cloud has them, opacities from 0 to 255."""
         transformer = self.color_transformer

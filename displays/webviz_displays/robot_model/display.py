@@ -125,8 +125,7 @@ class RobotModel(Display):
     ] = 0.0
     alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")] = 1.0
     tf_prefix: Annotated[
-        str,
-        Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link."),
+        str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
     ] = ""
     all_links_enabled: Annotated[
         bool,

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from webviz import Context, Pose
 from webviz.data.transforms import Explanation, Kind
-from webviz_urdf import Joint, Missing, Robot
+from webviz.data.words import counted, listed
+from webviz_urdf import Joint, Robot
 
 NAMED = 5
 """Missing meshes, warnings and links that are listed; the rest is counted."""
@@ -24,21 +25,23 @@ def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
     missing = [m for m in (full or robot).missing if full or m.kind == "visual"]
     drawn = sum(len(link.visuals) for link in robot.links.values())
     total = drawn + sum(m.kind == "visual" for m in missing)
-    text = f"'{robot.name}': {count(len(robot.links), 'link')}, {drawn} of {total} visuals loaded."
+    text = (
+        f"'{robot.name}': {counted(len(robot.links), 'link')}, {drawn} of {total} visuals loaded."
+    )
     (ctx.ok if total else ctx.warn)("URDF", text)
     if missing:
-        ctx.error("Meshes", f"{count(len(missing), 'shape')} missing. {_listed(missing)}")
+        reasons = _first([f"Link '{m.link}': {m.reason}" for m in missing])
+        ctx.error("Meshes", f"{counted(len(missing), 'shape')} missing. {reasons}")
     if robot.warnings:
-        rest = len(robot.warnings) - NAMED
-        more = (f"And {rest} more.",) if rest > 0 else ()
-        ctx.warn("URDF warnings", " ".join((*robot.warnings[:NAMED], *more)))
+        ctx.warn("URDF warnings", _first(robot.warnings))
 
 
 def report_strangers(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
     """Report settings of links or joints that the robot does not have."""
     strangers = sorted(set(chosen) - set(known))
     if strangers:
-        ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names(strangers)}.")
+        names = listed(strangers, NAMED)
+        ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names}.")
 
 
 def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
@@ -74,11 +77,11 @@ def report_places(
         ctx: receives the statuses.
     """
     if not lost:
-        ctx.ok("Links", f"{count(total, 'link')} placed by transforms.")
+        ctx.ok("Links", f"{counted(total, 'link')} placed by transforms.")
         return
     ctx.error(
         "Links",
-        f"{len(lost)} of {count(total, 'link')} without a transform: {names(lost)}. "
+        f"{len(lost)} of {counted(total, 'link')} without a transform: {listed(lost, NAMED)}. "
         "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():
@@ -112,18 +115,6 @@ def has_axis(joint: Joint) -> bool:
     return joint.type not in ("fixed", "floating") and any(joint.axis)
 
 
-def names(listed: Sequence[str]) -> str:
-    """The first names, and how many more there are."""
-    rest = len(listed) - NAMED
-    return ", ".join(listed[:NAMED]) + (f" and {rest} more" if rest > 0 else "")
-
-
-def count(number: int, noun: str) -> str:
-    """A count with its noun, such as "2 links"."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def _listed(missing: Sequence[Missing]) -> str:
-    first = " ".join(f"Link '{m.link}': {m.reason}" for m in missing[:NAMED])
-    rest = len(missing) - NAMED
-    return f"{first} And {rest} more." if rest > 0 else first
+def _first(sentences: Sequence[str]) -> str:
+    rest = len(sentences) - NAMED
+    return " ".join([*sentences[:NAMED], *([f"And {rest} more."] if rest > 0 else [])])

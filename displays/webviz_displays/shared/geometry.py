@@ -34,6 +34,17 @@ def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
     return np.all(np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST, axis=-1)
 
 
+def along_x(positions: F64, rotations: F64, length: float) -> F64:
+    """Arrows as RViz draws poses: tails and tips (N, 2, 3).
+
+    Args:
+        positions: (N, 3), metres.
+        rotations: (N, 3, 3); the arrows point along their x axes.
+        length: of shaft and head together, metres.
+    """
+    return np.stack((positions, positions + length * rotations[..., 0]), axis=1)
+
+
 def origin_near(xyz: ArrayLike) -> tuple[float, float, float]:
     """A round point within 1 km of the last of `xyz` (N, 3); zero where that is near zero.
 

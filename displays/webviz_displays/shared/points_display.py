@@ -102,10 +102,7 @@ class PointsDisplay(Display):
     ] = (255, 255, 255)
     autocompute_intensity_bounds: Annotated[
         bool,
-        Prop(
-            when=BY_INTENSITY,
-            help="Compute the lowest and highest value from each message.",
-        ),
+        Prop(when=BY_INTENSITY, help="Compute the lowest and highest value from each message."),
     ] = True
     min_intensity: Annotated[
         float,
@@ -123,19 +120,13 @@ class PointsDisplay(Display):
         Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
     ] = (255, 255, 255)
     axis: Annotated[
-        Literal["X", "Y", "Z"],
-        Prop(when=BY_AXIS, help="Coordinate that determines the colour."),
+        Literal["X", "Y", "Z"], Prop(when=BY_AXIS, help="Coordinate that determines the colour.")
     ] = "Z"
     autocompute_value_bounds: Annotated[
-        ValueBounds,
-        Prop(when=BY_AXIS, help="Bounds of the coordinate."),
+        ValueBounds, Prop(when=BY_AXIS, help="Bounds of the coordinate.")
     ] = ValueBounds()
     use_fixed_frame: Annotated[
-        bool,
-        Prop(
-            when=BY_AXIS,
-            help="Use coordinates in the fixed frame instead of the sensor's.",
-        ),
+        bool, Prop(when=BY_AXIS, help="Use coordinates in the fixed frame instead of the sensor's.")
     ] = True
 
     def history(self) -> Keep:

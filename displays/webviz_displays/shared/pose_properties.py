@@ -85,11 +85,7 @@ class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     ] = "Unique"
     color: Annotated[
         Color, Prop(when=("color_style", "Unique"), help="Colour of the wedges and discs.")
-    ] = (
-        255,
-        255,
-        127,
-    )
+    ] = (255, 255, 127)
     alpha: Annotated[
         float,
         Prop(ge=0, le=1, widget="slider", when=("value", True), help="Opacity; 0 is invisible."),

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from webviz import Context, Display, FramePoses, Group, Pose, Prop, Sample, Status
 from webviz.data.transforms import distinct
+from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
-from webviz_displays.tf.frame_filter import FrameFilter, compiled, parent_indices
+from webviz_displays.tf.frame_filter import FrameFilter, parent_indices
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
 from webviz_displays.tf.frame_readout import readout
 from webviz_displays.tf.frame_tree import outline
@@ -174,10 +175,8 @@ class TF(Display):
         rows = np.flatnonzero(shown)
         if not len(rows):
             return
-        # Nodes are float32: far from the origin, only offsets from a near point are exact.
-        near = np.round(poses.positions[rows].mean(axis=0) / 1000.0) * 1000.0
-        x, y, z = near.tolist()
-        group = ctx.follow(None, offset=Pose((x, y, z)), key="near")
+        near = origin_near([poses.positions[rows].mean(axis=0)])
+        group = ctx.follow(None, offset=Pose(near), key="near")
         greyness, opacity = fade(ages[rows], self.frame_timeout)
         scale = self.marker_scale
         marks = Marks(poses.positions[rows] - near, greyness, opacity)
@@ -191,11 +190,7 @@ class TF(Display):
             add_names(group, marks, tuple(poses.names[row] for row in rows), scale)
 
     def _report(
-        self,
-        selected: NDArray[np.bool_],
-        shown: NDArray[np.bool_],
-        poses: FramePoses,
-        ctx: Context,
+        self, selected: NDArray[np.bool_], shown: NDArray[np.bool_], poses: FramePoses, ctx: Context
     ) -> None:
         lost = np.flatnonzero(selected & ~poses.ok)
         count, total, wanted = int(shown.sum()), len(poses.names), int(selected.sum())
@@ -224,8 +219,9 @@ class TF(Display):
 
 
 def _pattern(key: str, text: str, ctx: Context) -> re.Pattern[str] | None:
+    """A regular expression, None if it is empty or invalid."""
     try:
-        return compiled(text)
-    except ValueError as error:
-        ctx.error(key, str(error))
+        return re.compile(text) if text else None
+    except re.error as error:
+        ctx.error(key, f"'{text}' is not a valid regular expression ({error}); ignoring it.")
         return None

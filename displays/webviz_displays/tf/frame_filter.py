@@ -40,20 +40,6 @@ class FrameFilter:
         return self.switches.get(name, self.default)
 
 
-def compiled(text: str) -> re.Pattern[str] | None:
-    """A regular expression, None if it is empty.
-
-    Raises:
-        ValueError: it is invalid; the text says why.
-    """
-    try:
-        return re.compile(text) if text else None
-    except re.error as error:
-        raise ValueError(
-            f"'{text}' is not a valid regular expression ({error}); ignoring it."
-        ) from None
-
-
 def parent_indices(frames: Frames, names: Sequence[str]) -> NDArray[np.int64]:
     """Place in `names` of each name's newest parent, -1 for roots and frames without data."""
     places = {name: place for place, name in enumerate(names)}

@@ -73,7 +73,10 @@ class Dialogs:
             browser, make = self._asked.get()
             if browser in connected:
                 self._close(browser)
-                self._open[browser] = make(connected[browser])
+                # In one piece: the page gives the focus to the first control when it opens the
+                # dialog, to none if the controls come later.
+                with connected[browser].atomic():
+                    self._open[browser] = make(connected[browser])
         for dialog in self._open.values():
             dialog.update(state)
 

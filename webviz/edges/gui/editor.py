@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import viser
 
-from webviz.api.display import Display, Input
+from webviz.api.display import Display
 from webviz.api.panel import Edit, Send
+from webviz.api.ports import Input, Output
 from webviz.api.properties import Property, properties_of
 from webviz.edges.gui.control import Choice, Control
 from webviz.edges.gui.controls import add_control
@@ -83,8 +84,8 @@ class Editor:
         self._folder.remove()
 
     def _add(self, declared: Property, display: Display) -> None:
-        if declared.input is not None:
-            self._add_topic(declared, declared.input, display)
+        if declared.port is not None:
+            self._add_topic(declared, declared.port, display)
         elif declared.children:
             self._add_folder(declared, display, declared.label)
         else:
@@ -93,7 +94,7 @@ class Editor:
             )
             self._controls.append((declared, control))
 
-    def _add_topic(self, declared: Property, wanted: Input, display: Display) -> None:
+    def _add_topic(self, declared: Property, wanted: Input | Output, display: Display) -> None:
         """The topics there are, to choose from; any other name and the QoS in a folder."""
         name = next(child for child in declared.children if child.path == f"{declared.path}.name")
         choice = Choice(
@@ -103,7 +104,7 @@ class Editor:
             self._edit(name.path),
             f"{declared.help} ({wanted.type})".lstrip(),
         )
-        self._controls.append((replace(name, input=wanted, when=declared.when), choice))
+        self._controls.append((replace(name, port=wanted, when=declared.when), choice))
         self._add_folder(declared, display, f"{declared.label}: name and QoS", expand=False)
 
     def _add_folder(
@@ -119,8 +120,8 @@ class Editor:
         return lambda value, browser: self._send(SetProperty(self._id, path, value), browser)
 
     def _offered(self, declared: Property, state: State) -> tuple[str, ...]:
-        if declared.input is not None:
-            return self._topics.of_type(declared.input.type, state.topics)
+        if declared.port is not None:
+            return self._topics.of_type(declared.port.type, state.topics)
         return (FIXED_FRAME, *state.frames)
 
 

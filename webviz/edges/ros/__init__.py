@@ -1,1 +1,1 @@
-"""The ROS edge: the only place, besides the simulator, where rclpy is imported."""
+"""Everything that imports rclpy, besides the simulator."""

@@ -1,4 +1,4 @@
-"""A viewer as ROS sees it: parameters and services of its node."""
+"""Parameters and services of the viewer's node."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ log = logging.getLogger("webviz")
 
 CONFIG_FILE, FIXED_FRAME, VIEW = "config_file", "fixed_frame", "view"
 PARAMETERS = {
-    CONFIG_FILE: "The file that the config came from; setting it opens another one of its folder.",
-    FIXED_FRAME: "The frame that everything is drawn in.",
-    VIEW: "The saved view that browsers begin with; setting it moves every camera.",
+    CONFIG_FILE: "Path of the config file. Set it to open another one from the same folder.",
+    FIXED_FRAME: "Frame in which everything is drawn.",
+    VIEW: "Saved view in which browsers start. Set it to move all cameras.",
 }
 NO_SERVICES = (
-    "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are left "
-    "out, as the package std_srvs is missing: install ros-jazzy-std-srvs."
+    "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are "
+    "unavailable because std_srvs is missing. Install ros-jazzy-std-srvs."
 )
 MAX_REQUESTS = 4
-"""Of one service at a time; rclpy itself holds ten."""
+"""Per service at a time; rclpy itself queues ten."""
 
 
-class Steered(Protocol):
-    """What is controlled; see `webviz.Viewer`. All of it may be called from any thread."""
+class Controlled(Protocol):
+    """The part of `webviz.Viewer` that is used here; thread-safe."""
 
     @property
     def state(self) -> State:
@@ -51,73 +51,70 @@ class Steered(Protocol):
         ...
 
     def do(self, command: Command) -> str:
-        """Change something, wait until it is done, and return what there is to tell of it."""
+        """Run a command, wait for it, and return its message."""
         ...
 
     def save_screenshot(self) -> Path:
-        """Write a picture of the scene into a new file, which takes seconds."""
+        """Save a picture to a new file, which takes seconds."""
         ...
 
 
 class Control:
-    """Lets parameters and services of a node change a viewer, and parameters tell what it shows.
+    """Mirrors the state of a viewer in parameters of a node, and offers services to change it.
 
-    All methods but `open` belong to the thread that spins the node.
-
-    Args:
-        node: where they are declared.
+    All methods but `open` must be called in the thread that spins the node.
     """
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._viewer: Steered | None = None
+        self._viewer: Controlled | None = None
         self._folders: Sequence[Path] = ()
         self._services: list[_Service] | None = None
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-service")
         self._state: State | None = None
-        self._is_telling = False
-        self.asked: Mapping[str, str] = {
-            name: str(node.declare_parameter(name, "", _described(text)).value)
+        self._is_mirroring = False
+        self.initial: Mapping[str, str] = {
+            name: str(node.declare_parameter(name, "", ParameterDescriptor(description=text)).value)
             for name, text in PARAMETERS.items()
         }
-        """What parameters were given at the start, "" for none."""
+        """Values of the parameters at startup, "" if unset."""
         node.add_on_set_parameters_callback(self._set)
 
-    def open(self, viewer: Steered, folders: Sequence[Path] = ()) -> None:
-        """Begin to control a viewer; may be called from any thread.
+    def open(self, viewer: Controlled, folders: Sequence[Path] = ()) -> None:
+        """Start to control a viewer; may be called from any thread.
 
         Args:
             viewer: to control.
-            folders: where configs may be opened, besides the folder that the viewer saves in.
+            folders: from which configs may be opened, besides the viewer's own folder.
         """
         self._folders = [Path(os.path.abspath(folder)) for folder in folders]
         self._viewer = viewer
 
     def turn(self) -> None:
-        """Tell what is new, and send the answers that are ready; to be called very often."""
+        """Update the parameters, and send responses that are ready; to be called very often."""
         if self._viewer is None:
             return
         if self._services is None:
-            self._services = self._offer(self._viewer)
+            self._services = self._create_services(self._viewer)
         for service in self._services:
             service.turn()
         if (state := self._viewer.state) is not self._state:
             self._state = state
-            self._tell(state)
+            self._mirror(state)
 
     def close(self) -> None:
-        """End what is under way."""
+        """Cancel service requests that have not started."""
         self._pool.shutdown(cancel_futures=True)
 
     # Parameters
 
-    def _tell(self, state: State) -> None:
-        """Give parameters the values that are true now."""
-        begin, saved = state.settings.view, state.settings.views
+    def _mirror(self, state: State) -> None:
+        """Set the parameters to the state of the viewer."""
+        start, saved = state.settings.view, state.settings.views
         values = {
             CONFIG_FILE: _absolute(state.file.path),
             FIXED_FRAME: state.fixed_frame,
-            VIEW: next((name for name, view in saved.items() if view == begin), ""),
+            VIEW: next((name for name, view in saved.items() if view == start), ""),
         }
         new = [
             Parameter(name, value=value)
@@ -125,15 +122,15 @@ class Control:
             if value != self._node.get_parameter(name).value
         ]
         if new:
-            self._is_telling = True
+            self._is_mirroring = True
             try:
                 self._node.set_parameters(new)
             finally:
-                self._is_telling = False
+                self._is_mirroring = False
 
     def _set(self, parameters: Sequence[Parameter]) -> SetParametersResult:
-        """Do what somebody wants by setting parameters; those of others are not ours to judge."""
-        if self._is_telling:
+        """Pass parameters that were set to the viewer; those of others are accepted unseen."""
+        if self._is_mirroring:
             return SetParametersResult(successful=True)
         try:
             commands = [
@@ -143,7 +140,7 @@ class Control:
                 for command in self._commands(parameter.name, str(parameter.value))
             ]
             for command in commands:
-                self._steered().do(command)
+                self._require_viewer().do(command)
         except Error as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
@@ -153,16 +150,16 @@ class Control:
             return StartWithView(view=value), ShowView(value)
         if name == CONFIG_FILE:
             if not value:
-                raise Error("A config_file needs a name.")
+                raise Error("config_file needs a file name.")
             return (Open(self._allowed(value)),)
         return (SetFixedFrame(value),)
 
     def _allowed(self, value: str) -> str:
-        """The path of a config that anyone on the ROS network may open.
+        """The path of a config that may be opened through ROS.
 
-        Links are not followed: who may make them in these folders may also write configs there.
+        Links are not resolved, since creating one takes the same permission as writing a config.
         """
-        file = self._steered().state.file
+        file = self._require_viewer().state.file
         path = Path(os.path.normpath(Path(file.folder, value)))
         is_allowed = str(path.parent) == os.path.normpath(file.folder) or any(
             path.is_relative_to(folder) for folder in self._folders
@@ -173,17 +170,17 @@ class Control:
                 "to allow it."
             )
         if path.suffix.lower() not in SUFFIXES:
-            raise Error(f"{path} is not a config file: its name must end with .yaml or .rviz.")
+            raise Error(f"{path} is not a config file. Its name must end with .yaml or .rviz.")
         return str(path)
 
-    def _steered(self) -> Steered:
+    def _require_viewer(self) -> Controlled:
         if self._viewer is None:
-            raise Error("The viewer is starting: try again in a second.")
+            raise Error("The viewer is starting. Try again in a second.")
         return self._viewer
 
     # Services
 
-    def _offer(self, viewer: Steered) -> list[_Service]:
+    def _create_services(self, viewer: Controlled) -> list[_Service]:
         try:
             from std_srvs.srv import Empty, Trigger
         except ImportError:
@@ -193,13 +190,13 @@ class Control:
         def load() -> str:
             path = _absolute(viewer.state.file.path)
             if not path:
-                raise Error("There is no config file to load: set the parameter config_file.")
+                raise Error("No config file to load. Set the parameter config_file.")
             viewer.do(Open(path))
             return f"Opened {path}."
 
         def save() -> str:
             if not viewer.state.file.path:
-                raise Error("This config has no file yet: save it once on the page, under a name.")
+                raise Error("The config has no file yet. Save it on the page first.")
             viewer.do(Save())
             return f"Saved {_absolute(viewer.state.file.path)}."
 
@@ -223,15 +220,15 @@ class Control:
 
 
 class _Service:
-    """A service whose answers are sent when they are ready, while the node goes on.
+    """A service that responds later without blocking the node.
 
-    rclpy's events executor of 7.1.6 cannot have coroutines for that. But every executor hands the
-    response to `send_response` of the service, which here begins the work.
+    rclpy's events executor (7.1.6) does not support coroutines as callbacks. But every executor
+    passes the response to `send_response` of the service, which is replaced here.
 
     Args:
         node, type, name: of the service.
-        work: what to do for a request, in a thread of `pool`; its text is the answer.
-        pool: where to work.
+        work: called in `pool` for each request; returns the message of the response.
+        pool: one thread for all services.
     """
 
     def __init__(
@@ -247,23 +244,23 @@ class _Service:
         self._service.send_response = self._begin
         self._work = work
         self._pool = pool
-        self._under_way: list[tuple[Future[str], Any, Any]] = []
+        self._pending: list[tuple[Future[str], Any, Any]] = []
 
     def turn(self) -> None:
-        """Send the answers that are ready."""
-        for entry in [entry for entry in self._under_way if entry[0].done()]:
-            self._under_way.remove(entry)
-            self._answer(*entry)
+        """Send the responses that are ready."""
+        for entry in [entry for entry in self._pending if entry[0].done()]:
+            self._pending.remove(entry)
+            self._respond(*entry)
 
     def _begin(self, response: Any, header: Any) -> None:
-        if len(self._under_way) < MAX_REQUESTS:
-            self._under_way.append((self._pool.submit(self._work), response, header))
+        if len(self._pending) < MAX_REQUESTS:
+            self._pending.append((self._pool.submit(self._work), response, header))
             return
         refused: Future[str] = Future()
-        refused.set_exception(Error("Too many requests at once."))
-        self._answer(refused, response, header)
+        refused.set_exception(Error("Too many requests at once. Try again later."))
+        self._respond(refused, response, header)
 
-    def _answer(self, done: Future[str], response: Any, header: Any) -> None:
+    def _respond(self, done: Future[str], response: Any, header: Any) -> None:
         error = done.exception()
         if error is not None and not isinstance(error, Error):
             log.error("A service failed", exc_info=error)
@@ -271,10 +268,6 @@ class _Service:
             response.success = error is None
             response.message = str(error) if error is not None else done.result()
         self._send(response, header)
-
-
-def _described(text: str) -> ParameterDescriptor:
-    return ParameterDescriptor(description=text)
 
 
 def _absolute(path: str) -> str:

@@ -1,28 +1,32 @@
-"""The ROS graph as a port for output: publishers, service clients and action clients of a node."""
+"""Publishers, service clients and action clients of the node."""
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import (
-    DurabilityPolicy,
-    QoSProfile,
-    ReliabilityPolicy,
-)
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
 from webviz.data.messages import decode, encode, interfaces
 from webviz.edges.ros.jobs import Jobs
-from webviz.edges.ros.types import from_cdr, learn, message_class, service_class, to_cdr
+from webviz.edges.ros.types import (
+    MessageTypeError,
+    from_cdr,
+    learn,
+    message_class,
+    service_class,
+    to_cdr,
+)
 from webviz.engine.sources.graph import Goal, NotConnected, Outlet
 
 log = logging.getLogger("webviz")
@@ -31,24 +35,24 @@ CANCEL = "action_msgs/srv/CancelGoal"
 MOST_PUBLISHERS = 100
 MOST_CLIENTS = 100
 MOST_CALLS = 100
-"""Calls without an answer at a time."""
+"""Pending service calls."""
 FEEDBACK_DEPTH = 10
 WAIT_S = 2.0
-"""How long a service or an action that is not there yet is waited for."""
+"""How long to wait for a service or action to appear."""
 
 
 @dataclass(eq=False)
 class _Call:
-    """A request on its way.
+    """A pending service call.
 
     Args:
-        client: to which service.
+        client: of the service.
         request: its message.
-        answer: gets the serialised response.
-        deadline: monotonic time until which the answer is waited for.
-        give_up: monotonic time until which the service may appear.
-        is_heard: whether what the service publishes besides its answer is heard already.
-        sent: rclpy's future, None before it was sent.
+        answer: receives the serialised response.
+        deadline: monotonic time by which the response must arrive.
+        give_up: monotonic time by which the service must appear.
+        may_send: false as long as the request has to wait.
+        sent: rclpy's future, None until the request is sent.
     """
 
     client: Client
@@ -56,40 +60,47 @@ class _Call:
     answer: Future[bytes]
     deadline: float
     give_up: float
-    is_heard: Callable[[], bool] = lambda: True
-    sent: Any = field(default=None)
+    may_send: Callable[[], bool] = lambda: True
+    sent: Any = None
 
 
 class RosGraph:
-    """Publishes, calls and sends goals through a node; see `webviz.engine.sources.Graph`.
+    """Publishes, calls services and sends goals; see `webviz.engine.sources.Graph`.
 
     Args:
         node: whose thread calls `turn` often.
-        wake: makes that thread do so soon.
+        wake: makes that thread call `turn` soon.
     """
 
     def __init__(self, node: Node, wake: Callable[[], None]) -> None:
         self._node = node
         self._jobs = Jobs(wake)
         self._publishers: dict[Outlet, Publisher] = {}
+        self._advertised: frozenset[Outlet] = frozenset()
         self._clients: dict[tuple[str, str], Client] = {}
-        self._listening: dict[str, Subscription] = {}
+        self._subscriptions: dict[str, Subscription] = {}
         self._feedback: dict[bytes, Callable[[bytes], None]] = {}
         self._calls: list[_Call] = []
         self._nodes: tuple[str, ...] = ()
 
     # From any thread
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        """Make a publisher, so that subscriptions know it before the first message."""
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        """Create these publishers ahead of their first messages, and destroy the previous ones."""
+        wanted = frozenset(outlets)
 
         def do() -> None:
-            self._publisher(outlet)
+            before, self._advertised = self._advertised, wanted
+            for outlet in before - wanted:
+                self._destroy_publisher(outlet)
+            for outlet in wanted:
+                with contextlib.suppress(MessageTypeError):  # reported by `publish`
+                    self._publisher(outlet)
 
         return self._jobs.put(do)
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
-        """Publish a message; how many subscriptions the publisher is matched with."""
+        """Publish a message; the number of matched subscriptions."""
 
         def do() -> int:
             publisher = self._publisher(outlet)
@@ -113,7 +124,8 @@ class RosGraph:
         result: Future[tuple[int, bytes]] = Future()
 
         def cancel() -> None:
-            request = encode(interfaces.service(CANCEL).request, _cancels(goal_id))
+            values = {"goal_info": {"goal_id": _id(goal_id)}}
+            request = encode(interfaces.service(CANCEL).request, values)
             self.call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
 
         sent = Goal(goal_id, accepted, result, cancel)
@@ -127,25 +139,25 @@ class RosGraph:
     # In the thread of the node
 
     def turn(self) -> None:
-        """Do what was asked for, and look after calls."""
+        """Run the queued jobs, and advance the pending calls."""
         self._jobs.run()
         now = time.monotonic()
         self._calls = [call for call in self._calls if not self._advance(call, now)]
 
     def look(self) -> None:
-        """Refresh what is known of nodes."""
+        """Refresh the node names."""
         names = self._node.get_node_names_and_namespaces()
         self._nodes = tuple(sorted({f"{space.rstrip('/')}/{name}" for name, space in names}))
 
     def close(self) -> None:
-        """Refuse what waits."""
+        """Fail everything that is pending."""
         self._jobs.end()
         for call in self._calls:
             call.answer.set_exception(NotConnected("The connection to ROS has ended."))
         self._calls = []
 
     def _start(self, answer: Future, do: Callable[[], None]) -> None:
-        """Do something in the thread of the node; what it raises goes to the answer."""
+        """Call `do` in the thread of the node, and pass its error to the answer."""
 
         def pass_on(started: Future[None]) -> None:
             if (error := started.exception()) and not answer.done():
@@ -156,7 +168,7 @@ class RosGraph:
     def _publisher(self, outlet: Outlet) -> Publisher:
         if outlet not in self._publishers:
             for _ in range(len(self._publishers) - MOST_PUBLISHERS + 1):
-                self._node.destroy_publisher(self._publishers.pop(next(iter(self._publishers))))
+                self._destroy_publisher(next(iter(self._publishers)))
             profile = QoSProfile(
                 depth=outlet.depth,
                 reliability=ReliabilityPolicy[outlet.reliability.upper()],
@@ -166,6 +178,10 @@ class RosGraph:
                 message_class(outlet.type), outlet.topic, profile
             )
         return self._publishers[outlet]
+
+    def _destroy_publisher(self, outlet: Outlet) -> None:
+        if publisher := self._publishers.pop(outlet, None):
+            self._node.destroy_publisher(publisher)
 
     def _client(self, service: str, type: str) -> Client:
         if (service, type) not in self._clients:
@@ -181,23 +197,23 @@ class RosGraph:
         request: bytes,
         timeout_s: float,
         answer: Future[bytes],
-        is_heard: Callable[[], bool] = lambda: True,
+        may_send: Callable[[], bool] = lambda: True,
     ) -> None:
         if len(self._calls) >= MOST_CALLS:
-            raise NotConnected(f"{MOST_CALLS} service calls wait for an answer. Try again later.")
+            raise NotConnected(f"{MOST_CALLS} service calls are pending. Try again later.")
         client = self._client(service, type)
         message = from_cdr(request, service_class(type).Request)
         now = time.monotonic()
-        self._calls.append(_Call(client, message, answer, now + timeout_s, now + WAIT_S, is_heard))
+        self._calls.append(_Call(client, message, answer, now + timeout_s, now + WAIT_S, may_send))
 
     def _advance(self, call: _Call, now: float) -> bool:
-        """Take a call one step on; whether it is over."""
+        """Advance a call by one step; whether it has finished."""
         name = call.client.service_name
-        if call.sent is None and call.client.service_is_ready() and call.is_heard():
+        if call.sent is None and call.client.service_is_ready() and call.may_send():
             call.sent = call.client.call_async(call.request)
         elif call.sent is None and now > call.give_up:
             call.answer.set_exception(
-                NotConnected(f"No node offers {name}. Start it, or choose another name.")
+                NotConnected(f"No node offers {name}. Start one, or choose another name.")
             )
             return True
         elif call.sent is not None and call.sent.done():
@@ -218,12 +234,12 @@ class RosGraph:
         sent: Goal,
         feedback: Callable[[bytes], None],
     ) -> None:
-        """Send the request of a goal, and follow it if it is accepted."""
+        """Send a goal, and wait for its result if it is accepted."""
         learn(type)
         parts = interfaces.action(type)
         values = {"goal_id": _id(sent.id), "goal": decode(parts.goal, goal)}
         request = encode(f"{parts.send_goal}_Request", values)
-        feedbacks = self._hear(action, parts.feedback)
+        subscription = self._subscribe(action, parts.feedback)
         self._feedback[sent.id] = feedback
         answer: Future[bytes] = Future()
 
@@ -248,7 +264,7 @@ class RosGraph:
             request,
             WAIT_S * 5,
             answer,
-            lambda: feedbacks.get_publisher_count() > 0,
+            lambda: subscription.get_publisher_count() > 0,  # lose no feedback
         )
 
     def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
@@ -266,29 +282,25 @@ class RosGraph:
         done = self.call(f"{action}/_action/get_result", parts.get_result, request, forever)
         done.add_done_callback(on_result)
 
-    def _hear(self, action: str, type: str) -> Subscription:
-        """The subscription to the feedback of an action; each goal gets its own."""
+    def _subscribe(self, action: str, type: str) -> Subscription:
+        """The subscription to the feedback of all goals of an action."""
         topic = f"{action}/_action/feedback"
-        if topic in self._listening:
-            return self._listening[topic]
+        if topic in self._subscriptions:
+            return self._subscriptions[topic]
 
         def arrive(cdr: bytes) -> None:
             listener = self._feedback.get(bytes(decode(type, cdr).goal_id.uuid))
             if listener is not None:
                 try:
                     listener(cdr)
-                except Exception:  # of whoever sent the goal; the node goes on
-                    log.exception("Feedback of %s could not be used", action)
+                except Exception:  # in the tool that sent the goal; keep the node running
+                    log.exception("Feedback of %s could not be handled", action)
 
-        self._listening[topic] = self._node.create_subscription(
+        self._subscriptions[topic] = self._node.create_subscription(
             message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
         )
-        return self._listening[topic]
+        return self._subscriptions[topic]
 
 
 def _id(goal_id: bytes) -> dict[str, Any]:
     return {"uuid": list(goal_id)}
-
-
-def _cancels(goal_id: bytes) -> dict[str, Any]:
-    return {"goal_info": {"goal_id": _id(goal_id)}}

@@ -1,4 +1,4 @@
-"""Work for the thread that owns a ROS node, asked for by any other thread."""
+"""Runs functions of other threads in the thread of the node."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MOST = 1000
 
 
 class Jobs:
-    """A bounded queue.
+    """A bounded queue of functions.
 
     Args:
         wake: makes the thread call `run` soon.
@@ -27,7 +27,7 @@ class Jobs:
         self._has_ended = False
 
     def put(self, do: Callable[[], T]) -> Future[T]:
-        """Let the thread call `do`, and pass on what it returns or raises."""
+        """Queue `do`; the future receives what it returns or raises."""
         future: Future[T] = Future()
         try:
             self._queue.put_nowait((do, future))
@@ -39,7 +39,7 @@ class Jobs:
         return future
 
     def run(self) -> None:
-        """Do what was asked for; to be called by the thread."""
+        """Call the queued functions."""
         for _ in range(self._queue.qsize()):
             do, future = self._queue.get_nowait()
             if not future.set_running_or_notify_cancel():
@@ -50,7 +50,7 @@ class Jobs:
                 future.set_exception(error)
 
     def end(self) -> None:
-        """Refuse what still waits, and what comes from now on."""
+        """Fail the queued functions and all later ones."""
         self._has_ended = True
         while True:
             try:

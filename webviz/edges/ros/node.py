@@ -6,7 +6,7 @@ import functools
 import threading
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import rclpy
 from rclpy.clock import ROSClock
@@ -28,8 +28,8 @@ from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
 
 SPIN_S = 0.05
-"""How long to wait for messages before looking at wishes and the graph. It has to be finite: the
-events executor of rclpy 7.1.6 burns a core in an unlimited wait."""
+"""How long to wait for messages before checking subscriptions and graph. Finite, because the events
+executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
 WANTED_POLL_S = 0.25
 GRAPH_POLL_S = 2.0
 INBOX_LIMIT = 1000
@@ -41,13 +41,12 @@ TF_LIMIT = 20_000
 class RosSource:
     """Messages from the ROS graph, as raw bytes in an inbox.
 
-    Everything of rclpy happens in one thread of this object; the other methods may be called from
-    any thread.
+    All rclpy calls are made in one thread of this object; the methods are thread-safe.
 
     Args:
         args: command line arguments for ROS (`--ros-args ...`).
         node_name: unless remapped by `args`.
-        domain_id: ROS domain, None for the one of the environment.
+        domain_id: ROS domain; None for that of the environment.
     """
 
     def __init__(
@@ -65,7 +64,7 @@ class RosSource:
             domain_id=domain_id,
             signal_handler_options=SignalHandlerOptions.NO,
         )
-        # Type descriptions cannot be answered for types composed at run time (see `types`).
+        # The service cannot describe types that are composed at run time (see `types`).
         silent = Parameter("start_type_description_service", value=False)
         self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
         self._clock = self._node.get_clock()
@@ -81,12 +80,12 @@ class RosSource:
         self._thread.start()
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
-        """Make the subscriptions exactly these; takes effect within 50 ms."""
+        """Replace all subscriptions; takes effect within 50 ms."""
         if subscriptions != self._wanted:
             self._wanted = dict(subscriptions)
 
     def offers(self) -> Mapping[str, Offer]:
-        """What is known of every topic of the graph."""
+        """All topics of the graph."""
         return self._offers
 
     def now_ns(self) -> int:
@@ -99,7 +98,7 @@ class RosSource:
         """The full name of a topic.
 
         Raises:
-            ValueError: it is no valid topic name.
+            ValueError: the name is invalid.
         """
         try:
             return self._node.resolve_topic_name(topic)
@@ -108,7 +107,7 @@ class RosSource:
             raise ValueError(f"{topic!r} is not a valid topic name: {reason}") from error
 
     def close(self) -> None:
-        """Leave the graph and end the thread."""
+        """Destroy the node and end the thread."""
         self._stop.set()
         self._thread.join()
 
@@ -142,7 +141,7 @@ class RosSource:
             self._context.try_shutdown()
 
     def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> None:
-        """Refresh what is known of topics; those outside `only` keep what was known."""
+        """Refresh the offers of topics; those outside `only` stay as they are."""
         offers = {}
         for topic in topics:
             if only is not None and topic not in only:
@@ -161,18 +160,18 @@ class RosSource:
             self.inbox.arrived.set()
 
     def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:
-        """Subscribe and unsubscribe until we hold what is wanted, in the QoS that fits now."""
+        """Subscribe and unsubscribe to what is wanted, with the QoS that matches now."""
         for topic in [t for t in self._held if t not in wanted]:
             self._release(topic)
             self.inbox.close(topic)
         for topic, wish in wanted.items():
             publishers = self._offers[topic].publishers if topic in self._offers else ()
             if publishers and all(p.type != wish.type for p in publishers):
-                self._release(topic)  # nothing could arrive, and the name has to stay free
+                self._release(topic)  # rclpy allows one type per topic, and none matches
                 continue
             policies, is_mixed = qos.adapt(wish, publishers), qos.is_mixed(wish, publishers)
             if policies[1] == "volatile" and not is_mixed:
-                wish = replace(wish, asked=0)  # nothing is latched that could be repeated
+                wish = replace(wish, asked=0)  # no latched message could be sent again
             fitting = _Held(wish, policies, is_mixed)
             if self._held.get(topic) != fitting:
                 self._release(topic)
@@ -212,30 +211,21 @@ class RosSource:
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
 
 
+@dataclass
 class _Held:
-    """A subscription we hold; equal if it need not be made anew."""
+    """A subscription; equal to another if it can be kept instead."""
 
-    def __init__(
-        self, wish: Subscription, policies: tuple[qos.Reliability, qos.Durability], is_mixed: bool
-    ) -> None:
-        self.wish = wish
-        self.policies = policies
-        self.is_mixed = is_mixed
-        self.subscriptions: list[RclpySubscription] = []
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Held) and (self.wish, self.policies, self.is_mixed) == (
-            other.wish,
-            other.policies,
-            other.is_mixed,
-        )
-
-    __hash__ = None  # pyright: ignore[reportAssignmentType]
+    wish: Subscription
+    policies: tuple[qos.Reliability, qos.Durability]
+    is_mixed: bool
+    subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)
 
 
 def _executor(context: Context) -> Executor:
-    """The events executor where rclpy has it: 20 us a message, where the other rebuilds its wait
-    set on every wake-up (25 us for each subscription)."""
+    """The events executor (20 µs per message) if available.
+
+    The default one rebuilds its wait set on every wake-up, 25 µs per subscription.
+    """
     try:
         from rclpy.experimental.events_executor import EventsExecutor
     except ImportError:  # rclpy before 7.1.4
@@ -244,15 +234,14 @@ def _executor(context: Context) -> Executor:
 
 
 def _publisher(info: TopicEndpointInfo) -> Publisher:
-    # A publisher that is no ROS node has a placeholder for its name.
+    # A publisher outside of ROS has a placeholder as its node name.
     name = "" if info.node_name.startswith("_") else info.node_name
+    policies = info.qos_profile
+    is_reliable = policies.reliability == ReliabilityPolicy.RELIABLE
+    is_latched = policies.durability == DurabilityPolicy.TRANSIENT_LOCAL
     return Publisher(
         node=f"{info.node_namespace.rstrip('/')}/{name}" if name else "",
         type=info.topic_type,
-        reliability="reliable"
-        if info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
-        else "best_effort",
-        durability="transient_local"
-        if info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
-        else "volatile",
+        reliability="reliable" if is_reliable else "best_effort",
+        durability="transient_local" if is_latched else "volatile",
     )

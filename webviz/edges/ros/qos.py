@@ -1,4 +1,4 @@
-"""Which QoS to ask for: what the publishers offer, unless the user chose."""
+"""The QoS of subscriptions: what the publishers offer, unless the user chose one."""
 
 from __future__ import annotations
 
@@ -21,34 +21,34 @@ DEPTHS = {
     "visualization_msgs/msg/Marker": 100,
     "visualization_msgs/msg/MarkerArray": 100,
 }
-"""Messages that DDS holds for us between two looks, by type; sensors have 5."""
+"""Default depth of the history by type; other types have `SENSOR_DEPTH`."""
 SENSOR_DEPTH = 5
 
 
 def adapt(wish: Subscription, publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
-    """The QoS that connects to the most publishers.
+    """The QoS that matches the most publishers.
 
-    Reliable only if all are, transient local only if all are (rosbag2's rule); best effort and
-    volatile connects to everybody while nobody is known.
+    As in rosbag2: reliable only if all publishers are, and transient local only if all are. Without
+    publishers it is best effort and volatile, which matches any.
     """
     matching = [p for p in publishers if p.type == wish.type]
     reliability = wish.topic.reliability
     if reliability == "auto":
-        everybody = matching and all(p.reliability == "reliable" for p in matching)
-        reliability = "reliable" if everybody else "best_effort"
+        all_reliable = matching and all(p.reliability == "reliable" for p in matching)
+        reliability = "reliable" if all_reliable else "best_effort"
     durability = wish.topic.durability
     if wish.latched:
         durability = "transient_local"
     elif durability == "auto":
-        everybody = matching and all(p.durability == "transient_local" for p in matching)
-        durability = "transient_local" if everybody else "volatile"
+        all_latched = matching and all(p.durability == "transient_local" for p in matching)
+        durability = "transient_local" if all_latched else "volatile"
     return reliability, durability
 
 
 def is_mixed(wish: Subscription, publishers: Sequence[Publisher]) -> bool:
-    """Whether only some publishers latch, so that one subscription cannot serve all of them.
+    """Whether only some publishers are transient local, so that it takes two subscriptions.
 
-    A volatile one misses what was latched; a transient local one refuses the volatile publishers.
+    A volatile one misses latched messages, a transient local one does not match the others.
     """
     if wish.topic.durability != "auto" and not wish.latched:
         return False
@@ -61,10 +61,6 @@ def profile(wish: Subscription, reliability: Reliability, durability: Durability
     return QoSProfile(
         depth=wish.topic.depth or DEPTHS.get(wish.type, SENSOR_DEPTH),
         history=HistoryPolicy.KEEP_LAST,
-        reliability=ReliabilityPolicy.RELIABLE
-        if reliability == "reliable"
-        else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL
-        if durability == "transient_local"
-        else DurabilityPolicy.VOLATILE,
+        reliability=ReliabilityPolicy[reliability.upper()],
+        durability=DurabilityPolicy[durability.upper()],
     )

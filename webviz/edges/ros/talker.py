@@ -18,12 +18,7 @@ DEPTH = 100
 
 
 class Talker:
-    """A node that says what it is told, reliably.
-
-    Args:
-        name: of the node.
-        domain_id: ROS domain.
-    """
+    """A node with reliable publishers."""
 
     def __init__(self, name: str, domain_id: int) -> None:
         self._context = Context()
@@ -41,7 +36,7 @@ class Talker:
         return self._node.get_fully_qualified_name()
 
     def open(self, topic: str, type_name: str, latched: bool) -> Publisher:
-        """The publisher of a topic, made when it is first asked for."""
+        """The publisher of a topic, created on first use."""
         if topic not in self._publishers:
             durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
             qos = QoSProfile(depth=DEPTH, durability=durability)
@@ -51,7 +46,7 @@ class Talker:
         return self._publishers[topic]
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Destroy the node."""
         self._node.destroy_node()
         self._context.try_shutdown()
 
@@ -60,12 +55,12 @@ def serialize(message: Any) -> tuple[str, bytes]:
     """Type name and CDR bytes of a ROS message object.
 
     Raises:
-        TypeError: it is none.
+        TypeError: `message` is not a ROS message.
     """
     cls = type(message)
     package, _, _ = cls.__module__.partition(".")
     if not hasattr(cls, "get_fields_and_field_types"):
         raise TypeError(
-            f"{cls.__name__} is no ROS message: publish one, or a type name and values."
+            f"{cls.__name__} is not a ROS message. Publish one, or a type name and values."
         )
     return f"{package}/msg/{cls.__name__}", serialize_message(message)

@@ -1,4 +1,4 @@
-"""The scene in every browser: viser behind webviz's own terms."""
+"""The scene in every browser, drawn by viser."""
 
 from webviz.edges.scene.listener import CannotListen, PortInUse
 from webviz.edges.scene.scene import Scene

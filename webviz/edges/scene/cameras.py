@@ -1,4 +1,4 @@
-"""The camera of every browser: where it is put, and which view it shows."""
+"""Places the cameras of browsers, and reports their views."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from webviz.edges.scene.names import node_path
 M = TypeVar("M", bound=ShowView)
 
 ASSUMED_PX = 800.0
-"""Height of a picture that nobody has told yet; the page corrects the distance."""
+"""Height of a picture before the page reports it; the page corrects the distance."""
 
 
 @dataclass
 class _Browser:
-    """What is known of the camera of one browser.
+    """The camera of a browser.
 
     Args:
-        view: asked for last; its numbers hold until the page has told that it obeyed.
+        view: requested last; its values hold until the page has confirmed the request.
         number: of that request.
-        obeyed: the last request that the page obeyed.
+        obeyed: the last request that the page confirmed.
         size: width and height of its picture in pixels.
     """
 
@@ -52,9 +52,9 @@ class _Browser:
 
 
 class Cameras:
-    """The cameras of all browsers of a server; each looks as its user wants.
+    """The cameras of all browsers of a server, which users move independently.
 
-    All methods belong to one thread, which takes what pages report when it next needs it.
+    All methods belong to one thread, which takes the reports of pages when it needs them.
 
     Args:
         link: to the server.
@@ -67,14 +67,14 @@ class Cameras:
         self._browsers: dict[int, _Browser] = {}
         self._lock = threading.Lock()
         self._heard: dict[int, ViewReport] = {}
-        """Of each browser the newest report that was not taken yet."""
+        """The newest report of each browser that was not taken yet."""
         link.channel.on(ViewReport, self._hear)
         link.server.on_client_connect(self._join)
         link.server.on_client_disconnect(self._leave)
         self.start_with(self._start)
 
     def start_with(self, view: View) -> None:
-        """Choose what browsers that join begin with."""
+        """Choose the view of browsers that join."""
         self._start = view
         camera = camera_of(view, ASSUMED_PX)
         initial = self._link.server.initial_camera
@@ -84,9 +84,9 @@ class Cameras:
         initial.fov = FIELD_OF_VIEW
 
     def show(self, view: View, browser: int | None = None) -> None:
-        """Put the camera of a browser, or of every one, where a view says.
+        """Show a view in one browser or in all of them.
 
-        Its target frame is followed if `target_group` of it is in the scene.
+        The camera follows the target frame if its `target_group` is in the scene.
         """
         self._take_reports()
         number = next(self._numbers)
@@ -97,12 +97,12 @@ class Cameras:
                 self._link.channel.send(_message(ShowView, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
-        """What every browser shows now, by its id."""
+        """The current view of every browser, by its id."""
         clients = self._take_reports()
         return {id_: self._view(known, clients[id_]) for id_, known in self._browsers.items()}
 
     def target_frames(self) -> set[str]:
-        """The frames that views follow, or begin to when a browser joins."""
+        """The target frames of all views, including that of browsers that join."""
         self._take_reports()
         views = [self._start, *(known.view for known in self._browsers.values())]
         return {view.target_frame for view in views} - {FIXED_FRAME}
@@ -111,17 +111,17 @@ class Cameras:
         """Width and height of the picture in a browser, in pixels.
 
         Raises:
-            KeyError: there is no such browser.
+            KeyError: the browser is unknown.
         """
         self._take_reports()
         return self._browsers[browser].size
 
     def save_image(self, name: str, browser: int | None = None) -> None:
-        """Let a browser, or every one, download what it shows as a PNG of that name."""
+        """Make one browser or all of them download their picture as a PNG of that name."""
         self._link.channel.send(SaveImage(name), browser)
 
     def _take_reports(self) -> dict[int, viser.ClientHandle]:
-        """Learns what pages have reported; returns the browsers that are connected."""
+        """Apply the reports of pages, and return the connected browsers."""
         with self._lock:
             heard, self._heard = self._heard, {}
         clients = self._link.server.get_clients()
@@ -129,7 +129,7 @@ class Cameras:
             del self._browsers[id_]
         for id_, report in heard.items():
             if id_ not in clients or report.view not in VIEW_TYPES:
-                continue  # no page of ours says that
+                continue  # not a report of webviz's page
             size = (max(report.width, 1.0), max(report.height, 1.0))
             if known := self._browsers.get(id_):
                 known.obeyed, known.size = report.number, size

@@ -1,4 +1,4 @@
-"""One connection of a browser, how much it may send, and how many there may be."""
+"""The connections of browsers: how many there may be, and how much each may send."""
 
 from __future__ import annotations
 
@@ -17,39 +17,35 @@ from webviz.edges.scene.messages import Accepts, Judge
 MAX_BROWSERS = 64
 
 MESSAGES_PER_SECOND = 200.0
-"""What a page sends while somebody drags something is a quarter of it."""
+"""Four times what a page sends while the user drags something."""
 BURST = 400.0
 BYTES_PER_MESSAGE = 32 << 10
-"""For as many bytes more, a message counts once more."""
+"""Each further multiple of this size counts as one more message."""
 MAX_WAIT = 5.0
-"""Seconds that a connection may owe for what cannot be kept waiting, such as pings."""
-
-
+"""Seconds by which a connection may exceed the rate with frames that cannot wait, such as pings."""
 WHOLE = (Opcode.BINARY, Opcode.TEXT)
-"""What carries a message, if it is all of it."""
-
+"""Frames that carry a whole message if they are final."""
 FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
 
 class Gate:
-    """The connections of a server: those that open, the browsers inside, and their channels."""
+    """Limits the connections of a server: opening ones, those of browsers, and their channels."""
 
     def __init__(self) -> None:
         descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
         self.limit = max(4, min(MAX_BROWSERS, descriptors // 4))
-        """Of either kind."""
+        """Opening connections and browsers, each."""
         self._opening: dict[Connection, None] = {}
-        self._inside: set[Connection] = set()
-        self._beside: set[Connection] = set()
+        self._open: set[Connection] = set()
 
     @property
     def is_full(self) -> bool:
-        """Whether there is no room for another browser."""
-        return len(self._inside) >= self.limit
+        """Whether there are as many browsers as allowed."""
+        return sum(not connection.is_channel for connection in self._open) >= self.limit
 
     def enter(self, connection: Connection) -> None:
-        """Notes a connection that opens; the oldest of too many goes, since it may be idle."""
+        """Adds an opening connection; if there are too many, the oldest is aborted."""
         self._opening[connection] = None
         if len(self._opening) > self.limit:
             oldest = next(iter(self._opening))
@@ -57,42 +53,32 @@ class Gate:
             oldest.transport.abort()
 
     def leave(self, connection: Connection) -> None:
-        """Forgets a connection that opened or is gone."""
+        """Removes a connection that is open or lost."""
         self._opening.pop(connection, None)
 
     @contextlib.contextmanager
-    def inside(self, connection: Connection) -> Iterator[None]:
-        """Notes the browser of a connection while it is inside."""
+    def opened(self, connection: Connection) -> Iterator[None]:
+        """Counts a connection as open during the block."""
         self.leave(connection)
-        self._inside.add(connection)
+        self._open.add(connection)
         try:
             yield
         finally:
-            self._inside.discard(connection)
-
-    @contextlib.contextmanager
-    def beside(self, connection: Connection) -> Iterator[None]:
-        """Notes the channel of a browser that is inside."""
-        self.leave(connection)
-        self._beside.add(connection)
-        try:
-            yield
-        finally:
-            self._beside.discard(connection)
+            self._open.discard(connection)
 
     def close(self) -> None:
-        """Sends everybody away, within a second also those who do not listen."""
-        for connection in (*self._opening, *self._inside, *self._beside):
+        """Closes all connections, within a second also those that do not respond."""
+        for connection in (*self._opening, *self._open):
             patience = 0.0 if connection in self._opening else FAREWELL
             connection.loop.call_later(patience, connection.transport.abort)
 
 
 class Allowance:
-    """A steady rate with bursts: what is spent beyond it has to be waited for.
+    """A rate limit with bursts.
 
     Args:
         rate: messages per second.
-        burst: messages that may come at once.
+        burst: messages at once.
     """
 
     def __init__(self, rate: float = MESSAGES_PER_SECOND, burst: float = BURST) -> None:
@@ -101,13 +87,13 @@ class Allowance:
         self._paid_until = -float("inf")
 
     def spend(self, messages: float, now: float) -> float:
-        """Spends as many messages at a time in seconds, and returns the seconds to wait."""
+        """Counts messages at a time in seconds; returns how many seconds to wait."""
         self._paid_until = max(self._paid_until, now - self._credit) + messages / self._rate
         return max(0.0, self._paid_until - now)
 
 
 class Connection(websocket.ServerConnection):
-    """A connection whose request is judged before websockets reads it, its messages before viser.
+    """A connection that checks its request before websockets, and its messages before viser.
 
     Args:
         gate: of the server.
@@ -117,32 +103,32 @@ class Connection(websocket.ServerConnection):
     def __init__(self, gate: Gate, accepts: Accepts, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.wants_head = False
-        """Whether the request wants the headers only."""
+        """Whether the request is for the headers only."""
         self.host = ""
-        """As the browser addressed the server, if that is a name of it."""
+        """The Host header, if it names this server."""
         self.is_channel = False
-        """Whether it is the channel of a page, instead of viser's own connection."""
+        """Whether this is the channel of a page, instead of viser's own connection."""
         self._gate = gate
         self.objection = Judge(accepts).objection
-        """What is wrong with a message, or None if it may pass."""
+        """The reason to ignore a message, or None."""
         self._allowance = Allowance()
         self._head: bytearray | None = bytearray()
         self._is_refused = False
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Enters."""
+        """Adds the connection to the gate."""
         super().connection_made(transport)
         self._gate.enter(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Leaves."""
+        """Removes the connection from the gate."""
         self._gate.leave(self)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Collects the request; what comes after it is websockets' own."""
+        """Collects and checks the request; websockets handles the rest."""
         if self._is_refused:
-            return  # read all the same, else the answer is lost with the connection
+            return  # keep reading, or closing the connection would discard the response
         if self._head is None:
             super().data_received(data)
             return
@@ -166,8 +152,8 @@ class Connection(websocket.ServerConnection):
         super().data_received(as_get(head))
 
     def process_event(self, event: Any) -> None:
-        """Handles the request, or a frame as it comes."""
-        # Whole messages wait in `recv`; others take effect, or memory, at once.
+        """Handles the request, or a frame on arrival."""
+        # Whole messages wait in `recv`; other frames take effect, or memory, at once.
         is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
         is_request = not isinstance(event, Frame)
         is_instant = not (is_whole or is_request)
@@ -176,13 +162,13 @@ class Connection(websocket.ServerConnection):
         super().process_event(event)
 
     async def recv(self, decode: bool | None = None) -> Any:
-        """The next message that may pass, at the rate that is allowed."""
+        """The next valid message, at the allowed rate."""
         while True:
             data = await super().recv(decode)
             cost = 1.0 + len(data) / BYTES_PER_MESSAGE
-            # At least the others' turn: received messages are there without waiting.
+            # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
             await asyncio.sleep(self._allowance.spend(cost, self.loop.time()))
             objection = self.objection(data)
             if objection is None:
                 return data
-            self.logger.warning("A message of a browser was ignored: %s.", objection)
+            self.logger.warning("Ignored a message of a browser: %s.", objection)

@@ -1,4 +1,4 @@
-"""What Python shares with the modules of the page."""
+"""Constants shared with the modules of the page."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, R
 from webviz.edges.scene.names import ROOT, TILE_PREFIX
 
 DARKEST = 0.3
-"""Share of its colour that a surface has which is seen edge on; in RViz it is black."""
+"""Brightness of a surface seen edge on, as a share of its colour; in RViz it is black."""
 
 CONSTANTS = {
     "ROOT": ROOT,

@@ -1,8 +1,9 @@
-"""What every primitive has in common: one key of a group, drawn by one or more viser nodes."""
+"""The base of all primitives: a node of a group, drawn by one or more viser nodes."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -18,22 +19,22 @@ NodeT_contra = TypeVar("NodeT_contra", contravariant=True)
 
 
 class Drawn(Protocol[NodeT_contra]):
-    """A node as the browsers have it."""
+    """A node in the browsers."""
 
     def draw(self, node: NodeT_contra) -> None:
-        """Sends what differs from what was drawn before."""
+        """Sends the changes since the last call."""
         ...
 
     def remove(self) -> None:
-        """Takes it off the scene."""
+        """Removes it from the scene."""
         ...
 
 
 class SingleNode(ABC, Generic[NodeT]):
     """A primitive that is one viser node.
 
-    The node is created as small as possible and filled by an update, because viser keeps both the
-    creation and the last update for browsers that join later.
+    It is created empty and filled by an update, because viser keeps both the creation and the last
+    update for browsers that join later.
     """
 
     def __init__(self, link: Adapter, name: str) -> None:
@@ -44,14 +45,14 @@ class SingleNode(ABC, Generic[NodeT]):
 
     @abstractmethod
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes the placeholder."""
+        """Creates the empty node."""
 
     @abstractmethod
     def props(self, node: NodeT) -> tuple[Props, ...]:
-        """The node in viser's terms: disjoint sets of properties, each sent when it changed."""
+        """Disjoint sets of viser's properties; a set is sent when one of its values changes."""
 
     def draw(self, node: NodeT) -> None:
-        """Sends the sets of properties that differ from those sent before."""
+        """Sends the sets of properties that changed."""
         sets = self.props(node)
         for index, props in enumerate(sets):
             if index >= len(self._sent) or not _is_same(props, self._sent[index]):
@@ -59,28 +60,44 @@ class SingleNode(ABC, Generic[NodeT]):
         self._sent = sets
 
     def remove(self) -> None:
-        """Takes the node off the scene."""
+        """Removes the node from the scene."""
         self._handle.remove()
 
 
 def rgb_array(colors: U8 | Rgb, count: int) -> U8:
-    """Colours as viser wants them: one for each of `count` items, or uint8 (3,) for all.
+    """Colours for viser: uint8 (count, 3), or (3,) for all items.
 
-    An empty array of colours is no colour at all, which viser's shader cannot take.
+    Without items it is a single colour, since viser's shader does not support an empty array.
     """
     array = np.ascontiguousarray(colors, dtype=np.uint8)
     return array if count else np.zeros(3, dtype=np.uint8)
 
 
-def finite_rows(*arrays: NDArray[np.floating[Any]]) -> NDArray[np.bool_] | None:
-    """Which rows are finite in all `arrays`, or None if every one is.
+def finite(*arrays: NDArray[np.floating[Any]], along: Sequence[Any] = ()) -> list[Any]:
+    """`arrays` as float32 without the rows that are not finite in all of them.
 
     A single NaN in a line or mesh breaks three.js' bounding volumes and so the whole page.
+
+    Args:
+        arrays: of the same length.
+        along: one value per row each, filtered likewise and returned after `arrays`; a value for
+            all rows (a tuple or a number) stays as it is.
     """
-    rows = np.ones(len(arrays[0]), dtype=bool)
-    for array in arrays:
-        rows &= np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
-    return None if rows.all() else rows
+    whole = [np.ascontiguousarray(array, dtype=np.float32) for array in arrays]
+    rows = np.ones(len(whole[0]), dtype=bool)
+    for array in whole:
+        rows &= finite_rows(array)
+    if rows.all():
+        return [*whole, *along]
+    return [array[rows] for array in whole] + [
+        each[rows] if isinstance(each, np.ndarray) and len(each) == len(rows) else each
+        for each in along
+    ]
+
+
+def finite_rows(array: NDArray[np.floating[Any]]) -> NDArray[np.bool_]:
+    """Which rows of an array are finite."""
+    return np.asarray(np.isfinite(array).all(axis=tuple(range(1, array.ndim))))
 
 
 def _is_same(a: Props, b: Props) -> bool:

@@ -1,4 +1,4 @@
-"""Binary glTF 2.0 as the scene needs it; section numbers are those of Khronos' specification."""
+"""Binary glTF 2.0 for the scene; section numbers are those of Khronos' specification."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _VERTICES, _INDICES = 34962, 34963
 
 
 def pack(content: dict[str, Any], rest: bytes = b"") -> bytes:
-    """A binary glTF of its JSON and the chunks after that (4.4)."""
+    """A binary glTF from its JSON and the following chunks (4.4)."""
     text = json.dumps(content).encode()
     text += b" " * (-len(text) % 4)
     length = 20 + len(text) + len(rest)
@@ -27,16 +27,16 @@ def pack(content: dict[str, Any], rest: bytes = b"") -> bytes:
 
 
 def matte(glb: bytes) -> bytes:
-    """Makes every material of a binary glTF a non-metal, as RViz draws meshes.
+    """Makes every material of a binary glTF non-metallic, as RViz draws meshes.
 
-    A material that does not say is metal by the standard (5.22.3), and metal without surroundings
-    to reflect is black.
+    Materials are metallic by default (5.22.3), and metal without an environment to reflect is
+    black.
 
     Raises:
         ValueError: `glb` is not a binary glTF 2.0.
     """
     if len(glb) < 20 or glb[:8] != b"glTF\x02\0\0\0" or glb[16:20] != b"JSON":
-        raise ValueError("This is not a binary glTF 2.0.")
+        raise ValueError("The data is not a binary glTF 2.0.")
     end = 20 + int.from_bytes(glb[12:16], "little")
     content = json.loads(glb[20:end])
     materials = content.setdefault("materials", [])
@@ -51,7 +51,7 @@ def matte(glb: bytes) -> bytes:
 
 
 def colored_glb(parts: Sequence[tuple[Solid, Rgb]]) -> bytes:
-    """One mesh of solids, each in a colour of its own, round where they share vertices."""
+    """One mesh of solids with a colour each; shading is smooth where faces share vertices."""
     counts = [len(solid.vertices) for solid, _ in parts]
     first = np.cumsum([0, *counts[:-1]])
     vertices = np.concatenate([solid.vertices for solid, _ in parts]).astype(np.float32)
@@ -71,7 +71,7 @@ def colored_glb(parts: Sequence[tuple[Solid, Rgb]]) -> bytes:
         accessor = {"componentType": component, "count": len(array), "type": kind}
         accessors.append({"bufferView": len(views), **accessor, **more})
         views.append(view)
-        data += array.tobytes()  # all of them multiples of four bytes
+        data += array.tobytes()  # each a multiple of four bytes
     attributes = {"POSITION": 0, "NORMAL": 1, "COLOR_0": 2}
     content = {
         "asset": {"version": "2.0"},
@@ -92,7 +92,7 @@ def _bounds(vertices: NDArray[np.float32]) -> dict[str, list[float]]:
 
 
 def _normals(vertices: NDArray[np.float32], faces: NDArray[np.uint32]) -> NDArray[np.float32]:
-    """The mean normal of the faces around each vertex, by their areas."""
+    """The mean normal of the faces around each vertex, weighted by area."""
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     normals = np.zeros_like(vertices)
     np.add.at(normals, faces, np.cross(b - a, c - a)[:, None])

@@ -1,8 +1,8 @@
-"""Who may talk to the server, and what browsers may say to it.
+"""Checks every connection to the server, and every message from browsers.
 
-viser serves whoever reaches its port, any page open in the user's browser included, and lets a
-browser overwrite the inside of its widgets or open a public tunnel. Here every connection is
-checked before viser sees it, and every message before viser handles it.
+viser accepts any connection to its port, even from other sites open in the user's browser, and lets
+browsers overwrite the internals of widgets or open a public tunnel. Here connections are checked
+before viser sees them, and messages before viser handles them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from webviz.edges.scene.messages import MAX_BYTES, Accepts
 from webviz.edges.scene.sparing_log import sparing_log
 
 MAX_WAITING_FRAMES = 4
-"""Of a connection, received and not yet handled; the rest waits in the browser."""
+"""Frames per connection that are received but not handled; further ones wait in the browser."""
 
 Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 
@@ -46,12 +46,12 @@ def guarded_serve(
 
     Args:
         serve: the original.
-        listener: the bound socket to serve instead of the host and port that viser asks for, so
-            that viser neither moves to another port nor obeys its environment variable.
-        gate: for the connections.
-        hosts: names under which the server may be addressed.
-        accepts: whether a decoded message that sets a value, changes a form or announces a file
-            may pass.
+        listener: socket to use instead of viser's host and port, so that viser neither moves to
+            another port nor follows its environment variable.
+        gate: limits the connections.
+        hosts: names by which the server may be addressed.
+        accepts: whether to pass a decoded message that sets a value, changes a form or announces a
+            file.
         channel: to the modules of the page.
         modules: of the page.
     """
@@ -84,8 +84,8 @@ def guarded_serve(
         if gate.is_full:
             return connection.respond(
                 http.HTTPStatus.SERVICE_UNAVAILABLE,
-                f"{gate.limit} browsers are connected, and webviz serves no more at a time. Close "
-                "one of its pages.\n",
+                f"{gate.limit} browsers are connected, which is the limit. Close another page of "
+                "webviz.\n",
             )
         if is_upgrade(request):
             return None
@@ -112,13 +112,13 @@ def guarded_serve(
 
     async def welcome(handler: Handler, connection: Connection) -> None:
         if connection.is_channel:
-            await channel.serve(connection, lambda: gate.beside(connection))
+            await channel.serve(connection, lambda: gate.opened(connection))
             return
         if connection.subprotocol != f"viser-v{viser.__version__}":
-            # The code upon which the page says why, and stops.
-            await connection.close(1002, "This page is of another version of webviz: reload it")
+            # With this code the page shows the reason and does not reconnect.
+            await connection.close(1002, "This page is from another version of webviz: reload it")
             return
-        with gate.inside(connection):
+        with gate.opened(connection):
             await handler(connection)
 
     def guarded(handler: Any, host: str, port: int, **options: Any) -> Any:
@@ -144,7 +144,7 @@ def guarded_serve(
 
 
 def fill(response: Response, body: bytes, content_type: str) -> None:
-    """Gives an answer another body."""
+    """Replaces the body of a response."""
     response.body = body
     for name, value in (("Content-Type", content_type), ("Content-Length", str(len(body)))):
         del response.headers[name]

@@ -1,4 +1,4 @@
-"""Which values and files a browser may give to an input widget, and which forms it may submit."""
+"""Checks the values, files and forms that browsers send."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from typing import Any
 
 import viser
 
-from webviz.edges.scene.adapter import gui_input, gui_props, gui_value, has_form
+from webviz.edges.scene.adapter.widgets import gui_input, gui_props, gui_value, has_form
 from webviz.edges.scene.uploads import START
 
 MAX_TEXT = 100_000
 
 
 def accepts_update(server: viser.ViserServer, message: dict[str, Any]) -> bool:
-    """Whether a browser may do this to a widget.
+    """Whether a message of a browser to a widget is valid.
 
-    A GuiUpdateMessage may set only the value, to one that the widget offers; a file may be
-    announced only for a button that takes files. That a form has changes is passed on to the other
-    browsers and kept for those that join, so it must be one that they have.
+    A GuiUpdateMessage may set only the value, to one that the widget allows. Files may be announced
+    for upload buttons only. Changes of a form are relayed to other browsers and kept for those that
+    join, so the form must be shared.
     """
     if message["type"] in ("GuiFormDirtyMessage", "GuiFormSubmitMessage"):
         return has_form(server, message["uuid"], shared=message["type"] == "GuiFormDirtyMessage")
@@ -36,7 +36,7 @@ def accepts_update(server: viser.ViserServer, message: dict[str, Any]) -> bool:
 
 
 def accepts_value(handle: Any, value: Any) -> bool:
-    """Whether `value` has the type, range and length of the widget, and is among its options."""
+    """Whether a value matches the type, range, length and options of the widget."""
     props, current = gui_props(handle), gui_value(handle)
     if getattr(props, "disabled", False):
         return False
@@ -54,7 +54,7 @@ def accepts_value(handle: Any, value: Any) -> bool:
 
 
 def _fits_all(value: Any, current: tuple[Any, ...], low: Any, high: Any) -> bool:
-    """Compares element by element; limits are one for all, one for each, or None."""
+    """Checks each element; limits are one for all elements, one per element, or None."""
     if not isinstance(value, list | tuple) or len(value) != len(current):
         return False
     lows = low if isinstance(low, tuple) else (low,) * len(current)

@@ -1,4 +1,4 @@
-"""The names under which a server may be addressed, and from which pages."""
+"""Checks the Host and Origin headers of requests."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from collections.abc import Iterable
 
 from websockets.datastructures import Headers
 
-# A name, an IPv4 address, or an IPv6 address in brackets; then perhaps a port. No user, no path.
+# A name, an IPv4 address, or an IPv6 address in brackets; optionally a port. No user, no path.
 _HOST = re.compile(r"(?:(?P<name>[a-z0-9._-]+)|\[(?P<ipv6>[0-9a-f:.]+)\])(?::[0-9]{1,5})?")
 
 
 class HostList:
-    """The host names under which a server may be addressed.
+    """The host names by which a server may be addressed.
 
-    A page of another site cannot choose the Host header, yet can make its own name resolve to this
-    machine (DNS rebinding): hence the list. The port is not compared, so that a tunnel from another
-    local port works. A numeric address cannot be rebound, so a server that listens on every
-    interface may be addressed by any.
+    The list prevents DNS rebinding: a page of another site cannot set the Host header, but can make
+    its own name resolve to this machine. Ports are not compared, so that tunnels from other local
+    ports work. A numeric address cannot be rebound, so a server that listens on every interface
+    accepts any.
 
     Args:
-        bound: the address the server is bound to.
+        bound: address that the server is bound to.
         names: further names, without port.
     """
 
@@ -31,7 +31,7 @@ class HostList:
         self._any_address = bound in ("", "0.0.0.0", "::")
 
     def refusal(self, headers: Headers) -> str | None:
-        """Why a request with these headers is refused, in one sentence, or None if it may pass."""
+        """The reason to refuse a request with these headers, as a sentence, or None."""
         hosts = headers.get_all("Host")
         host = hosts[0].lower() if len(hosts) == 1 else ""
         match = _HOST.fullmatch(host)
@@ -39,12 +39,10 @@ class HostList:
             return "The Host header of the request is missing or invalid."
         name = match["name"] or match["ipv6"]
         if name not in self._names and not (self._any_address and _is_address(name)):
-            return (
-                f"This server does not answer to the name {name!r}; allow it when starting webviz."
-            )
+            return f"The host name {name!r} is not allowed. Start webviz with --allow-host {name}."
         own = (f"http://{host}", f"https://{host}")
         if any(origin.lower() not in own for origin in headers.get_all("Origin")):
-            return "A page of another site may not use this server."
+            return "Requests from pages of other sites are not allowed."
         return None
 
 

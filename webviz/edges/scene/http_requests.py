@@ -1,7 +1,7 @@
-"""HTTP requests: which are answered at all, and what every answer says to the browser.
+"""Checks HTTP requests, and sets the security headers of responses.
 
-websockets reads nothing but GET and closes the connection on anything else without a word; viser
-looks up any path on the disk. Here the head of a request is judged before either sees it.
+websockets supports GET only and closes the connection on other requests without a response; viser
+looks up any path on the disk. Hence the head of a request is checked before either sees it.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ from websockets.streams import StreamReader
 MAX_HEAD_BYTES = 16 << 10
 MAX_PATH_BYTES = 2 << 10
 PAGES = ("/", "/index.html")
-"""All that is served of viser, whose page is one file."""
+"""All paths served by viser, whose page is one file."""
 
 Refusal = tuple[http.HTTPStatus, str]
 
-NOT_FOUND: Refusal = http.HTTPStatus.NOT_FOUND, "Nothing is here. The page of webviz is at /."
+NOT_FOUND: Refusal = http.HTTPStatus.NOT_FOUND, "Not found. The page of webviz is at /."
 
 
 def is_complete(head: bytes) -> bool:
-    """Whether the bytes received so far are enough to judge a request."""
-    is_text = head[:1].isalpha()  # a TLS greeting is not, and never has an end of line
+    """Whether the bytes received so far are enough to check a request."""
+    is_text = head[:1].isalpha()  # unlike a TLS handshake, which may have no end of line
     return not is_text or b"\n\r\n" in head or b"\n\n" in head or len(head) > MAX_HEAD_BYTES
 
 
 def refusal(head: bytes) -> Refusal | None:
-    """Why a request is not answered, or None if it is.
+    """The reason to refuse a request, or None.
 
     Args:
-        head: the request line and the headers, perhaps followed by a body.
+        head: request line and headers, possibly followed by a body.
     """
     line = head.split(b"\n", 1)[0]
     words = line.rstrip(b"\r").split(b" ")
@@ -57,7 +57,7 @@ def refusal(head: bytes) -> Refusal | None:
 
 
 def is_head(head: bytes) -> bool:
-    """Whether only the headers of the answer are wanted."""
+    """Whether the request is for the headers only."""
     return head.startswith(b"HEAD ")
 
 
@@ -72,14 +72,14 @@ def is_upgrade(request: Request) -> bool:
 
 
 def add_policy(headers: Headers, host: str) -> None:
-    """Tells the browser what the page may do: talk to this server, and be in no other page.
+    """Restricts the page to this server, and forbids to embed it in other pages.
 
-    viser's page is one file of inline scripts and styles, decodes in workers that it makes from
-    blobs, and runs the scripts that webviz sends it, hence the three exceptions.
+    There are three exceptions, since viser's page is one file of inline scripts and styles, decodes
+    in workers made from blobs, and runs the scripts that webviz sends.
 
     Args:
-        headers: of the answer.
-        host: as the browser addressed the server, if that is known to be valid.
+        headers: of the response.
+        host: Host header of the request if it is valid, else "".
     """
     websockets = f"ws://{host} wss://{host}" if host else ""
     headers["Content-Security-Policy"] = "; ".join(
@@ -102,7 +102,7 @@ def add_policy(headers: Headers, host: str) -> None:
 
 
 def _is_readable(head: bytes) -> bool:
-    """Whether websockets can read a request, which it would otherwise not answer."""
+    """Whether websockets can parse a request, which it would otherwise not answer."""
     reader = StreamReader()
     reader.feed_data(head)
     try:

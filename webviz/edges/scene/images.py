@@ -1,4 +1,4 @@
-"""Pictures in the scene: maps, costmaps."""
+"""Images in the scene, such as maps."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.names import TILE_PREFIX
 from webviz.edges.scene.png import encode_png
 
-# Cells per edge of a tile, more where the picture is narrow. An update sends only tiles that
-# changed, and no texture has more than the 8192 texels that every WebGL 2 browser of the last years
-# accepts.
+# Cells per edge of a tile, more if the image is narrow. Updates send only tiles that changed. All
+# current WebGL 2 browsers support textures of 8192 texels.
 TILE = 1024
 LONGEST_TILE = 8192
 
 Tile = tuple[int, int, int]
-"""Layer, and row and column of the first cell. The page reads the layer from the name."""
+"""Layer, row and column of the first cell. The page reads the layer from the name."""
 
 Shape = tuple[int, int]
 """Rows and columns of a tile."""
@@ -31,13 +30,13 @@ _BLANK = np.zeros((1, 1, 4), np.uint8)
 
 
 class ImageDrawn:
-    """A picture as viser images, one for each tile, under one frame.
+    """An image as one viser image per tile, under one frame.
 
-    viser's image is unlit, in exact colours, and shows the old texture until the new one is
-    decoded, so an update never blanks. Its rows run along y already, for viser hangs images upside
-    down. Sharp cells are the page's work (tiles.js).
+    viser's image is unlit, has exact colours, and shows the old texture until the new one is
+    decoded, so that updates do not flicker. Its rows run along y, because viser mounts images
+    upside down. The page makes cells sharp (tiles.js).
 
-    Tiles are encoded beside the frame loop, and sent by it.
+    Tiles are encoded in another thread, and sent by the frame loop.
     """
 
     def __init__(self, link: Adapter, name: str) -> None:
@@ -53,11 +52,11 @@ class ImageDrawn:
         """Sends the tiles that changed.
 
         Raises:
-            ValueError: the cells are not as `Image` says.
+            ValueError: the cells do not have the type and shape that `Image` requires.
         """
         cells, shape = node.cells, node.cells.shape
         if cells.dtype != np.uint8 or shape[2:] != (() if node.palette is not None else (4,)):
-            raise ValueError(f"No picture can be made of cells {cells.dtype} {shape}.")
+            raise ValueError(f"Cells of type {cells.dtype} and shape {shape} are not supported.")
         old, self._sent = self._sent, node
         height, width = _shape(node)
         rows, columns = range(0, shape[0], height), range(0, shape[1], width)
@@ -70,7 +69,7 @@ class ImageDrawn:
         self._wanted = wanted
 
     def remove(self) -> None:
-        """Takes the picture off the scene."""
+        """Removes the image from the scene."""
         for tile in self._wanted:
             self._drop(tile)
         self._frame.remove()
@@ -109,7 +108,7 @@ class ImageDrawn:
 
 
 def _shape(node: Image) -> Shape:
-    """Of all tiles of a picture: as many cells as a square one has, if one edge is short."""
+    """The shape of tiles: square, or with as many cells if one edge of the image is short."""
     rows, columns = node.cells.shape[:2]
     height = max(TILE, min(LONGEST_TILE, TILE * TILE // max(columns, 1)))
     width = max(TILE, min(LONGEST_TILE, TILE * TILE // max(rows, 1)))

@@ -6,7 +6,7 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, Instances
-from webviz.edges.scene.drawn import Props, SingleNode, finite_rows, rgb_array
+from webviz.edges.scene.drawn import Props, SingleNode, finite, rgb_array
 from webviz.edges.scene.lines import linear
 from webviz.edges.scene.solids import SOLIDS
 
@@ -18,7 +18,7 @@ class InstancesDrawn(SingleNode[Instances]):
     """All solids of a node in one draw call: viser's batched meshes."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a node without solids."""
+        """A node without solids."""
         return scene.add_batched_meshes_simple(
             name,
             *SOLIDS["box"],
@@ -32,20 +32,14 @@ class InstancesDrawn(SingleNode[Instances]):
         )
 
     def props(self, node: Instances) -> tuple[Props, ...]:
-        """The solid, where and in which colour, then opacity; what is not finite is left out.
+        """The solid, poses with colours, and opacity; instances that are not finite are dropped.
 
-        A browser makes the batch anew for each new solid and opacity, hence sets of their own.
+        A browser recreates the batch for a new solid or opacity, hence separate sets.
         """
-        positions = np.ascontiguousarray(node.positions, dtype=np.float32)
-        scales = np.ascontiguousarray(node.scales, dtype=np.float32)
-        wxyzs = np.tile(_UNTURNED, (len(positions), 1)) if node.wxyzs is None else node.wxyzs
-        wxyzs = np.ascontiguousarray(wxyzs, dtype=np.float32)
-        colors, opacity = np.asarray(node.colors, np.uint8), node.opacity
-        rows = finite_rows(positions, scales, wxyzs)
-        if rows is not None:
-            positions, scales, wxyzs = positions[rows], scales[rows], wxyzs[rows]
-            colors = colors if colors.ndim == 1 else colors[rows]
-            opacity = opacity[rows] if isinstance(opacity, np.ndarray) else opacity
+        wxyzs = np.tile(_UNTURNED, (len(node.positions), 1)) if node.wxyzs is None else node.wxyzs
+        positions, scales, wxyzs, colors, opacity = finite(
+            node.positions, node.scales, wxyzs, along=(node.colors, node.opacity)
+        )
         solid = SOLIDS[node.shape]
         return (
             {"vertices": solid.vertices, "faces": solid.faces},
@@ -61,7 +55,7 @@ class InstancesDrawn(SingleNode[Instances]):
 
 
 def _opacity(opacity: float | F32) -> Props:
-    """The opacity of all is the material's own, which costs a browser less than one for each."""
+    """A single opacity goes to the material: browsers draw that faster than one per instance."""
     if isinstance(opacity, np.ndarray):
         each = np.ascontiguousarray(opacity, dtype=np.float32)
         return {"opacity": None, "batched_opacities": each}

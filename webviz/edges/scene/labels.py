@@ -10,13 +10,13 @@ from viser import LabelHandle
 from webviz.api.nodes import Labels
 from webviz.edges.scene.adapter import Adapter
 
-# RViz's characters, in Liberation Sans, are 1.19 font sizes high with all that surrounds them
-# (measured). A browser's font is Arial or another of that size.
+# Line height of RViz's Liberation Sans in font sizes (measured). Browsers use Arial or a font of
+# the same size.
 _LINE = 1.19
 
 
 class _Label(NamedTuple):
-    """A text, where it is, and viser's properties for how it looks."""
+    """A text, its position, and viser's properties for its look."""
 
     text: str
     position: tuple[float, float, float]
@@ -24,7 +24,7 @@ class _Label(NamedTuple):
 
 
 class LabelsDrawn:
-    """One viser label for each text, under one frame; labels are reused in order."""
+    """One viser label per text, under one frame; labels are reused in order."""
 
     def __init__(self, link: Adapter, name: str) -> None:
         self._link = link
@@ -34,7 +34,7 @@ class LabelsDrawn:
         self._sent: list[_Label] = []
 
     def draw(self, node: Labels) -> None:
-        """Sends texts, places and heights that changed; places that are not finite are left out."""
+        """Sends changed labels; those whose position is not finite are dropped."""
         look = {
             "font_scene_height": node.height / _LINE,
             "anchor": "top-center" if node.below else "center-center",
@@ -56,7 +56,7 @@ class LabelsDrawn:
         self._sent = wanted
 
     def remove(self) -> None:
-        """Takes the labels off the scene."""
+        """Removes the labels from the scene."""
         self._link.count_removals(len(self._labels))
         self._frame.remove()
 
@@ -79,5 +79,5 @@ class LabelsDrawn:
 
 
 def _encodable(text: str) -> str:
-    """Half a surrogate pair, from text that was no UTF-8, would end every browser's connection."""
+    """Replaces lone surrogates, from invalid UTF-8, which would end every browser's connection."""
     return text.encode(errors="replace").decode()

@@ -1,4 +1,4 @@
-"""Slow work for the scene beside the frame loop: pictures that are encoded."""
+"""Makes slow messages, such as encoded images, outside of the frame loop."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ log = logging.getLogger("webviz")
 
 
 class Late:
-    """One thread that makes what the frame loop then sends; of each name only the newest.
+    """A thread that makes messages, which the frame loop then sends.
 
-    What waits is bounded by the number of names, for newer work takes the place of older. All
-    methods but `wait` belong to the frame loop.
+    The queue is bounded by the number of names, since newer work replaces older work of the same
+    name. All methods but `wait` belong to the frame loop.
     """
 
     def __init__(self) -> None:
         self.wake: Callable[[], None] = lambda: None
-        """Called in the thread when there is something to deliver."""
+        """Called in the thread when there is something to send."""
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-scene")
         self._jobs: dict[str, Future[None]] = {}
         self._made: dict[str, Callable[[], None]] = {}
         self._changed = threading.Condition()
 
     def put(self, name: str, make: Callable[[], T], send: Callable[[T], None]) -> None:
-        """Calls `make` in the thread, and `send` with what it made on the next `deliver`.
+        """Calls `make` in the thread, and `send` with its result in the next `deliver`.
 
-        Neither is called once the name is put again or dropped, if that is before its turn.
+        Work that has not started, or was not sent, is dropped when the name is put again.
 
         Args:
-            name: of the node whose work it is.
-            make: slow; touches nothing that the frame loop changes.
+            name: of the node.
+            make: slow; must not use anything that the frame loop changes.
             send: quick.
         """
 
@@ -61,7 +61,7 @@ class Late:
             job = self._jobs[name] = self._pool.submit(run)
 
     def drop(self, name: str) -> None:
-        """Forgets the work of a node and of all below it."""
+        """Cancels the work of a node and of all below it."""
         with self._changed:
             for each in tuple(self._jobs):
                 if each == name or each.startswith(f"{name}/"):
@@ -69,7 +69,7 @@ class Late:
                     self._forget(each)
 
     def deliver(self) -> None:
-        """Sends what has been made."""
+        """Sends the messages that are ready."""
         with self._changed:
             made = dict(self._made)
         for name, send in made.items():
@@ -81,10 +81,10 @@ class Late:
                 self._forget(name)
 
     def finish(self, timeout: float) -> None:
-        """Waits for all that is under way, and sends it.
+        """Waits for all work, and sends the messages.
 
         Raises:
-            TimeoutError: that takes longer than `timeout` seconds.
+            TimeoutError: it takes longer than `timeout` seconds.
         """
         with self._changed:
             is_made = self._changed.wait_for(
@@ -95,7 +95,7 @@ class Late:
         self.deliver()
 
     def wait(self, timeout: float) -> bool:
-        """Waits until all was sent; whether that came about within `timeout` seconds."""
+        """Waits until all was sent; whether this took less than `timeout` seconds."""
         with self._changed:
             return self._changed.wait_for(lambda: not self._jobs, timeout)
 

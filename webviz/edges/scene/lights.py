@@ -8,9 +8,9 @@ import viser
 
 
 def add_lights(scene: viser.SceneApi) -> None:
-    """One that shows plain colours, until `shade.js` shades them.
+    """Adds an ambient light for plain colours, which `shade.js` then shades.
 
-    viser's own lights are too bright without tone mapping, and its image lighting stalls a browser
+    viser's lights are too bright without tone mapping, and its image-based lighting stalls browsers
     without a GPU for seconds.
     """
     scene.configure_environment_map(None)

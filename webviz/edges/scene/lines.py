@@ -6,7 +6,7 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import U8, Arrows, Lines
-from webviz.edges.scene.drawn import Props, SingleNode, finite_rows, rgb_array
+from webviz.edges.scene.drawn import Props, SingleNode, finite, rgb_array
 
 _NOTHING = np.zeros((0, 2, 3), np.float32)
 _BLACK = np.zeros(3, np.uint8)
@@ -16,11 +16,11 @@ class LinesDrawn(SingleNode[Lines]):
     """Lines as viser's line segments."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a node without segments."""
+        """A node without segments."""
         return scene.add_line_segments(name, _NOTHING, _BLACK, thickness=1.0)
 
     def props(self, node: Lines) -> tuple[Props, ...]:
-        """Segments with their colours, then the look; segments that are not finite are left out."""
+        """Segments with colours, then the look; segments that are not finite are dropped."""
         props = _finite_segments(node)
         if props["colors"].ndim > 1:  # one colour for all is taken as sRGB
             props["colors"] = linear(props["colors"])
@@ -37,11 +37,11 @@ class ArrowsDrawn(SingleNode[Arrows]):
     """Arrows as viser's arrows."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a node without arrows."""
+        """A node without arrows."""
         return scene.add_arrows(name, _NOTHING, _BLACK)
 
     def props(self, node: Arrows) -> tuple[Props, ...]:
-        """Arrows with their colours, then the look; arrows that are not finite are left out."""
+        """Arrows with colours, then the look; arrows that are not finite are dropped."""
         props = _finite_segments(node)
         props["colors"] = linear(props["colors"])
         return (
@@ -55,7 +55,7 @@ class ArrowsDrawn(SingleNode[Arrows]):
 
 
 def linear(colors: U8) -> U8:
-    """sRGB to linear light (IEC 61966-2-1), which viser takes the colours of vertices to be."""
+    """sRGB to linear light (IEC 61966-2-1), as viser expects vertex colours."""
     return _LINEAR[colors]
 
 
@@ -69,10 +69,5 @@ _LINEAR = _linear_table()
 
 
 def _finite_segments(node: Lines | Arrows) -> Props:
-    segments = np.ascontiguousarray(node.segments, dtype=np.float32)
-    colors = np.asarray(node.colors, dtype=np.uint8)
-    rows = finite_rows(segments)
-    if rows is not None:
-        segments = segments[rows]
-        colors = colors if colors.ndim == 1 else colors[rows]
+    segments, colors = finite(node.segments, along=(node.colors,))
     return {"points": segments, "colors": rgb_array(colors, len(segments))}

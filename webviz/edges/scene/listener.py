@@ -1,4 +1,4 @@
-"""The socket that a server listens on."""
+"""The listening socket of the server."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ import socket
 MAX_PORT = 65535
 
 SEND_BUFFER_BYTES = 1 << 19
-"""Of a connection, sent and not yet acknowledged: 5 MB/s at a round trip of 100 ms."""
+"""Data in flight per connection: enough for 5 MB/s at a round trip of 100 ms."""
 
 UNSENT_BYTES = 1 << 16
-"""Of a connection, ready to be sent."""
+"""Data per connection that is ready to be sent."""
 
-_TURNED_AWAY = "webviz has no file descriptor left for another connection. Try again later.\n"
+_BUSY = "webviz has no file descriptors left for another connection. Try again later.\n"
 
 
 class CannotListen(OSError):
-    """The server cannot be reached at the address it was given; the text says why."""
+    """The server cannot listen at its address; the message says why."""
 
 
 class PortInUse(CannotListen):
@@ -29,17 +29,17 @@ class PortInUse(CannotListen):
 
 
 class Listener(socket.socket):
-    """A listening socket that turns connections away while the process cannot open files.
+    """A listening socket that refuses connections while the process is out of file descriptors.
 
-    asyncio would try a hundred times a second and log each attempt, while browsers wait. Hence one
-    file is kept open: its descriptor serves to accept a connection and to refuse it.
+    asyncio would retry a hundred times a second and log each attempt, while browsers wait. Hence a
+    spare descriptor is kept, to accept a connection and refuse it.
     """
 
     _spare: int | None = None
     log: logging.Logger | None = None
 
     def accept(self) -> tuple[socket.socket, object]:
-        """Accepts a connection, or raises BlockingIOError if there is none or no room for one."""
+        """Accepts a connection; raises BlockingIOError if there is none, or no descriptor left."""
         self._keep_spare()
         try:
             return super().accept()
@@ -47,8 +47,8 @@ class Listener(socket.socket):
             if error.errno not in (errno.EMFILE, errno.ENFILE) or self._spare is None:
                 raise
             if self.log is not None:
-                self.log.warning("Connections are turned away: %s.", error.strerror)
-            self._turn_away()
+                self.log.warning("Refused a connection: %s.", error.strerror)
+            self._refuse()
             raise BlockingIOError from None
 
     def close(self) -> None:
@@ -56,7 +56,7 @@ class Listener(socket.socket):
         self._close_spare()
         super().close()
 
-    def _turn_away(self) -> None:
+    def _refuse(self) -> None:
         self._close_spare()
         with contextlib.suppress(OSError):
             stranger, _ = super().accept()
@@ -80,10 +80,10 @@ def listen(host: str, port: int) -> Listener:
 
     Raises:
         PortInUse: another program listens there.
-        CannotListen: `host` is no address of this machine, or the port is not allowed.
+        CannotListen: `host` is not an address of this machine, or the port is not allowed.
     """
-    if not 0 <= port <= MAX_PORT:  # the system would take what is left of 16 bits
-        raise CannotListen(f"{port} is not a valid port; use 1 to {MAX_PORT}, or 0 for any.")
+    if not 0 <= port <= MAX_PORT:  # the system would use the lower 16 bits
+        raise CannotListen(f"{port} is not a valid port. Use 1 to {MAX_PORT}, or 0 for any.")
     try:
         family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
@@ -92,7 +92,7 @@ def listen(host: str, port: int) -> Listener:
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             raise PortInUse(
-                f"Port {port} of {host} is in use; end the program that listens there or choose "
+                f"Port {port} of {host} is in use. Stop the program that uses it, or choose "
                 "another port."
             ) from None
         reason = error.strerror or str(error)
@@ -104,7 +104,7 @@ def listen(host: str, port: int) -> Listener:
 
 
 def _let_newest_win(listener: socket.socket) -> None:
-    """Leaves little in the kernel's buffers, where the newest cannot overtake (for connections)."""
+    """Limits the kernel's buffers of connections, in which newer messages cannot overtake."""
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
     if hasattr(socket, "TCP_NOTSENT_LOWAT"):
         listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
@@ -114,6 +114,5 @@ def _refusal() -> bytes:
     status = http.HTTPStatus.SERVICE_UNAVAILABLE
     return (
         f"HTTP/1.1 {status.value} {status.phrase}\r\nConnection: close\r\n"
-        f"Content-Type: text/plain; charset=utf-8\r\nContent-Length: {len(_TURNED_AWAY)}\r\n\r\n"
-        f"{_TURNED_AWAY}"
+        f"Content-Type: text/plain; charset=utf-8\r\nContent-Length: {len(_BUSY)}\r\n\r\n{_BUSY}"
     ).encode()

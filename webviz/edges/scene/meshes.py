@@ -14,7 +14,7 @@ class MeshDrawn(SingleNode[Mesh]):
     """A mesh of one colour, lit from both sides as RViz lights its triangle lists."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a mesh without faces."""
+        """A mesh without faces."""
         return scene.add_mesh_simple(
             name,
             np.zeros((1, 3), np.float32),
@@ -25,21 +25,18 @@ class MeshDrawn(SingleNode[Mesh]):
         )
 
     def props(self, node: Mesh) -> tuple[Props, ...]:
-        """Triangles, then the look; triangles with a corner that is not finite are left out."""
+        """Triangles, then the look; triangles with a vertex that is not finite are dropped."""
         vertices = np.ascontiguousarray(node.vertices, dtype=np.float32)
         faces = np.ascontiguousarray(node.faces, dtype=np.uint32)
         rows = finite_rows(vertices)
-        if rows is not None:
+        if not rows.all():
             vertices = np.where(rows[:, None], vertices, np.float32(0))
             faces = faces[rows[faces].all(axis=1)]
-        return (
-            {"vertices": vertices, "faces": faces},
-            _look(node),
-        )
+        return {"vertices": vertices, "faces": faces}, _look(node)
 
 
 def _look(node: Mesh) -> Props:
-    """Transparent shapes show their front only, as in RViz, not their inside."""
+    """Transparent shapes show their front faces only, as in RViz."""
     if node.opacity >= 1:
         return {"color": node.color, "opacity": None, "side": "double"}
     return {"color": node.color, "opacity": float(node.opacity), "side": "front"}
@@ -49,14 +46,14 @@ class GlbDrawn(SingleNode[Glb]):
     """A glTF model. Browsers show nothing while they parse a new one."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a model of nothing."""
+        """An empty model."""
         return scene.add_glb(name, _NOTHING, cast_shadow=False, receive_shadow=False)
 
     def props(self, node: Glb) -> tuple[Props, ...]:
         """The model.
 
         Raises:
-            ValueError: `node.data` is no binary glTF 2.0.
+            ValueError: `node.data` is not a binary glTF 2.0.
         """
         return ({"glb_data": matte(node.data)},)
 

@@ -1,4 +1,4 @@
-"""What browsers may say: which kinds of messages, how large, with which fields."""
+"""Checks the messages of browsers: kinds, sizes and fields."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Any
 import msgspec
 
 from webviz.edges.scene import uploads
-from webviz.edges.scene.adapter import message_type
+from webviz.edges.scene.adapter.widgets import message_type
 
 MAX_BYTES = 4 << 20
-"""Of any message. viser's page cuts files into parts of half of it."""
+"""Maximum size of a message; the longest is a config."""
 
 SMALL = 4 << 10
 
-# What viser's page sends of its own accord or in answer to us, and how large it may be. Not here:
-# ShareUrlRequest, which opens a public tunnel, and pictures, which nobody asks a page for.
+# Messages that viser's page may send, with their maximum sizes. Deliberately missing are
+# ShareUrlRequest, which opens a public tunnel, and pictures, which webviz does not request.
 SIZES = {
     "CommandTriggerMessage": SMALL,
     uploads.PART: uploads.PART_BYTES + SMALL,
@@ -36,7 +36,7 @@ SIZES = {
     "ViewerCameraMessage": SMALL,
 }
 
-# Of these the values are checked as well.
+# Messages whose values are checked as well.
 CHECKED = frozenset(
     {"GuiFormDirtyMessage", "GuiFormSubmitMessage", "GuiUpdateMessage", uploads.START}
 )
@@ -49,10 +49,10 @@ _names = {kind: {"type", *(f.name for f in fields(message_type(kind)))} for kind
 
 
 class Judge:
-    """Decides for one browser which of its messages viser may see.
+    """Decides which messages of a browser reach viser.
 
     Args:
-        accepts: whether a message that is `CHECKED` may pass; takes its fields and its `type`.
+        accepts: whether a message in `CHECKED` is valid; takes its fields and its `type`.
     """
 
     def __init__(self, accepts: Accepts) -> None:
@@ -60,14 +60,14 @@ class Judge:
         self._uploads = uploads.Uploads()
 
     def objection(self, data: str | bytes) -> str | None:
-        """What is wrong with a message, or None if it may pass."""
+        """The reason to ignore a message, or None."""
         if not isinstance(data, bytes):
             return "text instead of bytes"
         try:
             raw = _fields_of.decode(data)
             kind = msgspec.msgpack.decode(raw.get("type", b"\xc0"), type=str)
             if kind not in SIZES:
-                return "a kind that webviz does not know"
+                return "unknown kind"
             if len(data) > SIZES[kind]:
                 return f"a {kind} of {len(data)} bytes"
             if not raw.keys() <= _names[kind]:
@@ -79,7 +79,7 @@ class Judge:
             return f"a {kind} with a number that is not finite"
         message = {"type": kind, **values}
         if kind in CHECKED and not self._accepts(message):
-            return f"a {kind} that no widget offers"
+            return f"a {kind} that no widget allows"
         if kind in (uploads.START, uploads.PART) and not self._uploads.accepts(message):
             return f"a {kind} that does not fit the announced files"
         return None

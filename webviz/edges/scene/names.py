@@ -1,4 +1,4 @@
-"""Names of scene nodes: any text becomes one segment of a viser path."""
+"""Names of scene nodes in viser."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from urllib.parse import quote
 ROOT = "/webviz"
 
 TILE_PREFIX = "%tile "
-"""The page recognises pictures by this in their names; no key has it when escaped."""
+"""Marks the names of images for the page; no escaped key starts with it."""
 
 
 @functools.lru_cache(maxsize=10_000)
 def segment(text: str) -> str:
-    """Escapes `text` so that it is one segment of a node path, another one for every other text.
+    """Escapes any text to a unique segment of a node path.
 
-    Letters, digits and spaces stay readable; what remains is percent-encoded as in a URL (RFC
-    3986), so that a "/" in a frame id does not open a subtree. Empty text becomes "%", which the
-    encoding itself never produces alone.
+    Characters other than letters, digits and spaces are percent-encoded as in a URL (RFC 3986), so
+    that a "/" in a frame id does not start a subtree. Empty text becomes "%", which the encoding
+    never produces alone.
     """
     return quote(text, safe=" ", errors="surrogatepass") or "%"
 
 
 def node_path(group: str, key: str | None = None) -> str:
-    """The viser name of a group, or of the node `key` in it."""
+    """The name of a group in viser, or of the node `key` in it."""
     path = f"{ROOT}/{segment(group)}"
     return path if key is None else f"{path}/{segment(key)}"

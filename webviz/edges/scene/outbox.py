@@ -1,4 +1,4 @@
-"""What one browser still has to be sent: small messages at once, large ones as it can take them."""
+"""Orders the messages for a browser: small ones first, large ones as fast as it can take them."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 BULK_BYTES = 1 << 15
-"""What carries more waits for its turn: clouds, pictures, meshes."""
+"""Size above which a message is large: clouds, images, meshes."""
 
 WINDOW_BYTES = 1 << 19
-"""Of large messages in one piece. At 1 MB/s, what comes next is half a second behind."""
+"""Large messages per frame. At 1 MB/s, they delay the next frame by half a second."""
 
 
 class Message(Protocol):
-    """What matters of viser's messages."""
+    """The part of viser's messages that is used here."""
 
     def redundancy_key(self) -> str:
-        """What a newer message must have in common to replace it."""
+        """A newer message with the same key replaces this one."""
         ...
 
 
@@ -26,35 +26,34 @@ M = TypeVar("M", bound=Message)
 
 
 class Outbox:
-    """Decides what goes into the next websocket frame of one browser.
+    """Chooses the messages of the next websocket frame of a browser.
 
-    A websocket delivers in order, so a frame that takes seconds holds up all that follows. Hence
-    each frame has every small message, and large ones up to a limit. Large ones update nodes that
-    are there already, so they may come later than what was queued after them. They take turns: a
-    newer version of one takes the place of the older in the line, and a slow browser sees all of
-    them change, none in vain.
+    A websocket delivers in order, so a frame that takes seconds delays all later ones. Hence each
+    frame has all small messages, and large ones up to a limit. Large messages update existing
+    nodes, so later messages may overtake them. They wait in a line, in which a newer version takes
+    the place of the older one, so that a slow browser receives all of them in turn.
 
     Args:
-        last: the type of messages that must not arrive before what was queued before them.
+        last: type of messages that must not overtake earlier ones.
     """
 
     def __init__(self, last: type) -> None:
         self._last = last
         self.cursor = -1
-        """Number of the last message that was sent or is in the line."""
+        """Number of the last message that was sent or put in the line."""
         self._line: dict[object, int] = {}
 
     def is_waiting(self) -> bool:
-        """Whether large messages are in the line."""
+        """Whether messages are in the line."""
         return bool(self._line)
 
     def small(self, live: Mapping[int, M], newest: int, limit: int | None) -> list[M]:
-        """The small messages up to number `newest`, of at most `limit` numbers; others line up.
+        """The next small messages; large ones are put in the line.
 
         Args:
-            live: the messages that exist, in order of their numbers.
+            live: the existing messages, in order of their numbers.
             newest: number of the last message to consider.
-            limit: None for none.
+            limit: maximum count of messages to consider, or None.
         """
         if newest - self.cursor > len(live):
             numbers = [n for n in live if self.cursor < n <= newest]
@@ -76,7 +75,7 @@ class Outbox:
         return window
 
     def large(self, live: Mapping[int, M]) -> list[M]:
-        """The next messages of the line that still exist: as many as fit, at least one."""
+        """The next messages of the line that still exist: as many as fit, but at least one."""
         window: list[M] = []
         room = WINDOW_BYTES
         for key, number in tuple(self._line.items()):
@@ -91,7 +90,7 @@ class Outbox:
 
 
 def bulk(message: Message) -> int:
-    """Bytes that a message would assign to the properties of a node, roughly."""
+    """Approximate size in bytes of the properties that a message assigns."""
     updates: dict[str, Any] = getattr(message, "updates", {})
     return sum(
         value.nbytes if isinstance(value, np.ndarray) else len(value)

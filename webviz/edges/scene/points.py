@@ -11,17 +11,16 @@ from webviz.api.nodes import Points
 from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.drawn import Props, SingleNode, rgb_array
 
-# Beyond every camera's far plane.
+# Beyond the far plane of every camera.
 _OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
 
-
 PART = 1 << 15
-"""Points of one viser node. Half a megabyte with their colours: on a poor network other messages go
-in between."""
+"""Points per viser node: half a megabyte with colours, so that on a slow network other messages can
+be sent in between."""
 
 
 class PointsDrawn:
-    """Points as viser's point clouds, a large one in parts.
+    """Points as viser point clouds, several for a large cloud.
 
     The first part is the parent of the others. Parts that are no longer needed stay, empty.
     """
@@ -41,36 +40,36 @@ class PointsDrawn:
             part.draw(replace(node, xyz=node.xyz[rows], colors=colors))
 
     def remove(self) -> None:
-        """Takes the points off the scene."""
+        """Removes the points from the scene."""
         self._link.count_removals(len(self._parts) - 1)
         self._parts[0].remove()
 
 
 class _Part(SingleNode[Points]):
-    """Points as viser's point cloud, flat and float32: exact colours, exact to 1e-7."""
+    """Points as a viser point cloud, flat and in float32: exact colours, precision 1e-7."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
-        """Makes a cloud without points."""
+        """A cloud without points."""
         return _add(scene, name, np.zeros((0, 3), np.float32), np.zeros(3, np.uint8))
 
     def props(self, node: Points) -> tuple[Props, ...]:
-        """Positions with their colours, then the look."""
+        """Positions with colours, then the look."""
         return (
             {
                 "points": np.ascontiguousarray(node.xyz, dtype=np.float32),
                 "colors": rgb_array(node.colors, len(node.xyz)),
             },
-            # viser's size is half an edge: it draws a point twice as wide (measured).
+            # viser draws a point twice as wide as its size (measured).
             {"point_size": node.size / 2.0, "point_shape": node.shape},
         )
 
 
 def keep_shaders(scene: SceneApi, root: str) -> None:
-    """Adds two clouds that nobody sees, so that the point shaders are never thrown away.
+    """Adds two clouds out of sight, which keep the point shaders alive.
 
-    viser makes a new material for each update that carries colours, and three.js compiles its
-    shader again (0.4 s without a GPU) unless some other node still uses it. There is one shader for
-    a colour per point and one for a colour for all.
+    viser creates a new material for each update with colours, and three.js compiles its shader
+    again (0.4 s without a GPU) unless another node uses it. There is one shader for a colour per
+    point and one for a single colour.
     """
     _add(scene, f"{root}/%shader of coloured points", _OUT_OF_SIGHT, np.zeros((2, 3), np.uint8))
     _add(scene, f"{root}/%shader of plain points", _OUT_OF_SIGHT, np.zeros(3, np.uint8))

@@ -1,4 +1,4 @@
-"""viser's server as webviz runs it."""
+"""viser's server without output on the terminal."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from webviz.edges.page.modules import Modules
 
 
 class Server(viser.ViserServer):
-    """viser's server without its greetings on the terminal, that waits for nobody when it stops.
+    """viser's server without its banner; it stops without waiting for browsers.
 
     Args:
         channel: to the modules of its pages.
         modules: of its pages.
-        close: sends everybody away; called on the event loop.
-        options: viser's.
+        close: closes all connections; called on the event loop.
+        options: for viser.
     """
 
     def __init__(
@@ -34,7 +34,7 @@ class Server(viser.ViserServer):
 
     def stop(self) -> None:
         """Ends the server's threads and frees the port."""
-        with contextlib.suppress(RuntimeError):  # it has stopped before
+        with contextlib.suppress(RuntimeError):  # stopped already
             self.get_event_loop().call_soon_threadsafe(self._close)
         with _quiet():
             super().stop()
@@ -42,7 +42,7 @@ class Server(viser.ViserServer):
 
 @contextlib.contextmanager
 def replaced(module: Any, name: str, value: Any) -> Iterator[None]:
-    """Gives a module another value of a name for a while."""
+    """Replaces an attribute of a module during the block."""
     original = getattr(module, name)
     setattr(module, name, value)
     try:

@@ -1,4 +1,4 @@
-"""The scene that every browser shows, kept as rigid groups of nodes."""
+"""The scene of all browsers: rigid groups of nodes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from webviz.api.nodes import (
     Pose,
     Rgb,
 )
-from webviz.edges.scene.adapter import Adapter, Position, Wxyz
+from webviz.edges.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.edges.scene.axes import AxesDrawn
 from webviz.edges.scene.cameras import Cameras
 from webviz.edges.scene.drawn import Drawn
@@ -48,17 +48,14 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Image: ImageDrawn,
 }
 
-Move = tuple[str, Position | None, Wxyz | None]
-"""Of a node by its name: where it is now, and how it is turned, if that changed."""
-
 _IDENTITY = Pose()
 
 
 class Scene:
-    """Groups of nodes, each group placed by one pose in the fixed frame.
+    """Groups of nodes, each with one pose in the fixed frame.
 
-    Methods only note what is wanted; `flush` compares it with what was sent and sends the
-    difference in one piece; what did not change costs nothing. All methods belong to one thread.
+    Methods only record changes; `flush` compares the result with what was sent and sends the
+    difference in one piece. All methods belong to one thread.
 
     Args:
         server: as from `open_server`.
@@ -77,11 +74,11 @@ class Scene:
         return self.link.watchers > 0
 
     def set_background(self, rgb: Rgb) -> None:
-        """Fills what lies behind everything with one colour."""
+        """Sets the background to one colour."""
         set_background(self.link.server, rgb)
 
     def set_pose(self, group: str, pose: Pose) -> None:
-        """Places a group in the fixed frame; a new group stands at the identity.
+        """Places a group in the fixed frame; a new group is at the identity.
 
         Raises:
             ValueError: the pose is not finite.
@@ -94,30 +91,30 @@ class Scene:
         self._touch(group).pose = pose
 
     def upsert(self, group: str, key: str, node: Node, pose: Pose = _IDENTITY) -> None:
-        """Draws `node` at `pose` in a group as `key`, instead of what had that key."""
+        """Draws a node at a pose in a group, in place of the one with the same key."""
         wanted = self._touch(group)
         wanted.nodes[key] = (node, pose)
         wanted.dirty[key] = None
 
     def remove(self, group: str, key: str) -> None:
-        """Removes one node; one that is not there is no error."""
+        """Removes a node, if it exists."""
         if group in self._groups and key in self._groups[group].nodes:
             wanted = self._touch(group)
             del wanted.nodes[key]
             wanted.dirty[key] = None
 
     def remove_group(self, group: str) -> None:
-        """Removes a group with its nodes and its pose; one that is not there is no error."""
+        """Removes a group with its nodes and pose, if it exists."""
         self._dirty.pop(group, None)
         if group in self._groups:
             self._gone.append(self._groups.pop(group))
 
     def set_visible(self, group: str, visible: bool) -> None:
-        """Hides a group, or shows it again; its nodes may be changed meanwhile."""
+        """Hides or shows a group; hidden nodes may be changed."""
         self._touch(group).visible = visible
 
     def bounds(self, prefix: str) -> Box | None:
-        """The box, in the fixed frame, around all that is visible of the groups of a prefix."""
+        """The bounding box in the fixed frame of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(group.pose)
             for name, group in self._groups.items()
@@ -135,8 +132,8 @@ class Scene:
         """Sends everything that changed since the last flush, in one piece.
 
         Raises:
-            Exception: a node is malformed. It is dropped, a note names it, and what was left goes
-                with the next flush.
+            Exception: a node is malformed. It is dropped and named in a note; the rest follows in
+                the next flush.
         """
         self.link.late.deliver()
         if not self._dirty and not self._gone:
@@ -154,10 +151,10 @@ class Scene:
         self.link.flush()
 
     def acknowledge(self, timeout: float) -> None:
-        """Waits until every browser has all that was flushed, also what takes time to make.
+        """Waits until every browser has applied everything that was flushed.
 
         Raises:
-            TimeoutError: that takes longer than `timeout` seconds.
+            TimeoutError: it takes longer than `timeout` seconds.
         """
         self.link.late.finish(timeout)
         self.link.acknowledge(timeout)
@@ -171,7 +168,7 @@ class Scene:
 
 
 class _Group:
-    """One rigid body: what is wanted, and what browsers have."""
+    """A rigid group: its wanted state, and the state in the browsers."""
 
     def __init__(self, name: str) -> None:
         self.pose = Pose()
@@ -187,7 +184,7 @@ class _Group:
         self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
 
     def send(self, link: Adapter, moves: list[Move]) -> None:
-        """Send what differs, except for the move of the whole group, which is added to `moves`."""
+        """Sends the changes, except for the pose of the group, which is added to `moves`."""
         if self._handle is None:
             self._handle = link.server.scene.add_frame(self._path, show_axes=False)
         position = self.pose.position
@@ -221,7 +218,7 @@ class _Group:
         is_new = sent is None or node != sent[0]
         if is_new:
             drawn.draw(node)
-        # Some primitives make their viser node anew when they are drawn, at the identity.
+        # Some primitives recreate their viser node when drawn, at the identity.
         if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
             link.set_position(path, pose.position)
             link.set_orientation(path, pose.wxyz)

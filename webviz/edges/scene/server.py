@@ -1,4 +1,4 @@
-"""Opens a viser server that is safe to leave running and looks like RViz."""
+"""Opens a guarded viser server that looks like RViz."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import websockets.asyncio.server as websocket
 from webviz.api.nodes import Rgb
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
-from webviz.edges.scene.adapter import greet
+from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.connections import Gate
 from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
@@ -25,7 +25,7 @@ from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
 
 BACKGROUND: Rgb = (48, 48, 48)
-"""RViz's default."""
+"""The default of RViz."""
 
 _opening = threading.Lock()
 
@@ -38,15 +38,15 @@ def open_server(
     Args:
         host: address to bind to.
         port: TCP port; 0 picks a free one.
-        allowed_hosts: names, without port, under which browsers may address the server, besides
-            the loopback ones and `host`.
+        allowed_hosts: names without port by which browsers may address the server, besides
+            loopback and `host`.
 
     Returns:
         The running server; `stop()` ends its threads and frees the port.
 
     Raises:
         PortInUse: another program listens there.
-        CannotListen: `host` is no address of this machine, or the port is not allowed.
+        CannotListen: `host` is not an address of this machine, or the port is not allowed.
     """
     listener = listen(host, port)
     server: Server | None = None
@@ -65,7 +65,7 @@ def open_server(
 
 
 def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
-    """Fills what lies behind the scene with one colour."""
+    """Sets the background to one colour."""
     server.scene.set_background_image(np.array([[rgb]], dtype=np.uint8), format="png")
 
 

@@ -1,6 +1,6 @@
-"""Box, sphere, cylinder and cone as triangles, of size 1 along x, y and z around the origin.
+"""Triangle meshes of a box, sphere, cylinder and cone, of size 1 around the origin.
 
-A browser averages normals at shared vertices, so a sharp edge has vertices for each of its sides.
+Browsers average normals at shared vertices, so sharp edges have separate vertices for each side.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ class Solid(NamedTuple):
 
     Attributes:
         vertices: float32 (V, 3).
-        faces: uint32 (F, 3), counter-clockwise seen from outside.
+        faces: uint32 (F, 3), counter-clockwise from outside.
     """
 
     vertices: NDArray[np.float32]
@@ -25,7 +25,12 @@ class Solid(NamedTuple):
 
 
 def _turned(profile: ArrayLike, corners: int) -> Solid:
-    """What a line of (radius, z), bottom first, leaves when it turns about z; round all over."""
+    """A smooth solid of revolution about z.
+
+    Args:
+        profile: (radius, z) of its points, from bottom to top.
+        corners: of its cross-section.
+    """
     radius, z = np.asarray(profile, dtype=np.float64).T
     angle = np.arange(corners) * (2.0 * np.pi / corners)
     around = np.stack((np.cos(angle), np.sin(angle)), axis=1)
@@ -54,7 +59,7 @@ def _box() -> Solid:
     for axis in range(3):
         for sign in (-0.5, 0.5):
             side = np.full((4, 3), sign, np.float32)
-            # Along these two axes the corners run counter-clockwise seen from outside.
+            # Along these two axes the corners run counter-clockwise from outside.
             side[:, (axis + 1) % 3] = np.array((-1, 1, 1, -1)) * sign
             side[:, (axis + 2) % 3] = (-0.5, -0.5, 0.5, 0.5)
             sides.append(Solid(side, np.array(((0, 1, 2), (0, 2, 3)), np.uint32)))
@@ -67,7 +72,7 @@ def _sphere(rings: int, corners: int) -> Solid:
 
 
 def _edged(profile: Sequence[tuple[float, float]], corners: int) -> Solid:
-    """As `_turned`, with a sharp edge at each point."""
+    """Like `_turned`, with a sharp edge at each point."""
     return _joined(*(_turned(profile[i : i + 2], corners) for i in range(len(profile) - 1)))
 
 

@@ -1,15 +1,15 @@
-"""A log that strangers cannot fill: one line for each event, and few of one kind."""
+"""A logger that clients cannot flood: single lines, and few of each kind."""
 
 from __future__ import annotations
 
 import logging
 
 INTERVAL = 60.0
-"""Seconds within which further lines of a kind are only counted."""
+"""Seconds in which further lines of the same kind are only counted."""
 
 
 def sparing_log(name: str) -> logging.Logger:
-    """A logger of its own below the one of webviz."""
+    """A child of webviz's logger that is not shared by name."""
     log = logging.Logger(name)
     log.parent = logging.getLogger("webviz")
     log.addFilter(_Sparing())
@@ -17,7 +17,7 @@ def sparing_log(name: str) -> logging.Logger:
 
 
 class _Sparing(logging.Filter):
-    """Lets one line of a kind pass per interval; a traceback becomes the end of its line."""
+    """Passes one line of each kind per interval; tracebacks are shortened to one line."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -36,7 +36,7 @@ class _Sparing(logging.Filter):
         if record.exc_info and record.exc_info[1] is not None:
             text += f": {_one_line(record.exc_info[1])}"
         if left_out:
-            text += f" ({left_out} more like it before)"
+            text += f" ({left_out} similar lines omitted)"
         record.msg, record.args = text, ()
         record.exc_info = record.exc_text = None
         return True

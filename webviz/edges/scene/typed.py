@@ -1,4 +1,4 @@
-"""Texts that are typed into dropdowns (see `typing.js`)."""
+"""Text that users type into dropdowns (see `typing.js`)."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ from collections.abc import Callable
 from typing import Any
 
 from webviz.edges.page.messages import Typed
-from webviz.edges.scene.adapter import Adapter, gui_input
+from webviz.edges.scene.adapter import Adapter
+from webviz.edges.scene.adapter.widgets import gui_input
 
 
 def on_typed(link: Adapter, listener: Callable[[Any, str, int], None]) -> None:
-    """Call `listener` with an input widget, the text typed into it, and the id of the browser.
+    """Calls `listener` with an input widget, the text typed into it, and the id of the browser.
 
-    It runs on viser's event loop; nobody vouches for widget and text.
+    It runs on viser's event loop; text and choice of the widget are unchecked.
     """
 
     def hear(browser: int, typed: Typed) -> None:

@@ -1,4 +1,4 @@
-"""How much one browser may send as files."""
+"""Limits the files that a browser may upload."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 MAX_BYTES = 16 << 20
-"""Of all files that are on their way at once, as they were announced."""
+"""Announced size of all files in transfer at once."""
 MAX_OPEN = 4
 MAX_NAME = 255
 
@@ -24,18 +24,18 @@ class _Upload:
 
 
 class Uploads:
-    """The files that one browser is sending.
+    """The files that a browser is sending.
 
-    viser keeps every part until the last one is there or the browser has gone, whatever the sizes
-    are. Here a part passes only if it belongs to a file that was announced, once, and within the
-    announced size; a file stays on the books as long as viser waits for it.
+    viser keeps every part until the file is complete or the browser disconnects, whatever the
+    sizes. Here a part is accepted only once, if its file was announced and within the announced
+    size; a file counts as long as viser waits for it.
     """
 
     def __init__(self) -> None:
         self._open: dict[str, _Upload] = {}
 
     def accepts(self, message: dict[str, Any]) -> bool:
-        """Whether a message that announces a file or brings a part of one may pass."""
+        """Whether to accept a message that announces a file or carries a part of one."""
         transfer = message.get("transfer_uuid")
         if not isinstance(transfer, str) or len(transfer) > MAX_NAME:
             return False

@@ -1,4 +1,4 @@
-"""What people ask of a viewer: queued by the panel, services or Python, done by the frame loop."""
+"""The commands of a viewer: sent by the panel, ROS or Python, carried out by the frame loop."""
 
 from webviz.engine.commands.command import PROGRAM, Command, Sender
 from webviz.engine.commands.displays import (
@@ -9,7 +9,6 @@ from webviz.engine.commands.displays import (
     ResetDisplay,
     SetProperty,
     TraceDisplay,
-    nobody,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
 from webviz.engine.commands.history import Redo, Undo
@@ -73,5 +72,4 @@ __all__ = [
     "UseTool",
     "ViewCommand",
     "WriteDisplays",
-    "nobody",
 ]

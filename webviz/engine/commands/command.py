@@ -1,15 +1,15 @@
-"""What all commands are, and who sends them."""
+"""The base class of commands, and their senders."""
 
 from dataclasses import dataclass
 
 
 class Command:
-    """What somebody asks of a viewer; each kind is a frozen dataclass that one part handles."""
+    """Base of all commands; each is a frozen dataclass that one part of the viewer handles."""
 
 
 @dataclass(frozen=True)
 class Sender:
-    """Who sent a command.
+    """The sender of a command.
 
     Args:
         browser: id of the browser; None for Python, ROS and the command line.
@@ -20,3 +20,7 @@ class Sender:
 
 PROGRAM = Sender()
 """Python, ROS and the command line."""
+
+
+def ignore(result: object) -> None:
+    """The default callback of commands: ignore the result."""

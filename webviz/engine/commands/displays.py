@@ -1,4 +1,4 @@
-"""What changes the list of displays."""
+"""Commands for displays."""
 
 from __future__ import annotations
 
@@ -7,12 +7,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
-from webviz.engine.commands.command import Command
+from webviz.engine.commands.command import Command, ignore
 from webviz.engine.trace import Trace
-
-
-def nobody(id: str) -> None:
-    """Tell nobody the id of a display that was made."""
 
 
 @dataclass(frozen=True)
@@ -31,34 +27,34 @@ class AddDisplay(Command):
     Args:
         type: name of the display type.
         values: its properties, as in a config file.
-        group: where to; "" is the list itself.
-        made: called with the id of the new display by the frame loop, so it must not block.
+        group: id of the group; "" is the list itself.
+        made: called by the frame loop with the id of the new display; must not block.
     """
 
     type: str
     values: dict[str, Any] = field(default_factory=dict)
     group: str = ""
-    made: Callable[[str], None] = nobody
+    made: Callable[[str], None] = ignore
 
 
 @dataclass(frozen=True)
 class RemoveDisplay(Command):
-    """Remove a display, or a group with all that is in it."""
+    """Remove a display, or a group with its contents."""
 
     display: str
 
 
 @dataclass(frozen=True)
 class DuplicateDisplay(Command):
-    """Add a copy right behind a display, or a group with all that is in it.
+    """Add a copy of a display, or of a group with its contents, after it.
 
     Args:
-        display: what to copy.
-        made: called with the id of the copy by the frame loop, so it must not block.
+        display: id of the display or group.
+        made: called by the frame loop with the id of the copy; must not block.
     """
 
     display: str
-    made: Callable[[str], None] = nobody
+    made: Callable[[str], None] = ignore
 
 
 @dataclass(frozen=True)
@@ -70,12 +66,12 @@ class ResetDisplay(Command):
 
 @dataclass(frozen=True)
 class MoveDisplay(Command):
-    """Put a display or a group elsewhere in the list.
+    """Move a display or a group in the list.
 
     Args:
-        display: what to move.
-        group: where to; "" is the list itself.
-        before: goes before this one of that group; "" is the end.
+        display: id of the display or group.
+        group: id of the group; "" is the list itself.
+        before: id of the entry of that group that follows it; "" is the end.
     """
 
     display: str
@@ -85,11 +81,11 @@ class MoveDisplay(Command):
 
 @dataclass(frozen=True)
 class TraceDisplay(Command):
-    """Note the times of the next sample that a display draws.
+    """Trace the next sample that a display draws.
 
     Args:
         display: id of the display.
-        answer: is given them; cancel it to stop waiting.
+        answer: gets the times; cancel it to stop waiting.
     """
 
     display: str

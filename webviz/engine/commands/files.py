@@ -1,4 +1,4 @@
-"""What reads or writes configs."""
+"""Commands that read or write configs."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from webviz.engine.commands.command import Command
 
 
 class FileCommand(Command):
-    """What reads or writes configs; it is done beside the frame loop, in order."""
+    """A command that reads or writes a config; these run beside the frame loop, in order."""
 
 
 @dataclass(frozen=True)
 class Open(FileCommand):
-    """Show what a config file says instead of what is shown."""
+    """Replace the current config by that of a file."""
 
     path: str
 
 
 @dataclass(frozen=True)
 class Load(FileCommand):
-    """Show what the text of a config says instead of what is shown.
+    """Replace the current config by that of a text.
 
     Args:
-        text: YAML, or RViz's if the name ends with .rviz.
-        name: of the file it came from; it is not read or written.
+        text: YAML, or RViz's format if the name ends with .rviz.
+        name: of the file it came from, which is not accessed.
     """
 
     text: str
@@ -34,7 +34,7 @@ class Load(FileCommand):
 
 @dataclass(frozen=True)
 class Save(FileCommand):
-    """Write what is shown to a file, "" to where it came from."""
+    """Save the current config to a file; "" is the file it came from."""
 
     path: str = ""
 
@@ -48,11 +48,11 @@ class WriteDisplays(FileCommand):
 
 @dataclass(frozen=True)
 class Export(FileCommand):
-    """Hand what is shown to somebody as the text of a config, such as a browser that downloads it.
+    """Pass on the current config as text, such as for a download.
 
     Args:
-        deliver: called with that text by the frame loop, so it must not block.
-        name: of the file it is for; RViz's text if it ends with .rviz, else YAML.
+        deliver: called by the frame loop with the text; must not block.
+        name: of the file it is for; RViz's format if it ends with .rviz, else YAML.
     """
 
     deliver: Callable[[str], None]

@@ -1,4 +1,4 @@
-"""What is about the panel itself."""
+"""Commands for the panel."""
 
 from __future__ import annotations
 
@@ -9,4 +9,4 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class Refresh(Command):
-    """Show a new state at once, since somebody asked a panel for something else of it."""
+    """Update panels at once, such as after another tab was selected."""

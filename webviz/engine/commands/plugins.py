@@ -1,4 +1,4 @@
-"""What is about plug-ins."""
+"""Commands for plug-ins."""
 
 from __future__ import annotations
 
@@ -10,6 +10,6 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class ReloadPlugin(Command):
-    """Load a file with displays again, after it was saved."""
+    """Reload a plug-in file after it was saved."""
 
     path: Path

@@ -1,4 +1,4 @@
-"""What changes the scene as a whole."""
+"""Commands for the scene as a whole."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class SetFixedFrame(Command):
-    """Choose the frame that everything is drawn in."""
+    """Set the frame that everything is drawn in."""
 
     frame: str
 
 
 @dataclass(frozen=True)
 class SetBackground(Command):
-    """Choose the colour behind the scene."""
+    """Set the background colour."""
 
     color: Color
 
 
 @dataclass(frozen=True)
 class SetFrameRate(Command):
-    """Choose how often in a second the scene may change."""
+    """Set the maximum number of scene updates per second."""
 
     hz: float

@@ -1,4 +1,4 @@
-"""What is about time."""
+"""Commands for time."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class Reset(Command):
-    """Forget transforms and messages, as RViz's Reset does."""
+    """Discard transforms and messages, as RViz's Reset does."""
 
 
 @dataclass(frozen=True)
 class Pause(Command):
-    """Let time stand still on the page, or go on; messages wait meanwhile."""
+    """Pause or resume; messages wait while paused."""
 
     paused: bool = True

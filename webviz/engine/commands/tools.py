@@ -1,4 +1,4 @@
-"""What is about tools."""
+"""Commands for tools."""
 
 from __future__ import annotations
 
@@ -8,11 +8,7 @@ from typing import Any
 
 from webviz.api.status import Status
 from webviz.api.tool import Position
-from webviz.engine.commands.command import Command
-
-
-def tell_nobody(status: Status) -> None:
-    """Report to nobody what came of a stroke."""
+from webviz.engine.commands.command import Command, ignore
 
 
 @dataclass(frozen=True)
@@ -22,14 +18,14 @@ class UseTool(Command):
     Args:
         tool: id of the tool, or its name.
         points, yaw, keys: of the stroke.
-        tell: called with what came of it, from any thread, so it must not block.
+        tell: called with the result from any thread; must not block.
     """
 
     tool: str
     points: tuple[Position, ...]
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
-    tell: Callable[[Status], None] = tell_nobody
+    tell: Callable[[Status], None] = ignore
 
 
 @dataclass(frozen=True)

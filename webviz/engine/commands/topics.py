@@ -1,4 +1,4 @@
-"""What is about topics."""
+"""Commands for topics."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class InspectTopic(Command):
-    """Follow a topic that need not be shown: its rate and its last message; "" is none."""
+    """Show the rate and the last message of a topic, displayed or not; "" is none."""
 
     topic: str

@@ -1,4 +1,4 @@
-"""What is about transforms."""
+"""Commands for transforms."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class InspectTransforms(Command):
-    """Report on the tree of transforms, or no longer."""
+    """Start or stop showing the tree of transforms."""
 
     inspect: bool = True

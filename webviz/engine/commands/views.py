@@ -1,4 +1,4 @@
-"""What is about views."""
+"""Commands for views."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from webviz.engine.commands.command import Command
 
 
 class ViewCommand(Command):
-    """What is about views.
+    """A command for views.
 
-    It acts in the browser that sends it, and in every one if a program does. With an id as
-    `browser` it acts there, as a program may want.
+    It acts on the browser with the id `browser`; without one, on the browser that sends it, or on
+    all browsers if a program sends it.
     """
 
 
 @dataclass(frozen=True)
 class ShowView(ViewCommand):
-    """Look at the scene in another way.
+    """Show a view.
 
     Args:
-        view: or the name of a saved one.
+        view: a view, or the name of a saved one.
         browser: see `ViewCommand`.
     """
 
@@ -32,11 +32,11 @@ class ShowView(ViewCommand):
 
 @dataclass(frozen=True)
 class ChangeView(ViewCommand):
-    """Change a property of what is seen, and keep what is looked at.
+    """Change a property of the current view, with as little camera movement as possible.
 
     Args:
-        key: of the view: "type", "target_frame", "distance" and so on.
-        value: of the property; the name of a type for "type".
+        key: name of the property: "type", "target_frame", "distance" and so on.
+        value: its new value; a name of `VIEW_TYPES` for "type".
         browser: see `ViewCommand`.
     """
 
@@ -47,14 +47,14 @@ class ChangeView(ViewCommand):
 
 @dataclass(frozen=True)
 class ResetView(ViewCommand):
-    """Go back to where a view of this type begins, as RViz's Zero does."""
+    """Reset the view to the defaults of its type, as RViz's Zero does."""
 
     browser: int | None = None
 
 
 @dataclass(frozen=True)
 class FocusDisplay(ViewCommand):
-    """Look at all that a display, or what is in a group, draws.
+    """Fit the view to everything that a display or group draws.
 
     Args:
         display: id of the display or group.
@@ -67,12 +67,12 @@ class FocusDisplay(ViewCommand):
 
 @dataclass(frozen=True)
 class SaveView(ViewCommand):
-    """Keep what a browser shows, under a name.
+    """Save the current view under a name.
 
     Args:
-        name: of the view; one that has it is replaced.
-        browser: see `ViewCommand`; for a program without it, the one that came last.
-        view: instead of what a browser shows.
+        name: of the view; replaces a saved view of that name.
+        browser: see `ViewCommand`; for a program, by default the one that connected last.
+        view: instead of the current view.
     """
 
     name: str
@@ -82,7 +82,7 @@ class SaveView(ViewCommand):
 
 @dataclass(frozen=True)
 class RenameView(ViewCommand):
-    """Give a saved view another name."""
+    """Rename a saved view."""
 
     name: str
     new_name: str
@@ -90,18 +90,18 @@ class RenameView(ViewCommand):
 
 @dataclass(frozen=True)
 class RemoveView(ViewCommand):
-    """Forget a saved view."""
+    """Remove a saved view."""
 
     name: str
 
 
 @dataclass(frozen=True)
 class StartWithView(ViewCommand):
-    """Let browsers and screenshots begin with what a browser shows.
+    """Make the current view the default of browsers and screenshots.
 
     Args:
-        browser: see `ViewCommand`; for a program without it, the one that came last.
-        view: instead of what a browser shows, or the name of a saved one.
+        browser: see `ViewCommand`; for a program, by default the one that connected last.
+        view: instead of the current view; a view or the name of a saved one.
     """
 
     browser: int | None = None
@@ -110,11 +110,11 @@ class StartWithView(ViewCommand):
 
 @dataclass(frozen=True)
 class SaveImage(ViewCommand):
-    """Let a browser download what it shows as a PNG.
+    """Let a browser download its picture as a PNG.
 
     Args:
         browser: see `ViewCommand`.
-        name: of the file; "" is made of the date and the time.
+        name: of the file; "" is one with date and time.
     """
 
     browser: int | None = None

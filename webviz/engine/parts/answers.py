@@ -1,4 +1,4 @@
-"""What came of commands."""
+"""The answers to commands."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from webviz.engine.requests import Requests
 
 
 class AnswersPart(Part):
-    """Tells panels the last answer.
+    """Shows the last answer in panels.
 
     Args:
         core: what all parts share.
-        requests: that are answered.
+        requests: has the answers.
     """
 
     name = "Answers"
@@ -26,7 +26,7 @@ class AnswersPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands: a new state follows every one, which is all of it."""
+        """The handler of each command; Refresh needs none, as every command updates the state."""
         return {Refresh: lambda command, sender: None}
 
     def state(self) -> Mapping[str, Any]:

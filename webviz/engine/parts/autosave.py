@@ -1,4 +1,4 @@
-"""A file that follows every change."""
+"""Autosave: a session file that follows every change."""
 
 from __future__ import annotations
 
@@ -19,18 +19,16 @@ log = logging.getLogger("webviz")
 
 AUTOSAVE_S = 2.0
 ENDING_S = 0.5
-"""How long the end waits until the last state is kept, at most twice."""
-NOT_KEPT = "The session is not kept: %s"
+"""How long `close` waits for the disk, at most twice."""
+NOT_SAVED = "The session is not saved: %s"
 
 
 class AutosavePart(Part):
-    """Keeps the last state.
-
-    The file is one of its own, so a config that somebody saved is never touched.
+    """Saves the last state to a file of its own, so the config file is never overwritten.
 
     Args:
         core: what all parts share.
-        files: what to keep.
+        files: has the state.
         path: of the file.
     """
 
@@ -40,38 +38,38 @@ class AutosavePart(Part):
         super().__init__(core)
         self._files = files
         self._path = path
-        self._keeping: Future[None] | None = None
-        self._kept: dict[str, Any] = {}
+        self._saving: Future[None] | None = None
+        self._saved: dict[str, Any] = {}
         self._next = 0.0
 
     def keep_up(self, commanded: bool) -> None:
-        """Keep the last state now and then."""
+        """Save the state every `AUTOSAVE_S`."""
         if (now := time.monotonic()) >= self._next:
             self._next = now + AUTOSAVE_S
-            self._keep()
+            self._save()
 
     def close(self) -> None:
-        """Keep the last state, if the disk responds soon."""
+        """Save the last state, if the disk responds in time."""
         deadline = time.monotonic() + ENDING_S
-        for _ in range(2):  # what is under way may be older
-            if self._keeping is not None:
-                wait([self._keeping], max(deadline - time.monotonic(), 0.0))
-            self._keep()
-        if self._keeping is not None and wait([self._keeping], ENDING_S).not_done:
-            log.warning(NOT_KEPT, "the disk does not respond")
+        for _ in range(2):  # the file being written may be older
+            if self._saving is not None:
+                wait([self._saving], max(deadline - time.monotonic(), 0.0))
+            self._save()
+        if self._saving is not None and wait([self._saving], ENDING_S).not_done:
+            log.warning(NOT_SAVED, "the disk does not respond")
 
-    def _keep(self) -> None:
-        """Begin to keep the state, if anything of it is new."""
+    def _save(self) -> None:
+        """Begin to save the state, if it changed."""
         config = self._files.config()
         values = config_file.document(config)
-        is_busy = self._keeping is not None and not self._keeping.done()
-        if is_busy or values == self._kept:
+        is_busy = self._saving is not None and not self._saving.done()
+        if is_busy or values == self._saved:
             return
-        self._kept = values
+        self._saved = values
         try:
-            self._keeping = in_thread(functools.partial(_write, config, self._path))
+            self._saving = in_thread(functools.partial(_write, config, self._path))
         except OSError as error:
-            log.warning(NOT_KEPT, error.strerror)
+            log.warning(NOT_SAVED, error.strerror)
 
 
 def _write(config: Config, path: Path) -> None:
@@ -79,4 +77,4 @@ def _write(config: Config, path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         config_file.write_text(config_file.dump(config), path)
     except (ConfigError, OSError) as error:
-        log.warning(NOT_KEPT, error)
+        log.warning(NOT_SAVED, error)

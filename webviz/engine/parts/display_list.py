@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import copy
-import functools
 import itertools
 import logging
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar, cast
 
@@ -20,6 +19,7 @@ from webviz.api.group import Group
 from webviz.api.properties import FIRST
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Kept, kept, made_again
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.state import Row
@@ -39,7 +39,7 @@ class Entry:
 
     Args:
         id: for commands.
-        content: a display at work, a group, or an entry of a config that cannot be shown.
+        content: a running display, a group, or an entry of a config that cannot be shown.
         parent: the group it is in.
     """
 
@@ -48,25 +48,20 @@ class Entry:
     parent: Entry | None = None
 
     @property
-    def name(self) -> str:
-        """As shown in the list."""
-        return self.own.name
-
-    @property
-    def own(self) -> Display | Group | Unreadable:
-        """What has its properties."""
+    def declared(self) -> Display | Unreadable:
+        """The display, the group, or the entry that cannot be shown."""
         return self.content.display if isinstance(self.content, Runner) else self.content
 
     @property
     def depth(self) -> int:
-        """In how many groups it is."""
+        """How many groups it is in."""
         return 0 if self.parent is None else 1 + self.parent.depth
 
     @property
     def is_enabled(self) -> bool:
-        """Whether nothing switches it off: neither itself nor a group it is in."""
-        enabled = isinstance(self.own, Unreadable) or self.own.enabled
-        return enabled and (self.parent is None or self.parent.is_enabled)
+        """Whether it and all groups it is in are enabled."""
+        own = isinstance(self.declared, Unreadable) or self.declared.enabled
+        return own and (self.parent is None or self.parent.is_enabled)
 
     def is_within(self, other: Entry) -> bool:
         """Whether it is `other` or in it."""
@@ -74,10 +69,10 @@ class Entry:
 
 
 class DisplayList:
-    """All displays, each group before what is in it.
+    """All displays; each group precedes its contents.
 
     Args:
-        services: of the runners.
+        services: for the runners.
     """
 
     def __init__(self, services: Services) -> None:
@@ -86,24 +81,17 @@ class DisplayList:
         self._made = 0
 
     def add(self, item: Item, parent: Entry | None = None) -> Entry:
-        """Add a display, or a group with all that is in it, at the end of a group or the list.
+        """Add a display, or a group with its contents, at the end of a group or the list.
 
         Raises:
-            ConfigError: there are too many.
+            ConfigError: the list is full.
         """
         self._make_room(1)
         self._made += 1
         id = f"display{self._made}"
-        if isinstance(item, Branch):
-            entry = Entry(id, item.group, parent)
-        elif isinstance(item, Unreadable):
-            if not item.is_from_rviz:  # those are in the report on the whole file
-                log.warning("%s", item.reason)
-            entry = Entry(id, item, parent)
-        elif isinstance(item, Group):
-            entry = Entry(id, item, parent)
-        else:
-            entry = Entry(id, Runner(id, item, self._services), parent)
+        if isinstance(item, Unreadable) and not item.is_from_rviz:  # else it is in the report
+            log.warning("%s", item.reason)
+        entry = Entry(id, self._content(id, item), parent)
         self._insert([entry], parent)
         if isinstance(item, Branch):
             for each in item.displays:
@@ -111,7 +99,7 @@ class DisplayList:
         return entry
 
     def remove(self, id: str) -> None:
-        """Remove a display, or a group with all that is in it."""
+        """Remove a display, or a group with its contents."""
         if not (gone := self.find(id)):
             return
         for entry in self._entries:
@@ -127,16 +115,16 @@ class DisplayList:
         self._entries = []
 
     def duplicate(self, id: str) -> Entry | None:
-        """Add a copy right behind a display, or a group with all that is in it, and return it.
+        """Add a copy of a display, or of a group with its contents, after it, and return it.
 
         Raises:
-            ConfigError: there are too many.
+            ConfigError: the list is full.
         """
         if not (original := self.find(id)):
             return None
         self._make_room(len(self.within(id)))
         copied = _copy(self._item(original))
-        names = {entry.name for entry in self._entries}
+        names = {entry.declared.name for entry in self._entries}
         if not isinstance(copied, Unreadable):
             own = copied.group if isinstance(copied, Branch) else copied
             own.name = _fresh(own.name, names)
@@ -146,35 +134,33 @@ class DisplayList:
         return twin
 
     def move(self, id: str, group: str = "", before: str = "") -> None:
-        """Put a display, or a group with all that is in it, elsewhere.
+        """Move a display, or a group with its contents.
 
         Args:
-            id: what to move.
-            group: where to; "" is the list itself.
-            before: goes before this one of that group; "" is the end.
+            id: of the display or group.
+            group: id of its new group; "" is the list itself.
+            before: id of the entry of that group that follows it; "" is the end.
         """
         moved, parent, successor = self.find(id), self.group(group), self.find(before)
         if moved is None or moved is successor or (parent and parent.is_within(moved)):
             return
         block = [entry for entry in self._entries if entry.is_within(moved)]
-        shown = set(self.active())
-        self._entries = [entry for entry in self._entries if not entry.is_within(moved)]
-        moved.parent = parent
-        self._insert(block, parent, successor)
-        for runner in shown - set(self.active()):
-            runner.hide()
+        with self._hiding_disabled():
+            self._entries = [entry for entry in self._entries if not entry.is_within(moved)]
+            moved.parent = parent
+            self._insert(block, parent, successor)
 
     def group(self, id: str) -> Entry | None:
-        """The entry of an id, if it is a group; nothing else can hold displays."""
+        """The entry of an id if it is a group, else None."""
         entry = self.find(id)
         return entry if entry and isinstance(entry.content, Group) else None
 
     def find(self, id: str) -> Entry | None:
-        """The entry of an id."""
+        """The entry of an id, None if it is unknown."""
         return next((entry for entry in self._entries if entry.id == id), None)
 
     def within(self, id: str) -> list[str]:
-        """The ids of a display or group and of all that is in it."""
+        """The ids of a display or group and of its contents."""
         outer = self.find(id)
         return [entry.id for entry in self._entries if outer and entry.is_within(outer)]
 
@@ -186,20 +172,16 @@ class DisplayList:
             AttributeError: there is no such property.
         """
         entry = self.find(id)
-        content = entry.content if entry else None
-        before = set(self.active())
+        if entry is None or isinstance(entry.declared, Unreadable):
+            return
         try:
-            if isinstance(content, Runner):
-                content.set(path, value)
-            elif isinstance(content, Group):
-                set_property(content, path, value)
+            with self._hiding_disabled():
+                if isinstance(entry.content, Runner):
+                    entry.content.set(path, value)
+                else:
+                    set_property(entry.declared, path, value)
         except msgspec.ValidationError as error:
-            own = content.display if isinstance(content, Runner) else content
-            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
-            found = config_file.explain(error, type(own), nested)
-            raise ConfigError(f"Not changed: {config_file.sentences([found])}") from error
-        for runner in before - set(self.active()):
-            runner.hide()
+            raise not_changed(error, type(entry.declared), path, value) from error
 
     def reset(self, id: str) -> None:
         """Give the properties of a display their defaults, but for its name, switch and topics."""
@@ -215,11 +197,11 @@ class DisplayList:
                 self.set(id, name, default)
 
     def runners(self) -> list[Runner]:
-        """Every display at work."""
+        """Every running display."""
         return [entry.content for entry in self._entries if isinstance(entry.content, Runner)]
 
     def active(self) -> list[Runner]:
-        """The displays that neither they nor their groups switch off."""
+        """The displays that are enabled, and all groups they are in."""
         return [
             entry.content
             for entry in self._entries
@@ -227,10 +209,10 @@ class DisplayList:
         ]
 
     def read_again(self, settings: Settings) -> Settings:
-        """Show the entries that can be read now, since a plug-in has their type or property.
+        """Retry entries that could not be read, after a plug-in was loaded.
 
         Returns:
-            The settings, with what is kept of entries that came from RViz for writing them again.
+            The settings, with the parts of entries from RViz that only saving needs.
         """
         for index, entry in enumerate(self._entries):
             if isinstance(entry.content, Unreadable):
@@ -238,10 +220,8 @@ class DisplayList:
                 (item,), settings, report = rviz.revive([item], settings)
                 for sentence in report.sentences():
                     log.warning("%s", sentence)
-                if isinstance(item, Unreadable):
-                    entry.content = item
-                elif not isinstance(item, Branch):
-                    entry.content = Runner(entry.id, item, self._services)
+                if not isinstance(item, Branch):
+                    entry.content = self._content(entry.id, item)
         self._number()
         return settings
 
@@ -255,13 +235,13 @@ class DisplayList:
         ]
 
     def items(self, parent: Entry | None = None) -> list[Item]:
-        """What to save of a group, or of the whole list: a snapshot, for any thread."""
+        """The contents of a group or of the list to save: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
     def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
         """What undo needs of the entries, by id; unchanged ones are those from `before`."""
         return {
-            entry.id: kept(entry.own, _id(entry.parent), before.get(entry.id))
+            entry.id: kept(entry.declared, _id(entry.parent), before.get(entry.id))
             for entry in self._entries
         }
 
@@ -298,11 +278,11 @@ class DisplayList:
         for name, value in wanted.values.items():
             # A plug-in that changed meanwhile may lack the property, or want other values.
             with contextlib.suppress(ConfigError, AttributeError):
-                if msgspec.to_builtins(getattr(entry.own, name)) != value:
+                if msgspec.to_builtins(getattr(entry.declared, name)) != value:
                     self.set(entry.id, name, value)
 
     def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
-        """The list as a panel shows it; a group is as well as the worst display in it."""
+        """The list for a panel; the statuses of a group summarize the displays in it."""
         rows = [self._row(entry, statuses_of) for entry in self._entries]
         for index, entry in enumerate(self._entries):
             if isinstance(entry.content, Group) and entry.is_enabled:
@@ -314,6 +294,20 @@ class DisplayList:
                 rows[index] = replace(rows[index], statuses=_summary(inner))
         return tuple(rows)
 
+    def _content(self, id: str, item: Item) -> Runner | Group | Unreadable:
+        content = item.group if isinstance(item, Branch) else item
+        if isinstance(content, Group | Unreadable):
+            return content
+        return Runner(id, content, self._services)
+
+    @contextlib.contextmanager
+    def _hiding_disabled(self) -> Iterator[None]:
+        """Hide the displays that a change disables."""
+        before = set(self.active())
+        yield
+        for runner in before - set(self.active()):
+            runner.hide()
+
     def _make_room(self, more: int) -> None:
         if len(self._entries) + more > MAX_DISPLAYS:
             raise ConfigError(
@@ -321,28 +315,25 @@ class DisplayList:
             )
 
     def _item(self, entry: Entry) -> Item:
-        content = entry.content
-        if isinstance(content, Group):
-            return Branch(copy.copy(content), self.items(entry))
-        return copy.copy(content.display) if isinstance(content, Runner) else content
+        copied = copy.copy(entry.declared)
+        return Branch(copied, self.items(entry)) if isinstance(copied, Group) else copied
 
     def _row(self, entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
-        content, depth = entry.content, entry.depth
-        if isinstance(content, Unreadable):
-            status = {"Config": Status(Level.ERROR, content.reason)}
-            return Row(entry.id, "", None, entry.name, status, depth, content.enabled)
-        if isinstance(content, Group):
-            return Row(entry.id, "Group", content, content.name, {}, depth, content.enabled)
-        statuses = statuses_of(content) if entry.is_enabled else {}
-        display = content.display
-        name = type_name(type(display))
-        scale = content.color_scale() if entry.is_enabled else None
-        return Row(entry.id, name, display, display.name, statuses, depth, display.enabled, scale)
+        own, content = entry.declared, entry.content
+        if isinstance(own, Unreadable):
+            status = {"Config": Status(Level.ERROR, own.reason)}
+            return Row(entry.id, "", None, own.name, status, entry.depth, own.enabled)
+        kind = type_name(type(own))
+        statuses: Mapping[str, Status] = {}
+        scale = None
+        if isinstance(content, Runner) and entry.is_enabled:
+            statuses, scale = statuses_of(content), content.color_scale()
+        return Row(entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
 
     def _insert(
         self, block: list[Entry], parent: Entry | None, before: Entry | None = None
     ) -> None:
-        """Put entries before one of their group, or behind the last one."""
+        """Insert entries before another of their group, or at its end."""
         index = len(self._entries)
         if before is not None and before.parent is parent:
             index = self._entries.index(before)
@@ -352,7 +343,7 @@ class DisplayList:
         self._number()
 
     def _number(self) -> None:
-        """Tell every display its place in the list."""
+        """Update the place of every display in the list."""
         for order, entry in enumerate(self._entries):
             if isinstance(entry.content, Runner):
                 entry.content.order = order
@@ -369,7 +360,7 @@ def _copied(display: D) -> D:
 
 
 def _fresh(name: str, taken: set[str]) -> str:
-    """A name that nothing has: `Scan`, then `Scan 2`."""
+    """An unused name: `Scan 2` for `Scan`."""
     stem = re.sub(r" \d+$", "", name)
     return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)
 
@@ -379,7 +370,7 @@ def _id(entry: Entry | None) -> str:
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:
-    """What a group says of what is in it: one line for each display that has a problem."""
+    """The statuses of a group: the worst of each display in it that has a problem."""
     return {
         row.name: max(row.statuses.values(), key=lambda status: status.level)
         for row in rows

@@ -1,4 +1,4 @@
-"""The displays at work, and what changes their list."""
+"""The displays, and the commands that change their list."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class DisplaysPart(Part):
 
     Args:
         core: what all parts share.
-        services: of the runners.
+        services: for the runners.
     """
 
     name = "Displays"
@@ -46,7 +46,7 @@ class DisplaysPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {
             SetProperty: self._set,
             AddDisplay: self._add,
@@ -58,11 +58,11 @@ class DisplaysPart(Part):
         }
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """What the displays hear. The first one decides on the type and QoS of a topic."""
+        """The subscriptions of the displays. The first decides on type and QoS of a topic."""
         return merged(runner.subscriptions() for runner in self.list.active())
 
     def take(self, batches: Batches) -> None:
-        """Hand messages to the displays."""
+        """Pass messages to the displays."""
         for runner in self.list.active():
             runner.take(batches, self.core.frames, self.core.offers)
 
@@ -72,7 +72,7 @@ class DisplaysPart(Part):
             self.core.guard(self.name, runner.reset)
 
     def state(self) -> Mapping[str, Any]:
-        """The list."""
+        """The list of displays."""
         return {"rows": self.list.rows(self._statuses_of)}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:

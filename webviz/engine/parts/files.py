@@ -1,4 +1,4 @@
-"""The file that is shown and saved."""
+"""The config file: opening, saving, and whether it is up to date."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ from webviz.files.config.files import SUFFIXES
 
 MAX_OTHERS = 200
 FOLDER_S = 2.0
-"""How often to look for config files that others wrote."""
+"""How often to list the config files of the folder."""
 
 
 class FilesPart(Part):
-    """A config at work, and where it is saved.
+    """The config that is shown, and its file.
 
     Args:
         core: what all parts share.
-        displays: to fill; empty.
-        settings: to fill.
-        views: begin anew when another config is shown.
-        tools: to fill.
-        config: what to begin with.
-        path: the file it came from, None for none.
+        displays: empty; filled with those of the config.
+        settings: replaced by those of the config.
+        views: reset when another config is opened.
+        tools: replaced by those of the config.
+        config: what to show first.
+        path: its file, None if it has none.
     """
 
     name = "Files"
@@ -66,16 +66,16 @@ class FilesPart(Part):
         self._report: list[str] = []
         self._others: tuple[str, ...] = ()
         self._listing: Future[tuple[str, ...]] | None = None
-        self._next_look = 0.0
+        self._next_listing = 0.0
         self._saved: dict[Path | None, dict[str, Any]] = {}
-        """By file, what it says."""
+        """The content of the file, by its path."""
         self._is_changed = False
         self._show(config, path)
         views.start_with(config.settings.view)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {
             Open: self._open,
             Load: self._load,
@@ -85,7 +85,7 @@ class FilesPart(Part):
         }
 
     def config(self) -> Config:
-        """What to save to come back to this: a snapshot, for any thread."""
+        """The current config: a snapshot, for any thread."""
         return Config(self._settings.settings, self._displays.list.items(), self._tools.items())
 
     def origin(self) -> tuple[Path | None, list[str]]:
@@ -97,27 +97,27 @@ class FilesPart(Part):
         self._path, self._report = path, list(report)
 
     def keep_up(self, commanded: bool) -> None:
-        """Find out whether something was changed since it was saved, and what the folder has."""
+        """Update whether there are unsaved changes, and the files of the folder."""
         if commanded:
             self._is_changed = config_file.document(self.config()) != self._saved.get(self._path)
         now = time.monotonic()
-        if commanded or now >= self._next_look:
-            self._next_look = now + FOLDER_S
-            self._look_around()
+        if commanded or now >= self._next_listing:
+            self._next_listing = now + FOLDER_S
+            self._list_folder()
 
     def state(self) -> Mapping[str, Any]:
-        """Where this is saved."""
+        """The file, and the others of its folder."""
         if self._listing is not None and self._listing.done():
             self._others, self._listing = self._listing.result(), None
         path = str(self._path) if self._path else ""
         return {"file": File(path, self._is_changed, str(self._folder), self._others)}
 
     def statuses(self) -> Mapping[str, Status]:
-        """What of the .rviz file that is open has no counterpart here."""
+        """The unsupported parts of the open .rviz file."""
         return {"Import": import_status(self._report)} if self._report else {}
 
-    def _look_around(self) -> None:
-        """Begin to look for the config files of the folder; `state` has them a moment later."""
+    def _list_folder(self) -> None:
+        """Begin to list the config files of the folder; `state` takes the result."""
         if self._listing is None:
             with contextlib.suppress(OSError):
                 self._listing = in_thread(functools.partial(_config_files, self._folder))
@@ -147,7 +147,7 @@ class FilesPart(Part):
     def _save(self, command: Save, sender: Sender) -> Job[None]:
         target = self._folder / command.path if command.path else self._path
         if target is None:
-            raise ConfigError("This config has no file yet: give it a name.")
+            raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()
 
         def then(_: None) -> str:
@@ -183,7 +183,7 @@ class FilesPart(Part):
 
 
 def _config_files(folder: Path) -> tuple[str, ...]:
-    """The names of the config files in a folder, sorted, not more than can be offered."""
+    """The names of the config files in a folder, sorted, at most `MAX_OTHERS`."""
     try:
         names = [path.name for path in folder.iterdir() if path.suffix.lower() in SUFFIXES]
     except OSError:

@@ -68,7 +68,7 @@ class HistoryPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {Undo: self._take_back, Redo: self._do_again}
 
     def state(self) -> Mapping[str, Any]:

@@ -1,4 +1,4 @@
-"""What the parts of a viewer are, and what they share."""
+"""The base class of the parts of a viewer, and what they share."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""
 
 Handler = Callable[[Any, Sender], str | Job[Any] | None]
-"""Does a command, and returns what there is to tell of it; of a `FileCommand`, its slow part.
+"""Carries out a command and returns its answer if it has one; of a `FileCommand`, its slow part.
 
-It raises a `webviz.Error` to refuse it, with a sentence.
+It raises a `webviz.Error` with one sentence to refuse the command.
 """
 
 
@@ -43,11 +43,11 @@ class Core:
         self.clock = clock
         self.buffer = TransformBuffer()
         self.frames = Frames(self.buffer, "", 0)
-        """Where everything is at the time that is shown."""
+        """The transforms at the time that is shown."""
         self.now_ns = 0
-        """ROS time of the turn, whatever time is shown; 0 while it is not known."""
+        """ROS time of the turn, also while paused; 0 while it is unknown."""
         self.offers: Mapping[str, Offer] = {}
-        """What is known of every topic."""
+        """Publishers and QoS by topic."""
 
     def is_watched(self) -> bool:
         """Whether any browser is connected."""
@@ -55,41 +55,41 @@ class Core:
 
 
 class Part:
-    """One thing that a viewer does: it owns some commands and some fields of `State`.
+    """One responsibility of a viewer: it owns some commands and some fields of `State`.
 
-    All methods are called by the frame loop, so none may block. What they raise becomes a status
-    named after the part.
+    The frame loop calls all methods, so none may block. Exceptions become a status named after the
+    part.
 
     Args:
         core: what all parts share.
     """
 
     name: ClassVar[str] = ""
-    """In the sentence that says that the part failed."""
+    """Shown when the part fails."""
 
     def __init__(self, core: Core) -> None:
         self.core = core
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """What it wants to hear, by topic."""
+        """Its subscriptions by topic."""
         return {}
 
     def take(self, batches: Batches) -> None:
-        """Take what arrived since the last turn."""
+        """Take the messages since the last turn."""
 
     def reset(self) -> None:
-        """Forget what was received: time starts over."""
+        """Discard received data: time starts over."""
 
     def keep_up(self, commanded: bool) -> None:
-        """Do what has to be done now and then, before a new state.
+        """Do periodic work, before a new state.
 
         Args:
-            commanded: whether a command was done since the last call.
+            commanded: whether there was a command since the last call.
         """
 
     def state(self) -> Mapping[str, Any]:
@@ -97,8 +97,8 @@ class Part:
         return {}
 
     def statuses(self) -> Mapping[str, Status]:
-        """What it has to say of the viewer as a whole, by key."""
+        """Its statuses of the viewer as a whole, by key."""
         return {}
 
     def close(self) -> None:
-        """End: the loop is over."""
+        """Clean up when the loop has ended."""

@@ -1,4 +1,4 @@
-"""All parts of a viewer as one: each call reaches those it concerns, whatever others raise."""
+"""All parts of a viewer as one; an exception in one part does not affect the others."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _FIELDS = {field.name for field in fields(State)}
 
 
 class Parts:
-    """The parts in order: of two that want the same topic, the first decides how it is heard.
+    """The parts in order: the first that subscribes to a topic decides on its type and QoS.
 
     Args:
-        parts: at work; no two of them may handle the same command.
+        parts: no two of them may handle the same command.
         guard: for all calls.
     """
 
@@ -37,45 +37,45 @@ class Parts:
                 self._handlers[kind] = handler
 
     def do(self, command: Command, sender: Sender) -> str | Job[Any]:
-        """Let the part that owns a command do it.
+        """Let the part that owns a command carry it out.
 
         Returns:
-            What there is to tell of it, "" for what can be seen; or its slow part.
+            Its answer, "" if its effect is visible; or its slow part.
 
         Raises:
-            Error: no part owns it, or it cannot be done; a sentence.
+            Error: no part owns it, or it is refused; one sentence.
         """
         kind = type(command)
         if kind not in self._handlers:
-            raise Error(f"No part of this viewer handles {kind.__name__}. Add one that does.")
+            raise Error(f"No part of this viewer handles {kind.__name__}. Add one.")
         result = self._handlers[kind](command, sender) or ""
         if isinstance(result, Job) and not isinstance(command, FileCommand):
             raise TypeError(f"{kind.__name__} has a slow part but is no FileCommand")
         return result
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """All that has to be heard, by topic."""
+        """All subscriptions by topic."""
         own: Mapping[str, Subscription] = {}
         guard = self._guard
         return merged(guard.attempt(part.name, own, part.subscriptions) for part in self._parts)
 
     def take(self, batches: Batches) -> None:
-        """Hand on what arrived since the last turn."""
+        """Pass on the messages since the last turn."""
         for part in self._parts:
             self._guard(part.name, part.take, batches)
 
     def reset(self) -> None:
-        """Forget what was received."""
+        """Discard received data."""
         for part in self._parts:
             self._guard(part.name, part.reset)
 
     def keep_up(self, commanded: bool) -> None:
-        """Do what has to be done now and then."""
+        """Do periodic work."""
         for part in self._parts:
             self._guard(part.name, part.keep_up, commanded)
 
     def state(self) -> State:
-        """What all of them say of themselves; the fields of one that fails have their defaults."""
+        """The fields of all parts; those of a part that fails have their defaults."""
         found: dict[str, Any] = {}
         for part in self._parts:
             own: Mapping[str, Any] = {}
@@ -84,7 +84,7 @@ class Parts:
         return State(**{name: value for name, value in found.items() if name in _FIELDS}, more=more)
 
     def statuses(self) -> dict[str, Status]:
-        """What they have to say of the viewer as a whole, by key."""
+        """The statuses of the viewer as a whole, by key."""
         found: dict[str, Status] = {}
         for part in self._parts:
             own: Mapping[str, Status] = {}
@@ -92,6 +92,6 @@ class Parts:
         return found
 
     def close(self) -> None:
-        """End all of them."""
+        """Close all parts."""
         for part in self._parts:
             self._guard(part.name, part.close)

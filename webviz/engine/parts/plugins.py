@@ -1,4 +1,4 @@
-"""Displays from files that are edited meanwhile."""
+"""Plug-in files that change while the viewer runs."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from webviz.engine.parts.settings import SettingsPart
 
 
 class PluginsPart(Part):
-    """Loads plug-ins again.
+    """Reloads plug-ins.
 
     Args:
         core: what all parts share.
-        displays: that go on as what the file says now.
-        settings: keep what is needed to write entries that came from RViz again.
+        displays: become instances of the reloaded classes.
+        settings: keep the parts of entries from RViz that only saving needs.
     """
 
     name = "Plugins"
@@ -29,7 +29,7 @@ class PluginsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {ReloadPlugin: self._reload}
 
     def _reload(self, command: ReloadPlugin, sender: Sender) -> None:

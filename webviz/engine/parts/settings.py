@@ -1,4 +1,4 @@
-"""What holds for the scene as a whole: the fixed frame, the background, the frame rate."""
+"""The settings of the scene as a whole: fixed frame, background, frame rate."""
 
 from __future__ import annotations
 
@@ -9,22 +9,23 @@ import msgspec
 
 from webviz.engine.commands import Command, Sender, SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.files.config import ConfigError, Settings, explain, sentences
+from webviz.engine.parts.refusals import not_changed
+from webviz.files.config import ConfigError, Settings
 
 
 class SettingsPart(Part):
-    """The settings of a config at work."""
+    """The current settings."""
 
     name = "Settings"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self.settings = Settings()
-        """All that is shown besides displays."""
+        """Everything in the config except displays and tools."""
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {
             SetFixedFrame: self._set_fixed_frame,
             SetBackground: self._set_background,
@@ -41,8 +42,7 @@ class SettingsPart(Part):
         try:
             self.settings = msgspec.convert(values, Settings)
         except msgspec.ValidationError as error:
-            found = explain(error, Settings, values)
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, Settings, key, value) from error
 
     def state(self) -> Mapping[str, Any]:
         """All settings."""

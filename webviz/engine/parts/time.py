@@ -1,4 +1,4 @@
-"""The time that is shown: RViz's panel "Time"."""
+"""The time that is shown, as in RViz's Time panel."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from webviz.engine.state import Clock
 
 
 class TimePart(Part):
-    """ROS time: it may stand still on the page, and it may start over.
+    """ROS time, which can be paused and can start over.
 
     Args:
         core: what all parts share.
-        reset: lets all parts forget what they received.
+        reset: discards the received data of all parts.
     """
 
     name = "Time"
@@ -29,16 +29,16 @@ class TimePart(Part):
         self._paused_ns: int | None = None
         self._start()
         self.ros = RosTime(core.clock)
-        """Whether it started over."""
+        """Detects that time went back."""
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {Reset: self._reset, Pause: self._pause}
 
     @property
     def is_paused(self) -> bool:
-        """Whether somebody lets it stand still."""
+        """Whether the shown time is paused."""
         return self._paused_ns is not None
 
     @property
@@ -54,13 +54,13 @@ class TimePart(Part):
         return {"clock": Clock(ros_ns, elapsed[0], wall_s, elapsed[1], self.is_paused)}
 
     def statuses(self) -> Mapping[str, Status]:
-        """What is worth knowing of the time."""
+        """Whether time runs."""
         status = self.ros.status(self.core.offers)
         return {"Time": status} if status else {}
 
     def _start(self) -> None:
-        """Count elapsed time from now on."""
-        self._began_ns = 0  # until ROS time is known
+        """Restart elapsed time."""
+        self._began_ns = 0  # set when ROS time is known
         self._began_s = time.time()
 
     def _reset(self, command: Reset, sender: Sender) -> None:

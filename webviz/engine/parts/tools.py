@@ -1,9 +1,8 @@
-"""The tools of the toolbar, and what they publish."""
+"""The tools of the toolbar, and their publishers."""
 
 from __future__ import annotations
 
 import copy
-import functools
 import inspect
 import logging
 import math
@@ -15,27 +14,29 @@ import msgspec
 
 from webviz.api.declared import Topic, set_property
 from webviz.api.errors import Error
+from webviz.api.ports import Output
 from webviz.api.status import Level, Status
-from webviz.api.tool import Output, Stroke, Tool, ToolContext, outputs
+from webviz.api.tool import Stroke, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Kept, kept, made_again
 from webviz.engine.sources.graph import Outlet
 from webviz.engine.state import ToolButton
-from webviz.files.config import ConfigError, ToolItem, Unreadable, explain, nearest, sentences
+from webviz.files.config import ConfigError, ToolItem, Unreadable, nearest
 
 log = logging.getLogger("webviz")
 
 MAX_POINTS = 1000
 """Of a stroke."""
 DEPTH = 5
-"""Of a publisher, as RViz has it."""
+"""Queue depth of a publisher, RViz's."""
 Tell = Callable[[Status], None]
 
 
 class ToolsPart(Part):
-    """All tools; each browser has its own active one, which only its page knows."""
+    """All tools. Which one is active is known to each page alone."""
 
     name = "Tools"
 
@@ -47,11 +48,11 @@ class ToolsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {UseTool: self._use, SetToolProperty: self._set}
 
     def show(self, items: Sequence[ToolItem]) -> None:
-        """Have these tools instead of those before."""
+        """Replace all tools."""
         self._items = {}
         for item in items:
             self._made += 1
@@ -60,7 +61,7 @@ class ToolsPart(Part):
                 log.warning("%s", item.reason)
 
     def items(self) -> list[ToolItem]:
-        """What to save: a snapshot, for any thread."""
+        """The tools to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
 
     def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
@@ -76,19 +77,19 @@ class ToolsPart(Part):
         }
 
     def keep_up(self, commanded: bool) -> None:
-        """Make publishers in time, so that subscriptions know them before the first message."""
+        """Advertise the outputs of all tools, so that their first messages arrive."""
         wanted = {
             outlet
             for tool in self._tools().values()
             for _, output, topic in outputs(tool)
             if (outlet := self._outlet(output, topic))
         }
-        for outlet in wanted - self._advertised:
-            self.core.source.graph.advertise(outlet)
-        self._advertised = wanted
+        if wanted != self._advertised:
+            self._advertised = wanted
+            self.core.source.graph.advertise(wanted)
 
     def state(self) -> Mapping[str, Any]:
-        """What the toolbar shows."""
+        """The buttons of the toolbar."""
         return {"tools": tuple(_button(id, tool) for id, tool in self._tools().items())}
 
     def statuses(self) -> Mapping[str, Status]:
@@ -105,7 +106,7 @@ class ToolsPart(Part):
             return tools[wanted]
         names = {tool.name: tool for tool in tools.values()}
         if wanted not in names:
-            raise ConfigError(f"There is no tool `{wanted[:80]}`: {nearest(wanted, names)}")
+            raise ConfigError(f"Unknown tool `{wanted[:80]}`: {nearest(wanted, names)}")
         return names[wanted]
 
     def _use(self, command: UseTool, sender: Sender) -> None:
@@ -134,7 +135,7 @@ class ToolsPart(Part):
         sent.add_done_callback(lambda sent: tell(_outcome(topic.name, sent)))
 
     def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
-        """Where an output goes; None if the name of its topic is not valid."""
+        """The outlet of an output; None if its topic has no valid name."""
         try:
             name = self.core.source.resolve(topic.name) if topic.name else ""
         except ValueError:
@@ -154,9 +155,7 @@ class ToolsPart(Part):
         try:
             set_property(tool, path, value)
         except msgspec.ValidationError as error:
-            nested = functools.reduce(lambda v, key: {key: v}, reversed(path.split(".")), value)
-            found = explain(error, type(tool), nested)
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, type(tool), path, value) from error
 
 
 def _button(id: str, tool: Tool) -> ToolButton:
@@ -165,12 +164,12 @@ def _button(id: str, tool: Tool) -> ToolButton:
 
 
 def _outcome(topic: str, sent: Future[int]) -> Status:
-    """What to report of a message that was published."""
+    """The result of publishing a message."""
     try:
         count = sent.result()
     except (Error, CancelledError) as error:
         return Status(Level.ERROR, str(error) or "The viewer has ended.")
     if count == 0:
-        text = f"Nothing subscribes to {topic}. Start what listens to it or choose another topic."
+        text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
         return Status(Level.WARN, text)
     return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

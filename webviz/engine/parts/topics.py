@@ -1,4 +1,4 @@
-"""What arrives on topics: rates, and the last message of one that somebody looks into."""
+"""Topics: types, publishers, rates, and the last message of the inspected one."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from webviz.engine.sources import Raw, Subscription
 from webviz.engine.state import Inspected, Traffic
 
 SPAN_S = 3.0
-"""Over how long a rate is measured."""
+"""The window that rates are averaged over."""
 MAX_LINES = 60
 
 
 class TopicsPart(Part):
-    """Who publishes what, how fast it arrives, and the last message of one topic."""
+    """Lists topics and their traffic, and inspects one of them."""
 
     name = "Topics"
 
@@ -32,11 +32,11 @@ class TopicsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {InspectTopic: self._inspect}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The topic that is looked into while a browser is open, as the first type it has."""
+        """The inspected topic with its first type, while a browser is connected."""
         topic = self._inspected
         offer = self.core.offers.get(topic)
         if not offer or not offer.publishers or not self.core.is_watched():
@@ -44,7 +44,7 @@ class TopicsPart(Part):
         return {topic: Subscription(offer.publishers[0].type, Topic(topic))}
 
     def take(self, batches: Batches) -> None:
-        """Keep the newest message of the topic that is looked into."""
+        """Keep the newest message of the inspected topic."""
         for raw in batches.get(self._inspected, ()):
             self._last = self._inspected, raw, self.core.clock()
 
@@ -55,14 +55,14 @@ class TopicsPart(Part):
             topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
             for topic, offer in offers.items()
         }
-        traffic, inspected = self._traffic(), self._look()
+        traffic, inspected = self._traffic(), self._inspected_topic()
         return {"topics": types, "offers": offers, "traffic": traffic, "inspected": inspected}
 
     def _inspect(self, command: InspectTopic, sender: Sender) -> None:
         self._inspected = command.topic
 
     def _traffic(self) -> dict[str, Traffic]:
-        """Rates by topic, since some seconds ago; to be called some times a second."""
+        """Rates by topic over the last `SPAN_S`, if called a few times a second."""
         now, counts = self.core.clock(), self.core.source.inbox.received()
         self._counts.append((now, counts))
         while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
@@ -73,14 +73,14 @@ class TopicsPart(Part):
         traffic = {}
         for topic, (count, size) in counts.items():
             old_count, old_size = before.get(topic, (0, 0))
-            if count < old_count:  # subscribed anew
+            if count < old_count:  # subscribed again
                 old_count = old_size = 0
             span = now - then
             traffic[topic] = Traffic((count - old_count) / span, (size - old_size) / span)
         return traffic
 
-    def _look(self) -> Inspected | None:
-        """The topic that is looked into, with its last message as text."""
+    def _inspected_topic(self) -> Inspected | None:
+        """The inspected topic with its last message as text."""
         topic = self._inspected
         if not topic:
             return None
@@ -90,7 +90,7 @@ class TopicsPart(Part):
         if offer.problem:
             return Inspected(topic, f"This topic cannot be read: {offer.problem}.")
         if self._last is None or self._last[0] != topic:
-            return Inspected(topic, "No message has come yet.")
+            return Inspected(topic, "No message yet.")
         _, raw, at = self._last
         if self._text is None or self._text[0] is not raw:
             self._text = raw, _as_text(offer.type or offer.publishers[0].type, raw)

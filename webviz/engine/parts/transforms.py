@@ -1,4 +1,4 @@
-"""The transforms that arrive, and what is wrong with them."""
+"""The transforms, and problems with them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from webviz.engine.statuses import fixed_frame_status
 
 
 class TransformsPart(Part):
-    """Fills the buffer of transforms, and reports on their tree."""
+    """Fills the transform buffer and reports problems of its tree."""
 
     name = "Transforms"
 
@@ -26,7 +26,7 @@ class TransformsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {InspectTransforms: self._inspect}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
@@ -34,7 +34,7 @@ class TransformsPart(Part):
         return self._listener.subscriptions()
 
     def insert(self, batches: Batches) -> bool:
-        """Insert what arrived, before displays ask for it.
+        """Insert what arrived, before displays look it up.
 
         Returns:
             Whether the transforms started over in the past.
@@ -42,11 +42,11 @@ class TransformsPart(Part):
         return self._listener.take(batches, self.core.offers)
 
     def reset(self) -> None:
-        """Forget the moving transforms."""
+        """Discard the moving transforms."""
         self._listener.reset()
 
     def state(self) -> Mapping[str, Any]:
-        """The frames, and their tree if somebody wants to see it."""
+        """The frames, and their tree while it is inspected."""
         buffer, core = self.core.buffer, self.core
         wanted = self._is_inspected and core.is_watched()
         return {
@@ -55,7 +55,7 @@ class TransformsPart(Part):
         }
 
     def statuses(self) -> Mapping[str, Status]:
-        """Whether anything can be drawn in the fixed frame, and what is wrong with transforms."""
+        """Whether the fixed frame is known, and problems with transforms."""
         core = self.core
         fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
         found = self._listener.statuses(core.offers, core.frames.now_ns)

@@ -1,4 +1,4 @@
-"""What browsers look at: does what people ask of views, and lets views follow their frames."""
+"""The views of all browsers: their commands, and following target frames."""
 
 from __future__ import annotations
 
@@ -36,8 +36,9 @@ from webviz.engine.commands import (
 )
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
-from webviz.files.config import ConfigError, explain, nearest, sentences
+from webviz.files.config import ConfigError, nearest
 
 
 class ViewsPart(Part):
@@ -46,7 +47,7 @@ class ViewsPart(Part):
     Args:
         core: what all parts share.
         settings: has the saved views, and the one to start with.
-        displays: which may be looked at.
+        displays: can be focused on.
     """
 
     name = "Views"
@@ -62,7 +63,7 @@ class ViewsPart(Part):
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """What does each of its commands."""
+        """The handler of each command."""
         return {
             ShowView: self._show,
             ChangeView: self._change,
@@ -76,22 +77,22 @@ class ViewsPart(Part):
         }
 
     def start_with(self, view: View) -> None:
-        """Let browsers that join begin with a view."""
+        """Choose the view that browsers start with."""
         if view != self._start:
             self._start = view
             self._cameras.start_with(view)
 
     def open(self, view: View) -> None:
-        """Let every browser begin anew with a view, now and when it joins."""
+        """Show a view in every browser, now and when it connects."""
         self.start_with(view)
         self._cameras.show(view)
 
     def followed(self) -> set[str]:
-        """The frames whose poses `follow` will ask for."""
+        """The frames whose poses `follow` needs."""
         return self._cameras.target_frames()
 
     def follow(self, frames: Frames) -> None:
-        """Bring what views follow to where it is; the scene still has to be flushed."""
+        """Move views with their target frames; call before the scene is flushed."""
         wanted = self._cameras.target_frames()
         for frame in wanted:
             if pose := frames.latest(frame):
@@ -101,7 +102,7 @@ class ViewsPart(Part):
         self._placed = wanted
 
     def statuses(self) -> Mapping[str, Status]:
-        """Why views stand still."""
+        """Views whose target frame has no pose."""
         frames = self.core.frames
         lost = [
             f"The view cannot follow {frame}. {frames.why_not(frame)}"
@@ -111,7 +112,7 @@ class ViewsPart(Part):
         return {"Target Frame": Status(Level.WARN, " ".join(lost))} if lost else {}
 
     def state(self) -> Mapping[str, Any]:
-        """What every browser shows now."""
+        """The current view of every browser."""
         return {"views": self._cameras.views()}
 
     # Commands
@@ -133,7 +134,7 @@ class ViewsPart(Part):
         boxes = (self._scene.bounds(f"{id}/") for id in ids)
         box = union(box for box in boxes if box is not None)
         if box is None:
-            raise ConfigError("This display draws nothing to focus on.")
+            raise ConfigError("This display draws nothing to focus on. Check its statuses.")
         for id, view in self._seen(_browser(command, sender)).items():
             rig = self._rig(type(view), view.target_frame)
             size = self._cameras.size(id)
@@ -149,7 +150,7 @@ class ViewsPart(Part):
         saved, name, new_name = self._saved(), command.name, command.new_name
         view = _found(name, saved)
         if new_name != name and new_name in saved:
-            raise ConfigError(f"There is a view named {new_name} already.")
+            raise ConfigError(f"A view named {new_name} exists already. Choose another name.")
         names = {key: new_name if key == name else key for key in saved}
         self._keep({names[key]: saved[key] for key in saved} | {new_name: view})
 
@@ -170,16 +171,18 @@ class ViewsPart(Part):
         self._cameras.save_image(command.name, _browser(command, sender))
 
     def _seen(self, browser: int | None) -> Mapping[int, View]:
-        """The views of one browser or of all.
+        """The views of one browser, or of all.
 
         Raises:
-            ConfigError: there is none.
+            ConfigError: no browser is connected.
         """
         views = self._cameras.views()
         if browser is not None:
             views = {id_: view for id_, view in views.items() if id_ == browser}
         if not views:
-            raise ConfigError("No browser is open, or none that is ready.")
+            raise ConfigError(
+                "No browser is connected. Open the viewer in one, or wait until it has loaded."
+            )
         return views
 
     def _one(self, browser: int | None) -> View:
@@ -191,7 +194,7 @@ class ViewsPart(Part):
         height = self._cameras.size(browser)[1]
         if key == "type":
             if value not in VIEW_TYPES:
-                raise ConfigError(f"There is no view `{value}`: {nearest(str(value), VIEW_TYPES)}")
+                raise ConfigError(f"Unknown view type `{value}`: {nearest(str(value), VIEW_TYPES)}")
             cls = VIEW_TYPES[value]
             new_rig = self._rig(cls, view.target_frame)
             return mimic(view, rig, cls, view.target_frame, new_rig, height)
@@ -204,8 +207,7 @@ class ViewsPart(Part):
         try:
             return msgspec.convert(values | {key: value}, type(view))
         except msgspec.ValidationError as error:
-            found = explain(error, type(view), values | {key: value})
-            raise ConfigError(f"Not changed: {sentences([found])}") from error
+            raise not_changed(error, type(view), key, value) from error
 
     def _rig(self, cls: type[View], frame: str) -> Rig:
         return Rig() if frame == FIXED_FRAME else rig_of(cls, self.core.frames.latest(frame))
@@ -218,7 +220,7 @@ class ViewsPart(Part):
 
 
 def _browser(command: Any, sender: Sender) -> int | None:
-    """In which browser a command acts, None for every one."""
+    """The browser that a command acts on, None for all."""
     return sender.browser if command.browser is None else command.browser
 
 
@@ -228,5 +230,5 @@ def _named(view: View | str, saved: Mapping[str, View]) -> View:
 
 def _found(name: str, saved: Mapping[str, View]) -> View:
     if name not in saved:
-        raise ConfigError(f"There is no saved view `{name}`: {nearest(name, saved)}")
+        raise ConfigError(f"Unknown saved view `{name}`: {nearest(name, saved)}")
     return saved[name]

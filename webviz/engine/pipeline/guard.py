@@ -26,7 +26,7 @@ class Guard:
         who: fails, in sentences; "" is the scope of the call.
         strict: let through what is raised, as tests want it.
         name: added to the log, to tell displays of one type apart.
-        told_s: how long a crash is told; None is until the next call of its scope succeeds.
+        shown_s: how long a crash is told; None is until the next call of its scope succeeds.
         clock: monotonic time in seconds.
     """
 
@@ -36,13 +36,13 @@ class Guard:
         strict: bool,
         *,
         name: Callable[[], str] = str,
-        told_s: float | None = None,
+        shown_s: float | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._who = who
         self._strict = strict
         self._name = name
-        self._told_s = told_s
+        self._shown_s = shown_s
         self._clock = clock
         self._crashes: dict[str, tuple[str, float]] = {}
         self._logged: set[object] = set()
@@ -50,7 +50,7 @@ class Guard:
     @property
     def crashes(self) -> Mapping[str, str]:
         """What calls raised lately, one sentence for each scope."""
-        since = -math.inf if self._told_s is None else self._clock() - self._told_s
+        since = -math.inf if self._shown_s is None else self._clock() - self._shown_s
         return {scope: text for scope, (text, at) in self._crashes.items() if at >= since}
 
     def __call__(self, scope: str, call: Callable[..., Any], *args: Any) -> Any:
@@ -60,7 +60,7 @@ class Guard:
         except (Exception, SystemExit) as error:  # a plug-in may call sys.exit
             self.note(scope, error)
             return CRASHED
-        if self._told_s is None:
+        if self._shown_s is None:
             self._crashes.pop(scope, None)
         return result
 

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from webviz.api.declared import Topic
-from webviz.api.display import Display, Input, inputs
+from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
+from webviz.api.ports import Input
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, peek_header
 from webviz.data.transforms import MessageFilter

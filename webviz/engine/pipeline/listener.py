@@ -124,8 +124,8 @@ class TransformListener:
 
     def _notice_time(self, child: str, stamp_ns: int) -> None:
         """Note whether a message, by its first transform, is of the past."""
-        cache = self._buffer.tree.caches.get(child.removeprefix("/"))
-        newest_ns = cache.newest_stamp if cache else 0
+        link = self._buffer.link(child.removeprefix("/"))
+        newest_ns = link.transform.stamp_ns if link else 0
         if stamp_ns >= newest_ns - BACK_NS:
             self._back_since = None
         elif self._back_since is None:

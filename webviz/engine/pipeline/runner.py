@@ -25,7 +25,10 @@ from webviz.engine.pipeline.painter import Painter
 from webviz.engine.sources import Offer, Raw, Subscription
 from webviz.engine.trace import Tracer
 
-NOTHING_TO_DRAW = Status(Level.WARN, "There is nothing to draw.")
+NOTHING_TO_DRAW = Status(
+    Level.WARN,
+    "Nothing to draw: the data is empty or the properties hide it. Check both.",
+)
 NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until a browser connects.")
 
 

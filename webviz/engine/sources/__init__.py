@@ -1,4 +1,4 @@
-"""Where messages come from: a live ROS graph or a bag, behind one interface."""
+"""Sources of messages: a live ROS graph or a bag, behind one interface."""
 
 from webviz.engine.sources.graph import Goal, Graph, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw

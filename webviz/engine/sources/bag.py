@@ -1,4 +1,4 @@
-"""A recorded bag as a source: its messages arrive when its time is moved on."""
+"""A recorded bag as a source: playing it delivers its messages."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
 
 NODE = "webviz"
-"""Of private topics (~/...); as the ROS node is called."""
+"""The node name of private topics (~/...), as in the live viewer."""
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 MOST = 500
-"""Messages that arrive at once, so that no queue of the inbox overflows."""
+"""Messages per call of `play`, so that no queue of the inbox overflows."""
 MOST_BYTES = 32 << 20
 STEP_NS = 100_000_000
-"""Of the time of recording between two turns of a frame loop that nobody watches."""
+"""Recording time between two turns of a frame loop without browsers."""
 INBOX_LIMIT = 20_000
-"""Of one topic: what is latched arrives at once, however much it is."""
+"""Messages per topic; all latched messages arrive at once."""
 TOPIC = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
 
 
 class BagSource:
     """Messages of an mcap file, a db3 file or a rosbag2 folder, without ROS.
 
-    Time stands still until `play` moves it on. A bag delivers a topic in whatever QoS is asked for.
+    Time advances with `play` only. Any requested QoS is accepted.
 
-    Positions in the bag are times of recording. ROS time, as `now_ns` tells it, differs where the
-    robot had a time of its own: then it is that of the recorded /clock or else of the transforms.
+    Positions in the bag are times of recording. ROS time (`now_ns`) differs for a robot with
+    simulated time: it follows the recorded /clock, or else the transforms.
 
     Args:
         path: of the bag.
-        extras: messages that the bag lacks, latched since its start.
-        remappings: full names of topics by the full names that displays use.
+        extras: messages that the bag lacks, latched from its start on.
+        remappings: full topic names by the full names that displays use.
 
     Raises:
-        BagError: the bag cannot be read; one sentence.
+        BagError: the bag cannot be read.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class BagSource:
         remappings: Mapping[str, str] | None = None,
     ) -> None:
         self.inbox = Inbox()
-        self.graph = ReadOnly("A bag can only be read. Watch a live ROS graph to publish.")
+        self.graph = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
         self._file = BagFile(path)
         self._extras = tuple(extras)
         self._remappings = dict(remappings or {})
@@ -76,12 +76,12 @@ class BagSource:
 
     @property
     def position_ns(self) -> int:
-        """How far the bag was played: everything recorded up to then has arrived."""
+        """The position in the bag: everything recorded until then has arrived."""
         return self._position_ns
 
     @property
     def remarks(self) -> list[str]:
-        """Sentences on what is peculiar: wanted topics that cannot be read, files, time."""
+        """Warnings: subscribed topics that cannot be read, missing files, unusual time."""
         skipped = [
             f"{topic} is skipped: {why}."
             for topic, why in self._file.skipped.items()
@@ -90,17 +90,16 @@ class BagSource:
         return [*skipped, *filter(None, (self._file.remark, self._time.remark))]
 
     def play(self, until_ns: int) -> None:
-        """Move on to a time of recording, and let arrive what was recorded up to then.
+        """Deliver everything recorded until a time of recording.
 
-        What the inbox cannot hold at once comes with the next call: `position_ns` tells how far
-        it is.
+        If that is too much for the inbox, `position_ns` stays behind and the next call continues.
 
         Raises:
-            BagError: the bag is damaged behind what arrived.
+            BagError: the bag is damaged after the delivered messages.
         """
         count = size = 0
         while self._next is not None and self._next.stamp_ns <= until_ns:
-            # What has one stamp arrives together. A file may hold neighbours in the wrong order.
+            # Messages of one stamp arrive together. Stamps in a file may be slightly out of order.
             is_later = self._next.stamp_ns > self._position_ns
             if is_later and (count >= MOST or size >= MOST_BYTES):
                 break
@@ -116,15 +115,15 @@ class BagSource:
         """Play a short step towards a time, or up to the next message if that is later.
 
         Raises:
-            BagError: the bag is damaged behind what arrived.
+            BagError: the bag is damaged after the delivered messages.
         """
         next_ns = until_ns if self._next is None else self._next.stamp_ns
         self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
 
-    # What every source can do, see webviz.engine.sources.Source
+    # The interface of webviz.engine.sources.Source
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
-        """Make the subscriptions exactly these; what is latched arrives at once."""
+        """Make the subscriptions exactly these; latched messages arrive at once."""
         before, self._wanted = self._wanted, dict(subscriptions)
         if before == self._wanted:
             return
@@ -137,12 +136,12 @@ class BagSource:
         for topic, wish in fresh.items():
             self._repeat(topic, wish)
         if _types(before) != _types(self._wanted):
-            self._upcoming = self._file.messages(self._heard(), self._position_ns + 1)
+            self._upcoming = self._file.messages(self._channels_to_read(), self._position_ns + 1)
             self._next = next(self._upcoming, None)
         self._offers = self._all_offers()
 
     def offers(self) -> Mapping[str, Offer]:
-        """The topics of the bag, as their publishers offered them."""
+        """The topics of the bag, with the QoS that publishers offered."""
         return self._offers
 
     def now_ns(self) -> int:
@@ -153,7 +152,7 @@ class BagSource:
         """The full name of a topic, remapped.
 
         Raises:
-            ValueError: it is no valid topic name.
+            ValueError: it is not a valid topic name.
         """
         name = topic if topic.startswith("/") else f"/{topic}"
         if topic.startswith("~"):
@@ -161,18 +160,18 @@ class BagSource:
         if not TOPIC.fullmatch(name):
             raise ValueError(
                 f"{topic!r} is not a valid topic name: it must be words of letters, digits and "
-                "underscores, which begin with no digit, between slashes"
+                "underscores, separated by slashes, that do not start with a digit"
             )
         return self._remappings.get(name, name)
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         self._file.close()
 
     # Inside
 
     def _channels(self) -> list[Channel]:
-        """Those that are wanted and can be read."""
+        """The subscribed channels that can be read."""
         return [
             channel
             for channel in self._file.channels
@@ -181,13 +180,13 @@ class BagSource:
             and channel.topic not in self._problems
         ]
 
-    def _heard(self) -> list[Channel]:
-        """The channels to read: also the clock, whoever wants it."""
+    def _channels_to_read(self) -> list[Channel]:
+        """The channels to read, always including the clock."""
         wanted = self._channels()
         return wanted + [c for c in self._time.clocks if c not in wanted]
 
     def _learn(self, wishes: Mapping[str, Subscription]) -> None:
-        """Take the definitions of the bag for its messages."""
+        """Register the message definitions of the bag."""
         for channel in self._file.channels:
             wish = wishes.get(channel.topic)
             if wish and wish.type == channel.type and channel.definition:
@@ -197,7 +196,7 @@ class BagSource:
                     self._problems[channel.topic] = str(error)
 
     def _repeat(self, topic: str, wish: Subscription) -> None:
-        """Let arrive what publishers repeat for a subscriber that comes late."""
+        """Deliver what publishers repeat for a late subscription."""
         for extra in self._extras:
             if extra.topic == topic:
                 self._put(Recorded(topic, extra.type, extra.cdr, self._file.start_ns))
@@ -207,7 +206,7 @@ class BagSource:
             if channel.topic == topic
             and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
         ]
-        # Nobody knows who of the publishers of a transform was still there: all of them count.
+        # Which publishers of transforms were still running is unknown, so all of them count.
         is_tf = wish.type == TF_TYPE
         depth = None if is_tf else sum(channel.depth for channel in latched)
         past = self._file.messages(latched, self._file.start_ns, self._position_ns)
@@ -242,7 +241,7 @@ class BagSource:
 
 
 def _is_new(wish: Subscription, before: Subscription | None) -> bool:
-    """Whether a wish asks for what is latched."""
+    """Whether a subscription asks for latched messages."""
     return before is None or before.type != wish.type or wish.asked > before.asked
 
 
@@ -251,7 +250,7 @@ def _types(wishes: Mapping[str, Subscription]) -> dict[str, str]:
 
 
 def _weakest(publishers: Sequence[Publisher]) -> tuple[Reliability, Durability]:
-    """What all of them offer."""
+    """The QoS that all of them offer."""
     reliable = all(p.reliability == "reliable" for p in publishers)
     latched = all(p.durability == "transient_local" for p in publishers)
     return (

@@ -1,4 +1,4 @@
-"""What a bag lacks: a map that lies beside it as a file, a transform that nobody recorded."""
+"""Messages that a bag lacks: a map from a file, a static transform."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ MAP_TOPIC = "/map"
 
 
 class ExtraError(Error):
-    """It cannot be used; one sentence."""
+    """A map or transform cannot be used."""
 
 
 @dataclass(frozen=True)
 class Extra:
-    """One message that is latched.
+    """One latched message.
 
     Args:
         topic: full name.
         type: message type.
         cdr: the serialised message.
-        publisher: who is said to have published it.
+        publisher: shown as its publisher.
     """
 
     topic: str
@@ -39,10 +39,10 @@ class Extra:
 
 
 def map_of_file(path: Path) -> Extra:
-    """The map of an image and its yaml, as map_server publishes it.
+    """The map of a YAML file and its image, as map_server publishes it.
 
     Raises:
-        ExtraError: a file is missing or wrong.
+        ExtraError: a file is missing or invalid.
     """
     try:
         world = load_world(path)
@@ -64,7 +64,7 @@ def static_transform(
     """A static transform from a frame to its child, in metres and radians.
 
     Raises:
-        ExtraError: a frame is not named, or a number not finite.
+        ExtraError: a frame name is empty, both are equal, or a number is not finite.
     """
     if not (parent and child) or parent == child:
         raise ExtraError(f"A transform needs two different frames, not {parent!r} and {child!r}.")
@@ -84,7 +84,7 @@ def _latched(topic: str, type_name: str, cdr: _Cdr, who: str) -> Extra:
 
 
 class _Cdr:
-    """Bytes of a message, little-endian."""
+    """Serialises a message, little-endian."""
 
     def __init__(self) -> None:
         self.data = bytearray(b"\x00\x01\x00\x00")
@@ -103,7 +103,7 @@ class _Cdr:
         self.data += encoded
 
     def header(self, frame: str) -> None:
-        """Append a std_msgs/Header with the stamp 0, which means always."""
+        """Append a std_msgs/Header with the stamp 0, for all times."""
         self.pack("iI", 0, 0)
         self.string(frame)
 

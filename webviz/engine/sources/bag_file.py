@@ -1,4 +1,4 @@
-"""A recorded file: what is in it, and its messages in the order of time."""
+"""A bag file: its channels, and its messages in the order of time."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from webviz.engine.sources.source import Durability, Publisher, Reliability
 FILES = (".mcap", ".db3")
 INFORMATION = "rosbag2_bagfile_information"
 KEEP_LAST = 1
-"""Messages that a publisher repeats if the bag does not say how many."""
+"""Latched messages per publisher if the bag does not record the depth."""
 
 
 class BagError(Error):
-    """A bag cannot be read; one sentence that ends with what to do."""
+    """A bag cannot be read; one sentence with a remedy."""
 
 
 class Recorded(NamedTuple):
@@ -43,10 +43,10 @@ class Channel:
     Args:
         topic: full name.
         type: three-part name.
-        publishers: those that were recorded.
-        depth: how many messages its publishers latched, all together.
+        publishers: recorded QoS.
+        depth: how many messages its publishers latch in total.
         definition: the .msg text of the type, "" if the bag has none.
-        connection: of the reader.
+        connection: of rosbags' reader.
     """
 
     topic: str
@@ -64,7 +64,7 @@ class BagFile:
         path: of the file or folder.
 
     Raises:
-        BagError: it is no bag, damaged, or empty.
+        BagError: it is missing, not a bag, damaged or empty.
     """
 
     def __init__(self, path: Path) -> None:
@@ -73,11 +73,11 @@ class BagFile:
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
         self.remark = ""
-        """A sentence for people, if there is something peculiar."""
+        """A warning, "" for none."""
         self._reader = self._open()
         if not self._reader.message_count:
             self.close()
-            raise BagError(f"{path} contains no messages. Record it again, or give another bag.")
+            raise BagError(f"{path} contains no messages. Record it again or choose another bag.")
         self.start_ns = self._reader.start_time
         self.end_ns = self._reader.end_time - 1
         """Stamps of the first and the last message."""
@@ -86,13 +86,13 @@ class BagFile:
     def messages(
         self, channels: Collection[Channel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[Recorded]:
-        """The messages of some channels by time of recording, both ends included.
+        """The messages of channels by time of recording, both ends included.
 
         Raises:
-            BagError: the bag is damaged; what comes before is delivered.
+            BagError: the bag is damaged; the messages before are delivered.
         """
         if not channels:
-            return  # rosbags would deliver all of them
+            return  # rosbags would deliver all channels
         by_id = {channel.connection.id: channel for channel in channels}
         connections = [channel.connection for channel in channels]
         stop_ns = None if end_ns is None else end_ns + 1
@@ -104,7 +104,7 @@ class BagFile:
             raise BagError(self._complaint(error)) from error
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         self._reader.close()
 
     def _open(self) -> Reader:
@@ -132,14 +132,14 @@ class BagFile:
         return reader
 
     def _renamed_file(self) -> Path | None:
-        """The only file of a folder whose metadata has another name for it; rosbags insists."""
+        """The only file of a folder if metadata.yaml misnames it, which rosbags rejects."""
         if not self.path.is_dir():
             return None
         try:
             information = YAML(typ="safe").load(self.path / "metadata.yaml")[INFORMATION]
             named = [PurePath(name).name for name in information["relative_file_paths"]]
-            is_plain = not information.get("compression_mode")  # else the file is not enough
-        except Exception:  # rosbags will say what is wrong
+            is_plain = not information.get("compression_mode")  # else rosbags needs the metadata
+        except Exception:  # rosbags reports it
             return None
         files = [file for file in self.path.iterdir() if file.suffix in FILES]
         if not is_plain or len(files) != 1 or len(named) != 1 or (self.path / named[0]).exists():
@@ -174,7 +174,7 @@ class BagFile:
 
 
 def _obstacle(connection: Connection) -> str:
-    """Why the messages of a connection cannot be read, "" if they can; learns unknown types."""
+    """Why the messages of a connection cannot be read, "" if they can; registers their type."""
     encoding = getattr(connection.ext, "serialization_format", "cdr")
     if encoding != "cdr":
         return f"its messages are encoded as {encoding}, not as CDR"

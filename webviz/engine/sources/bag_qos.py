@@ -1,7 +1,6 @@
-"""QoS profiles of bags: rosbags refuses a whole bag if a profile lacks a key.
+"""QoS profiles of bags: rosbags rejects a whole bag if a profile lacks a key.
 
-Recorders other than rosbag2 write only the policies that they know, and what a profile lacks makes
-no difference here: its messages are intact.
+Recorders other than rosbag2 write only some policies. The messages of such bags are intact.
 """
 
 from __future__ import annotations
@@ -21,15 +20,15 @@ def parse_qos(given: Any) -> list[Qos]:
     """The profiles of a topic.
 
     Args:
-        given: as recorded: YAML, or what YAML stands for.
+        given: as recorded: YAML, or parsed YAML.
 
     Returns:
-        The profiles, with "unknown", 0 and False for what they lack; none if they are unreadable.
+        The profiles, with "unknown", 0 and False for missing keys; none if they are unreadable.
     """
     try:
         profiles = YAML(typ="safe").load(given) if isinstance(given, str) else given
         return _strict([_completed(profile) for profile in profiles or ()])
-    except Exception:  # of YAML, and whatever wrong types raise in rosbags
+    except Exception:  # of YAML, or of rosbags for wrong types
         return []
 
 
@@ -39,6 +38,6 @@ def _completed(profile: Mapping[str, Any]) -> Any:
 
 
 def be_lenient() -> None:
-    """Let rosbags read profiles with `parse_qos`; it has no option for that."""
+    """Make rosbags use `parse_qos`; it has no option for that."""
     for module in (reader, storage_mcap, storage_sqlite3):
         vars(module)["parse_qos"] = parse_qos

@@ -1,4 +1,4 @@
-"""ROS time of a bag, where it is not the time of recording."""
+"""ROS time of a bag, if it differs from the time of recording."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ from webviz.engine.sources.bag_file import BagFile, Channel, Recorded
 CLOCK = "rosgraph_msgs/msg/Clock"
 TF = "tf2_msgs/msg/TFMessage"
 FOREIGN_NS = 3600 * 1_000_000_000
-"""Transforms that are further from the time of recording are in the time of a simulator."""
+"""Transforms that are further from the time of recording are in simulated time."""
 MAX_TRIED = 100
 
 
 class BagTime:
-    """Tells ROS time from the time of recording, both in nanoseconds.
+    """Converts times of recording to ROS time, both in nanoseconds.
 
     A recorded /clock decides, as with use_sim_time; without one, the stamps of the first
     transforms do if they are more than an hour off.
 
     Args:
-        file: to look into.
+        file: the bag.
     """
 
     def __init__(self, file: BagFile) -> None:
         self.remark = ""
-        """A sentence for people, if there is something peculiar."""
+        """A warning, "" for none."""
         self.clocks: list[Channel] = [
             c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
         ]
-        """What `hear` wants to hear."""
+        """The channels of `hear`."""
         self._clock_ns: int | None = None
         self._offset_ns = 0
         first = next(file.messages(self.clocks, file.start_ns), None)
@@ -40,7 +40,7 @@ class BagTime:
             self._follow_transforms(file)
 
     def hear(self, recorded: Recorded) -> None:
-        """Take a message of /clock, in the order of the bag."""
+        """Process a message of /clock, in the order of the bag."""
         try:
             message: Clock = decode(CLOCK, recorded.cdr)
         except MessageError:
@@ -48,7 +48,7 @@ class BagTime:
         self._clock_ns = message.clock.ns
 
     def at(self, recorded_ns: int) -> int:
-        """ROS time at a time of recording; with a /clock, what it said last."""
+        """ROS time at a time of recording; with a /clock, its last message."""
         return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
 
     def _follow_transforms(self, file: BagFile) -> None:

@@ -1,8 +1,8 @@
-"""What a source can do besides reading: publish, call services, send goals to actions."""
+"""Output through a source: publishing, service calls and action goals."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Literal, Protocol
@@ -14,17 +14,17 @@ Durability = Literal["volatile", "transient_local"]
 
 
 class NotConnected(Error):
-    """A source cannot act, or the other side is missing; one sentence says why and what to do."""
+    """A source cannot send, or the other side is missing; one sentence with a remedy."""
 
 
 @dataclass(frozen=True)
 class Outlet:
-    """Where messages go: a topic with its type and the QoS that is offered.
+    """A topic to publish, with its type and the offered QoS.
 
     Args:
-        topic: fully resolved name.
+        topic: full name.
         type: message type, such as "geometry_msgs/msg/PoseStamped".
-        reliability, durability, depth: what subscriptions may ask for.
+        reliability, durability, depth: offered to subscriptions.
     """
 
     topic: str
@@ -40,10 +40,10 @@ class Goal:
 
     Args:
         id: 16 bytes.
-        accepted: whether the server takes it on.
+        accepted: whether the server accepts it.
         result: status of action_msgs/msg/GoalStatus, and the serialised
             `<action>_GetResult_Response`.
-        cancel: asks the server to stop; the result tells what came of it.
+        cancel: asks the server to stop; `result` has the outcome.
     """
 
     id: bytes
@@ -53,17 +53,20 @@ class Goal:
 
 
 class Graph(Protocol):
-    """Everything may be called from any thread and returns at once.
+    """All methods may be called from any thread and return at once.
 
     Futures raise `NotConnected`. Bytes are CDR with the encapsulation header.
     """
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
-        """Make a publisher, so that subscriptions know it before the first message."""
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
+        """Make the advertised publishers exactly these.
+
+        Subscriptions match an advertised publisher before its first message.
+        """
         ...
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
-        """Publish a message; how many subscriptions the publisher is matched with."""
+        """Publish a message; the number of matched subscriptions."""
         ...
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
@@ -76,11 +79,11 @@ class Graph(Protocol):
         """Send a goal to an action.
 
         Args:
-            action: fully resolved name.
+            action: full name.
             type: such as "nav2_msgs/action/NavigateToPose".
             goal: serialised `<type>_Goal`.
-            feedback: gets each serialised `<type>_FeedbackMessage` of this goal, in another thread;
-                must not block.
+            feedback: called with each serialised `<type>_FeedbackMessage` of this goal, from
+                another thread; must not block.
         """
         ...
 
@@ -90,16 +93,16 @@ class Graph(Protocol):
 
 
 class ReadOnly:
-    """The graph of a source that only reads.
+    """The graph of a read-only source.
 
     Args:
-        reason: why, and what to do; one sentence.
+        reason: why, and a remedy; one sentence.
     """
 
     def __init__(self, reason: str) -> None:
         self._reason = reason
 
-    def advertise(self, outlet: Outlet) -> Future[None]:
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         """Refuse."""
         return _failed(self._reason)
 

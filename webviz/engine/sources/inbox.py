@@ -1,4 +1,4 @@
-"""The only way messages enter: a bounded queue for each topic, filled by any thread."""
+"""The inbox: a bounded queue per topic, filled by any thread."""
 
 from __future__ import annotations
 
@@ -24,13 +24,12 @@ class Raw:
 
 
 class Inbox:
-    """Holds what arrived since the frame loop last looked.
+    """Holds the messages that arrived since the last `drain`.
 
-    Bounded by count for each topic and by bytes for all: the oldest messages of a topic give way,
-    and are counted.
+    Each topic is bounded in count and bytes: its oldest messages are dropped and counted.
 
     Args:
-        max_bytes: of one topic. A topic always holds its newest message, however large.
+        max_bytes: per topic. The newest message is always kept, however large.
     """
 
     def __init__(self, max_bytes: int = 64 << 20) -> None:
@@ -42,22 +41,22 @@ class Inbox:
         self._received: dict[str, tuple[int, int]] = {}
         self._max_bytes = max_bytes
         self.arrived = threading.Event()
-        """Set by every arrival, and by whoever else wants the frame loop to wake."""
+        """Set by every arrival, and to wake the frame loop for other reasons."""
 
     def open(self, topic: str, limit: int) -> None:
-        """Accept messages of a topic, at most `limit` between two looks."""
+        """Accept messages of a topic, at most `limit` between two calls of `drain`."""
         with self._lock:
             self._limits[topic] = limit
 
     def close(self, topic: str) -> None:
-        """Refuse and forget messages of a topic."""
+        """Discard the messages of a topic, and ignore new ones."""
         with self._lock:
             tables = (self._limits, self._queues, self._bytes, self._dropped, self._received)
             for table in tables:
                 table.pop(topic, None)
 
     def put(self, topic: str, raw: Raw) -> None:
-        """Add a message; a topic that is not open is ignored."""
+        """Add a message, unless its topic is closed."""
         with self._lock:
             limit = self._limits.get(topic)
             if limit is None:
@@ -74,17 +73,17 @@ class Inbox:
         self.arrived.set()
 
     def drain(self) -> dict[str, deque[Raw]]:
-        """Take everything that is there, by topic, oldest first."""
+        """Take all messages by topic, oldest first."""
         with self._lock:
             taken, self._queues, self._bytes = self._queues, {}, {}
         return taken
 
     def dropped(self, topic: str) -> int:
-        """How many messages of a topic gave way since it was opened."""
+        """How many messages of a topic were dropped since it was opened."""
         with self._lock:
             return self._dropped.get(topic, 0)
 
     def received(self) -> dict[str, tuple[int, int]]:
-        """How many messages and bytes came on each topic since it was opened."""
+        """How many messages and bytes arrived on each topic since it was opened."""
         with self._lock:
             return dict(self._received)

@@ -1,4 +1,4 @@
-"""What the viewer wants from wherever its messages come from."""
+"""The interface of a source of messages."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from webviz.engine.sources.inbox import Inbox
 
 @dataclass(frozen=True)
 class Subscription:
-    """A wish: this topic, of this type.
+    """A wanted subscription.
 
     Args:
         type: the message type, such as "nav_msgs/msg/Path".
-        topic: the name, fully resolved, and the QoS the user chose.
+        topic: full name, and the QoS that the user chose.
         latched: transient local, whatever publishers offer.
-        asked: a higher number than before asks the publishers to repeat what they latched.
+        asked: a higher number than before makes publishers repeat latched messages.
     """
 
     type: str
@@ -29,7 +29,7 @@ class Subscription:
 
 
 def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
-    """All wishes by topic. The first one decides on the type and QoS of a topic."""
+    """All subscriptions by topic. The first decides on type and QoS of a topic."""
     wanted: dict[str, Subscription] = {}
     for wish in wishes:
         for topic, subscription in wish.items():
@@ -40,12 +40,12 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
 
 @dataclass(frozen=True)
 class Publisher:
-    """Somebody who publishes a topic.
+    """A publisher of a topic.
 
     Args:
-        node: full node name, "" where a publisher is no ROS node.
-        type: what it publishes.
-        reliability, durability: what it offers.
+        node: full node name, "" for a DDS program without a ROS node.
+        type: message type.
+        reliability, durability: offered QoS.
     """
 
     node: str
@@ -56,12 +56,12 @@ class Publisher:
 
 @dataclass(frozen=True)
 class Offer:
-    """What is known of one topic.
+    """Publishers and QoS of one topic.
 
     Args:
-        publishers: everybody who publishes it.
+        publishers: all of them.
         requested: reliability and durability of our subscription, None without one.
-        problem: why nothing can arrive, "" if it can.
+        problem: why no message can arrive, "" if it can.
         type: of our subscription, "" without one; a topic can be read as one type only.
     """
 
@@ -78,7 +78,7 @@ class Source(Protocol):
 
     @property
     def graph(self) -> Graph:
-        """What the source can do besides reading."""
+        """For output."""
         ...
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
@@ -86,21 +86,21 @@ class Source(Protocol):
         ...
 
     def offers(self) -> Mapping[str, Offer]:
-        """What is known of every topic; changes identity only when it changes."""
+        """Publishers and QoS by topic; another object only after a change."""
         ...
 
     def now_ns(self) -> int:
-        """ROS time; 0 while it is not known yet."""
+        """ROS time; 0 while it is unknown."""
         ...
 
     def resolve(self, topic: str) -> str:
         """The full name of a topic, remapped and in the namespace of the source.
 
         Raises:
-            ValueError: it is no valid topic name; one sentence.
+            ValueError: it is not a valid topic name; one sentence.
         """
         ...
 
     def close(self) -> None:
-        """Stop, leaving no thread behind."""
+        """Stop all threads."""
         ...

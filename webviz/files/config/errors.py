@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from webviz.api.errors import Error
+from webviz.data.words import listed
 
 MAX_HINTS = 40
 """Valid words that an error lists; a tree of transforms may have a thousand frames."""
@@ -23,5 +24,4 @@ def nearest(word: str, valid: Iterable[str]) -> str:
     close = difflib.get_close_matches(word, valid, n=1)
     if close:
         return f"did you mean `{close[0]}`?"
-    more = f" and {len(valid) - MAX_HINTS} more" if len(valid) > MAX_HINTS else ""
-    return f"known are: {', '.join(valid[:MAX_HINTS])}{more}"
+    return f"known are: {listed(valid, MAX_HINTS)}"

@@ -7,11 +7,12 @@ import re
 import types
 import typing
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import msgspec
 
 from webviz.api.declared import Declared, Topic, make
+from webviz.api.properties import bare, properties_of
 from webviz.files.config.errors import nearest
 from webviz.files.config.source import Location, Path
 
@@ -139,8 +140,7 @@ def _followed(steps: str, hint: Any, value: Any) -> tuple[Path, Any, Any]:
 
 def _plain(hint: Any, value: Any = None) -> Any:
     """A type without annotations; of several structs the one that a value's tag names."""
-    while typing.get_origin(hint) is Annotated:
-        hint = typing.get_args(hint)[0]
+    hint = bare(hint)
     structs = _members(hint)
     for each in structs if isinstance(value, Mapping) else ():
         if value.get(each.__struct_config__.tag_field) == each.__struct_config__.tag:
@@ -157,7 +157,7 @@ def _members(hint: Any) -> list[type[msgspec.Struct]]:
 def _inner(hint: Any, key: str | int) -> Any:
     """The type of what is at a key of a type."""
     if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
-        return typing.get_type_hints(hint, include_extras=True).get(str(key))
+        return next((each.hint for each in properties_of(hint) if each.path == key), None)
     parts = typing.get_args(hint)
     match typing.get_origin(hint):
         case origin if origin is dict:

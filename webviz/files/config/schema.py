@@ -17,6 +17,7 @@ from msgspec import inspect
 from webviz.api.declared import Declared, Topic
 from webviz.api.display import Display
 from webviz.api.group import Group
+from webviz.api.properties import Property, properties_of
 from webviz.api.tool import Tool
 from webviz.files.config.model import VERSION, Settings
 
@@ -114,15 +115,19 @@ class _Schemas:
         self.definitions[base.kind] = _any(base, types, self.properties(base)["name"])
 
     def properties(self, cls: type[msgspec.Struct]) -> dict[str, Schema]:
-        info = inspect.type_info(cls)
-        assert isinstance(info, inspect.StructType)
-        return {field.encode_name: self._field(field) for field in info.fields}
+        return {each.path: self._property(each) for each in properties_of(cls)}
 
-    def _field(self, field: inspect.Field) -> Schema:
-        made = self._type(field.type)
-        default = field.default
-        if field.default_factory is not msgspec.NODEFAULT:
-            default = field.default_factory()
+    def _property(self, declared: Property) -> Schema:
+        made = self._type(declared.type)
+        words = [declared.help] if declared.help else []
+        if declared.unit:
+            words.append(f"In {declared.unit}.")
+        for path, values in declared.when[:1]:
+            shown = [msgspec.json.encode(value).decode() for value in values]
+            words.append(f"Where {path} is {' or '.join(shown)}.")
+        if words:
+            made = {**made, "description": " ".join(words)}
+        default = declared.default
         if default is not msgspec.NODEFAULT and default not in ("", {}, []):
             is_name = isinstance(default, Topic) and default == Topic(default.name)
             plain = default.name if is_name else msgspec.to_builtins(default)
@@ -132,7 +137,7 @@ class _Schemas:
     def _type(self, type_: inspect.Type) -> Schema:
         match type_:
             case inspect.Metadata(type=inner):
-                return self._described(self._type(inner), type_)
+                return self._type(inner)
             case inspect.LiteralType(values=choices):
                 return {"enum": list(choices)}
             case inspect.StructType(cls=cls):
@@ -162,17 +167,6 @@ class _Schemas:
                 made = {"anyOf": [{"type": "string"}, made]}
             self.definitions[name] = made
         return {"$ref": DEFINITION + name}
-
-    def _described(self, made: Schema, meta: inspect.Metadata) -> Schema:
-        known = {**(meta.extra_json_schema or {}), **(meta.extra or {})}
-        words = [known["description"]] if "description" in known else []
-        if unit := known.get("unit"):
-            words.append(f"In {unit}.")
-        if when := known.get("when"):
-            values = when[1] if isinstance(when[1], tuple) else (when[1],)
-            told = [msgspec.json.encode(value).decode() for value in values]
-            words.append(f"Where {when[0]} is {' or '.join(told)}.")
-        return {**made, "description": " ".join(words)} if words else made
 
 
 _JSON_TYPES: dict[type, str] = {

@@ -12,15 +12,7 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
-from webviz.files.config.model import (
-    VERSION,
-    Branch,
-    Config,
-    Item,
-    Settings,
-    Unreadable,
-    all_tools,
-)
+from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable, all_tools
 from webviz.files.config.representer import Representer
 
 LINE = 88

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import functools
-import typing
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import msgspec
 
 from webviz.api.declared import Declared
-from webviz.api.display import Input
-from webviz.api.tool import Output
+from webviz.api.ports import Input, Output
+from webviz.api.properties import Property, properties_of
 from webviz.files.rviz.tree import Path
 from webviz.files.rviz.values import LEAST
 
@@ -45,37 +44,20 @@ class RvizProperty:
 @functools.lru_cache(maxsize=256)
 def properties(cls: type[msgspec.Struct]) -> tuple[RvizProperty, ...]:
     """The properties of a display or tool, or of a nested setting, besides the common ones."""
-    hints = typing.get_type_hints(cls, include_extras=True)
     left_out = COMMON if issubclass(cls, Declared) else ()
-    return tuple(
-        _property(field, hints[field.name])
-        for field in msgspec.structs.fields(cls)
-        if field.name not in left_out
-    )
+    return tuple(_property(each) for each in properties_of(cls) if each.path not in left_out)
 
 
-def _property(field: msgspec.structs.FieldInfo, hint: Any) -> RvizProperty:
-    marks = []
-    while typing.get_origin(hint) is Annotated:
-        hint, *more = typing.get_args(hint)
-        marks += more
-    metas = [mark for mark in marks if isinstance(mark, msgspec.Meta)]
-    lows = [meta.ge for meta in metas if meta.ge is not None]
-    lows += [meta.gt + LEAST for meta in metas if meta.gt is not None]
-    highs = [meta.le for meta in metas if meta.le is not None]
-    highs += [meta.lt - LEAST for meta in metas if meta.lt is not None]
-    rviz = "".join((meta.extra or {}).get("rviz", "") for meta in metas)
-    default = field.default
-    if default is msgspec.NODEFAULT and field.default_factory is not msgspec.NODEFAULT:
-        default = field.default_factory()
+def _property(declared: Property) -> RvizProperty:
+    ge, gt, le, lt = (getattr(declared.type, bound, None) for bound in ("ge", "gt", "le", "lt"))
     return RvizProperty(
-        field.name,
-        tuple(rviz.split("/")) if rviz else (_rviz_name(field.name),),
-        hint,
-        default,
-        max(lows, default=None),
-        min(highs, default=None),
-        next((mark for mark in marks if isinstance(mark, Input | Output)), None),
+        declared.path,
+        tuple(declared.rviz.split("/")) if declared.rviz else (_rviz_name(declared.path),),
+        declared.hint,
+        declared.default,
+        ge if gt is None else gt + LEAST,
+        le if lt is None else lt - LEAST,
+        declared.port,
     )
 
 

@@ -11,10 +11,7 @@ from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.tree import Tree, child
 
-SAME_HERE = {
-    "Panels": ("Displays", "Views", "Time"),
-    "Tools": ("MoveCamera",),
-}
+SAME_HERE = {"Panels": ("Displays", "Views", "Time"), "Tools": ("MoveCamera",)}
 """RViz's own that exist here: these panels are tabs, and the mouse moves the camera."""
 
 KEPT = "kept for export"

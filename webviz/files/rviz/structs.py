@@ -10,7 +10,7 @@ from typing import Any, Literal
 import msgspec
 
 from webviz.api.declared import Topic
-from webviz.api.tool import Output
+from webviz.api.ports import Output
 from webviz.files.rviz import topics, values
 from webviz.files.rviz.properties import RvizProperty, properties
 from webviz.files.rviz.tree import Path, Tree, leaves, put

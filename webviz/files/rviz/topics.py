@@ -12,8 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from webviz.api.declared import Topic
-from webviz.api.display import Input
-from webviz.api.tool import Output
+from webviz.api.ports import Input, Output
 from webviz.files.rviz import values
 from webviz.files.rviz.properties import RvizProperty
 from webviz.files.rviz.tree import Path, Tree

@@ -92,9 +92,9 @@ class Running:
                 source = ros_source(ros_args)
                 stack.callback(_end, "The ROS node", source.close)
                 control = source.control
-                if path is None and control.asked["config_file"]:
-                    path = Path(control.asked["config_file"])
-                fixed_frame = fixed_frame or control.asked["fixed_frame"]
+                if path is None and control.initial["config_file"]:
+                    path = Path(control.initial["config_file"])
+                fixed_frame = fixed_frame or control.initial["fixed_frame"]
             shown = shown or read(path)
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
@@ -113,9 +113,9 @@ class Running:
             watcher.start(self._loop.enqueue)
             stack.callback(_end, "The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
-            if control is not None and (name := control.asked["view"]):
-                self.do(StartWithView(view=name))
             if control is not None:
+                if name := control.initial["view"]:
+                    self.do(StartWithView(view=name))
                 control.open(self, [Path(folder) for folder in config_folders])
             self._stack = stack.pop_all()
         atexit.register(self.close)
@@ -206,7 +206,7 @@ class Running:
         if isinstance(view, str):
             if view not in (saved := self.state.settings.views):
                 hint = config_file.nearest(view, saved)
-                raise Error(f"There is no saved view `{view}`: {hint}")
+                raise Error(f"Unknown saved view `{view}`: {hint}")
             view = saved[view]
         looked = None if view is None else checked_view(view)
         pixels = self._snapshots.take(self.url, size, looked)

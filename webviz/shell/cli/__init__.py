@@ -1,4 +1,4 @@
-"""The command line: `webviz`, and a module for each of its subcommands."""
+"""The command line of webviz."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def program() -> None:
-    """What `webviz` runs, to its end; a signal before a command has begun ends it at once."""
+    """Run `webviz` and exit. A signal before a command has begun ends the program at once."""
     from webviz.shell.cli.ending import finish, leave, on_signal
 
     on_signal(leave)
@@ -14,11 +14,7 @@ def program() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command, by default the one that this program was started with.
-
-    Returns:
-        The exit status.
-    """
+    """Run a command, by default that of `sys.argv`, and return its exit status."""
     from webviz.shell.cli.main import run
 
     return run(arguments)

@@ -1,7 +1,7 @@
-"""How a program ends on Ctrl-C, SIGTERM and a closed terminal: with one line, leaving nothing.
+"""Ends the program on Ctrl-C, SIGTERM and SIGHUP: prints one line and leaves no process behind.
 
-No handler raises: an exception in the middle of an import may be swallowed, or printed by whatever
-it hits. Nothing here imports more than it must, since signals are heard from then on only.
+No signal handler raises, because an exception in the middle of an import may be swallowed or
+printed. Imports are few, because signals are handled only once this module is loaded.
 """
 
 import contextlib
@@ -19,13 +19,13 @@ import psutil
 
 INTERRUPTED = 130
 PATIENCE_S = 3.0
-"""From the signal to the end by force."""
+"""Time from a signal until the program exits by force."""
 CHILD_PATIENCE_S = 1.0
 WAKE_S = 0.2
 
 
 def on_signal(action: Callable[[], object]) -> None:
-    """Call `action` in the main thread on the first signal; `nohup` stays in force."""
+    """Call `action` in the main thread on the first signal. SIGHUP under `nohup` is ignored."""
 
     def handle(_: int, __: FrameType | None) -> None:
         for number in numbers:
@@ -40,37 +40,36 @@ def on_signal(action: Callable[[], object]) -> None:
 
 
 def say(line: str) -> None:
-    """Write a line to standard error, which may be gone with its terminal."""
+    """Write a line to standard error, if that is still open."""
     with contextlib.suppress(OSError):
         os.write(sys.stderr.fileno(), f"{line}\n".encode())
 
 
 def leave() -> NoReturn:
-    """End the program at once: right as long as it holds nothing but child processes."""
+    """Exit at once, ending child processes only."""
     say("webviz: interrupted.")
     end_children()
     os._exit(INTERRUPTED)
 
 
 def finish(status: int) -> NoReturn:
-    """End the program, which holds nothing any more.
+    """Exit without finalising the interpreter.
 
-    To take the interpreter apart, with ROS in it, takes seconds on a busy machine, and would wait
-    for threads that hang.
+    That takes seconds with ROS on a busy machine, and waits for threads that hang.
     """
     for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError):  # nobody reads it any more
+        with contextlib.suppress(OSError):  # a closed pipe or terminal
             stream.flush()
     end_children()
     os._exit(status)
 
 
 def end_in_time() -> None:
-    """End the program by force after `PATIENCE_S`, unless it ends by itself before."""
+    """Exit by force after `PATIENCE_S`, unless the program ends before."""
 
     def end() -> None:
         time.sleep(PATIENCE_S)
-        say(f"webviz: ended by force, still busy after {PATIENCE_S:g} s.")
+        say(f"webviz: still busy after {PATIENCE_S:g} s; exiting by force.")
         end_children()
         os._exit(1)
 
@@ -78,7 +77,7 @@ def end_in_time() -> None:
 
 
 def end_children() -> None:
-    """End all child processes, and theirs: by force if they do not."""
+    """Terminate all child processes and their children; kill those that do not exit."""
     children = psutil.Process().children(recursive=True)
     for number in (signal.SIGTERM, signal.SIGKILL):
         for child in children:
@@ -88,7 +87,7 @@ def end_children() -> None:
 
 
 class Stop:
-    """Whether the program is to end, and what has to be told of it."""
+    """A request to end the program, and what to do then."""
 
     def __init__(self) -> None:
         self._asked = threading.Event()
@@ -97,16 +96,16 @@ class Stop:
 
     @property
     def is_asked(self) -> bool:
-        """Whether the program is to end."""
+        """Whether the program was asked to end."""
         return self._asked.is_set()
 
     def hold(self) -> bool:
-        """From now on the program holds what has to be closed; false if it is to end instead."""
+        """Let the program close its resources itself from now on; False if it was asked to end."""
         self._holds = True
         return not self.is_asked
 
     def ask(self) -> None:
-        """Let the program end, from any thread or a signal handler."""
+        """Ask the program to end, from any thread or a signal handler."""
         if self.is_asked:
             return
         self._asked.set()
@@ -117,21 +116,14 @@ class Stop:
             leave()
 
     def then(self, action: Callable[[], object]) -> None:
-        """Call `action` once the program is to end; it may be called twice."""
+        """Call `action` when the program is asked to end; it may be called twice."""
         self._actions.append(action)
         if self.is_asked:
             action()
 
 
 def until_signal(work: Callable[[Stop], int]) -> int:
-    """Do `work` in a thread, so that signals are heard whatever it is busy with.
-
-    Returns:
-        The exit status.
-
-    Raises:
-        Exception: what `work` raised.
-    """
+    """Do `work` in a thread, so that signals are handled at any time; its exit status."""
     stop, ended = Stop(), Future[int]()
     on_signal(stop.ask)
 
@@ -142,7 +134,7 @@ def until_signal(work: Callable[[Stop], int]) -> int:
             ended.set_exception(error)
 
     threading.Thread(target=run, name="webviz-command", daemon=True).start()
-    # Another thread may be interrupted by a signal, which does not wake this one to handle it.
+    # The kernel may deliver a signal to another thread, which does not wake this one.
     while not ended.done():
         wait([ended], WAKE_S)
     return ended.result()

@@ -1,4 +1,4 @@
-"""The command line: finds the command, and turns errors into a sentence and an exit status."""
+"""Runs the command that the arguments name, and turns errors into a message and exit status."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ KINDS = {int: "a whole number", float: "a number"}
 
 app = App(
     "webviz",
-    help="RViz2 in a browser tab: shows a ROS 2 robot on a web page.",
+    help="RViz2 in a browser tab: show a ROS 2 robot on a web page.",
+    usage="Usage: webviz [COMMAND] [OPTIONS]",
     help_format="plaintext",
     help_epilogue=viewing.EXAMPLES + ROS_ARGS_HELP,
     version=importlib.metadata.version("webviz"),
@@ -39,20 +40,20 @@ app = App(
 app.default(viewing.view)
 app.command(viewing.demo, help_epilogue=ROS_ARGS_HELP)
 for name, summary in {
-    "screenshot": "Make pictures of what a config shows, without a screen.",
+    "screenshot": "Save pictures of a config without a screen, live or from a bag.",
     "convert": "Convert a config between RViz's format (*.rviz) and webviz's (any other name).",
-    "schema": "Write the JSON Schema with which editors complete and check configs.",
+    "schema": "Write the JSON Schema of config files, for completion and checks in editors.",
 }.items():
-    # Not imported before it is called: --help takes a third less.
+    # Imported when called, which makes --help a third faster.
     app.command(f"webviz.shell.cli.{name}:app", name=name, help=summary)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Run a command.
+    """Run a command and print its error, if any.
 
     Returns:
-        The exit status: 0 also after Ctrl-C, 1 after an error and 2 after wrong arguments, each of
-        which is printed as one sentence; `webviz screenshot` has more.
+        The exit status: 0 (also after Ctrl-C), 1 after an error, 2 for invalid arguments.
+        `webviz screenshot` has more.
     """
     own, ros = split_ros_arguments(sys.argv[1:] if arguments is None else arguments)
     logging.basicConfig(format="%(name)s: %(message)s", level=logging.WARNING)
@@ -72,7 +73,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Our own arguments, and those between each `--ros-args` and the next `--` or the end."""
+    """webviz's own arguments, and those from each `--ros-args` to the next `--` or the end."""
     own: list[str] = []
     ros: list[str] = []
     target = own
@@ -86,7 +87,7 @@ def split_ros_arguments(arguments: Sequence[str]) -> tuple[list[str], list[str]]
 
 
 def _mistake(error: CycloptsError) -> str:
-    """What is wrong with the arguments, in a sentence."""
+    """The error in the arguments, as a sentence."""
     match error:
         case UnusedCliTokensError() if error.unused_tokens:
             return _unused(error.unused_tokens[0], error.command_chain)
@@ -105,14 +106,14 @@ def _mistake(error: CycloptsError) -> str:
 
 
 def _unused(word: str, command_chain: Sequence[str] | None) -> str:
-    """What is wrong with a word that no option and no command takes."""
+    """The error for an argument that no option or command takes."""
     from webviz.files.config import nearest
 
     if command_chain:
-        return f"`webviz {command_chain[0]}` takes no argument `{word}`."
+        return f"Unexpected argument for `webviz {command_chain[0]}`: `{word}`."
     commands = [name for name in app if not name.startswith("-")]
     if word in commands:
-        return f"Give the command first: `webviz {word} ...`."
+        return f"The command must come first: `webviz {word} ...`."
     if "." in word:
-        return f"To show the config {word}, run `webviz -d {word}`."
-    return f"There is no command `{word}`: {nearest(word, commands)}"
+        return f"Unknown command `{word}`. To open it as a config, run `webviz -d {word}`."
+    return f"Unknown command `{word}`: {nearest(word, commands)}"

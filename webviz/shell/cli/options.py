@@ -1,20 +1,24 @@
 """Options that several commands share."""
 
-# Annotations are no strings in modules of options: those of a base class are looked up in the
-# module of the class that inherits them.
+# Without `from __future__ import annotations`: cyclopts would resolve the annotations of a base
+# class in the module of the subclass.
 import os
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from cyclopts import Parameter
 
 from webviz.api.errors import Error
 
+if TYPE_CHECKING:
+    from webviz.files.config import Config
+
 T = TypeVar("T")
 Repeatable = Annotated[tuple[T, ...], Parameter(show_default=False)]
-"""An option that may be given several times."""
+"""An option that can be repeated."""
 Flag = Annotated[bool, Parameter(show_default=False)]
 File = Annotated[Path, Parameter(metavar="FILE")]
 Plugins = Annotated[
@@ -22,16 +26,16 @@ Plugins = Annotated[
     Parameter(metavar="FILE", help="Load displays from a Python file (repeatable)."),
 ]
 RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
-"""The arguments for ROS, which `webviz.shell.cli.main` splits off before parsing."""
+"""Arguments for ROS, split off by `webviz.shell.cli.main` before parsing."""
 MESH_ROOT = "WEBVIZ_MESH_ROOT"
-"""The environment variable with the folders of --mesh-root, separated by colons."""
-ROS_ARGS_HELP = "Arguments from --ros-args up to `--` or the end go to ROS."
+"""Environment variable for the folders of --mesh-root, separated by colons."""
+ROS_ARGS_HELP = "Arguments after --ros-args, up to `--` or the end, are passed to ROS."
 
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ConfigOptions:
-    """What to show: a config, and how to change it for this run."""
+    """The config to show, and changes to it for this run."""
 
     display_config: Annotated[File | None, Parameter(alias="-d")] = None
     """Config to show (YAML or .rviz)."""
@@ -41,13 +45,28 @@ class ConfigOptions:
     """Override a value of the config, such as displays.Scan.size=0.1 (repeatable)."""
     plugin: Plugins = ()
     mesh_root: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
-    """Open meshes and textures below this folder, too, besides ROS packages (repeatable)."""
+    """Also load meshes and textures from this folder (default: ROS packages; repeatable)."""
 
-    def allow_meshes(self) -> None:
-        """Add the mesh roots to those of the environment, where every reader of meshes looks.
+    def read(self, path: Path | None) -> "Config":
+        """The config of a file, or the default one, with the overrides of --set.
 
         Raises:
-            Error: one is not a folder.
+            Error: the file cannot be read, or an override is invalid.
+        """
+        from webviz.files import config as config_file
+        from webviz.files import opening
+        from webviz.files.config.overrides import override
+
+        config = config_file.standard() if path is None else opening.load(path)
+        if path is not None:
+            report_unsupported(path, config.report)
+        return override(config, self.set)
+
+    def allow_meshes(self) -> None:
+        """Add the mesh roots to the environment variable.
+
+        Raises:
+            Error: a root is not a folder.
         """
         for root in self.mesh_root:
             if not root.is_dir():
@@ -55,3 +74,11 @@ class ConfigOptions:
         known = os.environ.get(MESH_ROOT, "")
         roots = [str(root.absolute()) for root in self.mesh_root]
         os.environ[MESH_ROOT] = os.pathsep.join([*roots, *filter(None, [known])])
+
+
+def report_unsupported(path: Path, sentences: Sequence[str]) -> None:
+    """Print to standard error which parts of a file are unsupported."""
+    if sentences:
+        print(f"webviz: parts of {path} are unsupported:", file=sys.stderr)
+        for sentence in sentences:
+            print(f"  {sentence}", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""`webviz schema`: what editors need to complete and check config files."""
+"""`webviz schema`: writes the JSON Schema of config files."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from webviz.files.config.schema import schema as json_schema
 from webviz.shell.cli.options import File, Plugins
 
 SHIPPED = Path(__file__).parents[2] / "files" / "config" / "webviz.schema.json"
-"""That of the displays and tools that come with webviz."""
+"""The schema of the displays and tools that come with webviz."""
 COMMAND = "`make docs`"
 
 EXAMPLES = """\
 Examples:
-  webviz schema -o webviz.schema.json           all displays and tools installed
-  webviz schema --plugin my_display.py -o ...   and those of a file
+  webviz schema -o webviz.schema.json           all installed displays and tools
+  webviz schema --plugin my_display.py -o ...   and the displays of a file
 
-An editor with a YAML language server uses it for a file that begins with
+Editors with a YAML language server use it for files whose first line is
   # yaml-language-server: $schema=webviz.schema.json
 """
 
@@ -41,12 +41,8 @@ def schema(
     """Write the JSON Schema of config files.
 
     Args:
-        output: File to write, instead of the terminal.
+        output: File to write (default: standard output).
         plugin: Files with displays.
-
-    Raises:
-        ConfigError: the file cannot be written.
-        PluginError: a plug-in cannot be loaded.
     """
     for path in plugin:
         plugins.load(path)
@@ -59,6 +55,6 @@ def schema(
 
 
 def text() -> str:
-    """The schema as a file has it, of all that is installed."""
+    """The text of the schema of all installed displays and tools."""
     schema = json_schema(display_types(), plugin_types(Tool))
     return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"

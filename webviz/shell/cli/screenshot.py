@@ -1,4 +1,4 @@
-"""`webviz screenshot`: pictures of a config by one command, without a screen."""
+"""`webviz screenshot`: saves pictures of a config without a screen."""
 
 from __future__ import annotations
 
@@ -15,10 +15,6 @@ from cyclopts import App
 
 from webviz.api.status import Level, Status
 from webviz.engine import plugins
-from webviz.files import config as config_file
-from webviz.files import opening
-from webviz.files.config.overrides import override
-from webviz.shell.cli.convert import tell
 from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say
 from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
@@ -31,9 +27,9 @@ if TYPE_CHECKING:
     from webviz.shell.pictures.capture import Order, Picture
 
 MOST_TOPICS = 40
-"""Of a bag that are listed."""
+"""Topics of a bag to list at most."""
 SHEET_SIZE = (480, 270)
-"""Of the pictures of a contact sheet, if nothing else is said."""
+"""Default size of the pictures of a contact sheet."""
 NOT_OK = 3
 
 
@@ -42,15 +38,8 @@ app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
 @app.default(validator=check)
 def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
-    """Make pictures and write them.
-
-    Returns:
-        The exit status, as --help tells.
-
-    Raises:
-        Error: there is no picture; one sentence.
-    """
-    # viser takes a while to import; --help comes before.
+    """Make pictures and write them; the exit status as in --help."""
+    # Importing viser is slow, and --help does not need it.
     from webviz.shell.pictures.capture import one_sentence
 
     on_signal(_interrupt)
@@ -73,11 +62,7 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
     options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
-    path = options.display_config
-    config = config_file.standard() if path is None else opening.load(path)
-    if path is not None:
-        tell(path, config.report)
-    config = override(config, options.set)
+    config = options.read(options.display_config)
     if options.fixed_frame:
         config.set_fixed_frame(options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
@@ -122,38 +107,36 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     times, views = len(order.positions()), len(order.looks())
     report = _Report()
     if options.is_animation and views > 1:
-        raise OutputError(
-            "An animation shows a single view. Give one --view, or another file extension."
-        )
+        raise OutputError("An animation shows one view. Give one --view or another extension.")
     columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
     if options.contact_sheet:
         picture_files.sheet_size(order.size, times * views, columns)
     with contextlib.closing(pictures(order)) as made:
-        told = report.follow(made)
+        checked = report.follow(made)
         if options.contact_sheet:
-            captioned = [(_caption(picture), _image(picture)) for picture in told]
+            captioned = [(_caption(picture), _image(picture)) for picture in checked]
             picture_files.save(picture_files.contact_sheet(captioned, columns), path)
             written = [path]
         elif options.is_animation:
-            images = (_image(picture) for picture in told)
+            images = (_image(picture) for picture in checked)
             picture_files.save_animation(images, path, options.fps or FPS)
             written = [path]
         else:
             written = []
-            for number, picture in enumerate(told):
+            for number, picture in enumerate(checked):
                 index = number // views if times > 1 else None
                 name = picture_files.numbered(path, picture.view, index, times)
                 picture_files.save(_image(picture), name)
                 written.append(name)
     width, height = order.size
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
-    pictures_of = "a picture" if report.count == 1 else f"{report.count} pictures"
-    print(f"webviz: wrote {names}, {pictures_of} of {width} x {height} pixels.")
-    return report.tell(options.timeout)
+    number = "1 picture" if report.count == 1 else f"{report.count} pictures"
+    print(f"webviz: wrote {names}, {number} of {width} x {height} pixels.")
+    return report.print(options.timeout)
 
 
 class _Report:
-    """What was not OK in which pictures."""
+    """Which pictures have displays that are not OK."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -161,7 +144,7 @@ class _Report:
         self._first: Picture | None = None
 
     def follow(self, pictures: Iterator[Picture]) -> Iterator[Picture]:
-        """The pictures, of which the bad ones are noted."""
+        """Pass pictures through and note those that are not OK."""
         for picture in pictures:
             self.count += 1
             if not picture.shown.is_ok:
@@ -169,15 +152,15 @@ class _Report:
                 self._first = self._first or picture
             yield picture
 
-    def tell(self, timeout: float) -> int:
-        """Print the statuses of the first bad picture; the exit status."""
+    def print(self, timeout: float) -> int:
+        """Print the statuses of the first bad picture, and return the exit status."""
         first = self._first
         if first is None:
             return 0
         when = f"within {timeout:g} s" if first.at_s is None else f"at {first.at_s:g} s of the bag"
         more = f", nor in {self._bad - 1} more pictures" if self._bad > 1 else ""
         print(f"webviz: not all displays are OK {when}{more}:", file=sys.stderr)
-        # What was not imported was told when the config was read.
+        # Unsupported parts were reported when the config was read.
         general = {
             key: status
             for key, status in first.shown.general.items()
@@ -198,7 +181,7 @@ def _table(statuses: dict[str, Status]) -> Iterator[str]:
 
 
 def _topics(bag: BagSource) -> str:
-    """A sentence on what displays can show of a bag."""
+    """The topics of a bag that displays can show, as a sentence."""
     topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
     more = f" and {len(topics) - MOST_TOPICS} more" if len(topics) > MOST_TOPICS else ""
     return f"The topics are {', '.join(topics[:MOST_TOPICS])}{more}."
@@ -215,8 +198,8 @@ def _image(picture: Picture) -> PIL.Image.Image:
 
 def _interrupt() -> None:
     end_in_time()
-    # Both would report that playwright's driver, a child, was ended by others.
+    # Both would report that playwright's driver, a child process, has ended.
     for name in ("asyncio", "playwright"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
-    end_children()  # a browser that hangs could not be closed
+    end_children()  # including a browser that hangs
     raise KeyboardInterrupt

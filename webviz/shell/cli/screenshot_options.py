@@ -15,17 +15,17 @@ from webviz.shell.pictures.times import At, TimeError, read_at
 
 EXAMPLES = """\
 Examples:
-  webviz screenshot -d lab.yaml -o lab.png            the live robot
+  webviz screenshot -d lab.yaml -o lab.png                           live
   webviz screenshot -d lab.yaml --bag run.mcap --at 12.3 -o lab.png
   webviz screenshot -d lab.yaml --bag run --every 5 --contact-sheet -o run.png
-  webviz screenshot -d lab.yaml --bag run --every 0.2 -o run.webp    an animation
+  webviz screenshot -d lab.yaml --bag run --every 0.2 -o run.webp    animated
   webviz screenshot -d a.rviz --bag run --map map.yaml --wait-for Map -o a.png
 
 Exit status:
-  0    the pictures are written, and the displays of --wait-for are OK
-  1    no picture was written: one sentence says why
+  0    pictures written, all displays (or those of --wait-for) are OK
+  1    error, no picture written
   2    invalid arguments
-  3    the pictures are written, but a display is not OK: a table says why
+  3    pictures written, but a display is not OK; its status is printed
   130  interrupted
 
 """
@@ -34,7 +34,7 @@ FPS = 10.0
 
 def _positive(_: object, number: float | None) -> None:
     if number is not None and not (math.isfinite(number) and number > 0):
-        raise ValueError("Give a number above 0.")
+        raise ValueError("Must be > 0.")
 
 
 def _size(_: object, tokens: Sequence[Token]) -> tuple[int, int]:
@@ -63,51 +63,51 @@ BAG = Parameter(group=Group("Pictures of a bag", sort_key=2))
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ScreenshotOptions(ConfigOptions):
-    """What to make pictures of, and how."""
+    """What pictures to make."""
 
     output: Annotated[File, Parameter(alias="-o")]
-    """Picture to write (.png, .jpg, .webp); several are numbered and named after their views."""
+    """Picture to write (.png, .jpg, .webp, .gif); several get the view and a number as suffix."""
     size: Annotated[
         tuple[int, int] | None, Parameter(metavar="WxH", converter=_size, n_tokens=1)
     ] = None
     """Size of each picture in pixels (default: 1280x720; on a contact sheet 480x270)."""
     view: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
-    """Saved view of the config (repeatable; default: its current view)."""
+    """Saved view of the config (repeatable; default: its start view)."""
     focus: Annotated[str, Parameter(metavar="FRAME", show_default=False)] = ""
-    """Look at this frame, wherever it is, from the side and distance of the view."""
+    """Look at this frame, from the direction and distance of the view."""
     transparent: Flag = False
     """Make the background transparent (.png, .webp)."""
     contact_sheet: Flag = False
-    """Write all pictures in one file, with captions."""
+    """Write all pictures to one file, with captions."""
     wait_for: Annotated[Repeatable[str], Parameter(metavar="DISPLAY")] = ()
     """Display that must be OK for exit status 0 (repeatable; default: all enabled ones)."""
     timeout: Seconds = 20.0
-    """Seconds per picture to play the bag there and wait for the displays."""
+    """Time limit per picture in seconds, to play the bag and wait for the displays."""
 
     bag: Annotated[File | None, BAG] = None
-    """Bag to draw instead of the live robot: an MCAP or db3 file, or a rosbag2 folder."""
+    """Read a bag instead of live topics: an MCAP or db3 file, or a rosbag2 folder."""
     at: Annotated[Repeatable[At], BAG, Parameter(metavar="S", converter=_times, n_tokens=1)] = ()
-    """When: seconds from its start or since 1970, `start` or `end` (repeatable; default: end)."""
+    """Time: seconds from the start, a Unix time, `start` or `end` (repeatable; default: end)."""
     every: Annotated[Seconds | None, BAG] = None
     """Make a picture every S seconds."""
     first: Annotated[Time | None, BAG, Parameter(name="--from")] = None
-    """First picture of --every (default: start)."""
+    """Time of the first picture of --every (default: start)."""
     last: Annotated[Time | None, BAG, Parameter(name="--to")] = None
-    """Latest picture of --every (default: end)."""
+    """Time of the last picture of --every (default: end)."""
     fps: Annotated[Seconds | None, BAG, Parameter(metavar="N")] = None
-    """Frames per second of an animation: several times in a .gif or .webp (default: 10)."""
+    """Frames per second of an animation: several times, in a .gif or .webp (default: 10)."""
     map: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE")] = ()
-    """YAML file of map_server that the bag lacks, published on /map in frame map (repeatable)."""
+    """Add a map from a map_server YAML file, on /map in frame map (repeatable)."""
     transform: Annotated[
         Repeatable[tuple[str, str, float, float, float]],
         BAG,
         Parameter(metavar="PARENT CHILD X Y YAW"),
     ] = ()
-    """Static transform that the bag lacks, in metres and radians (repeatable)."""
+    """Add a static transform, in metres and radians (repeatable)."""
 
     @property
     def is_animation(self) -> bool:
-        """Whether all pictures become one file that moves."""
+        """Whether the pictures become one animated file."""
         return (
             self.output.suffix.lower() in picture_files.ANIMATIONS
             and not self.contact_sheet
@@ -116,11 +116,7 @@ class ScreenshotOptions(ConfigOptions):
 
 
 def check(options: ScreenshotOptions, **_: Any) -> None:
-    """Refuse arguments that make no sense together.
-
-    Raises:
-        ValueError: a sentence.
-    """
+    """Raise ValueError for an invalid combination of arguments."""
     if options.bag is None:
         for flag, value in (
             ("at", options.at),
@@ -131,8 +127,8 @@ def check(options: ScreenshotOptions, **_: Any) -> None:
             ("transform", options.transform),
         ):
             if value not in (None, ()):
-                raise ValueError(f"--{flag} is for a bag: give one with --bag.")
+                raise ValueError(f"--{flag} needs --bag.")
     if options.every is None and (options.first, options.last) != (None, None):
-        raise ValueError("--from and --to need --every: the seconds from picture to picture.")
+        raise ValueError("--from and --to need --every.")
     if options.fps is not None and not options.is_animation:
-        raise ValueError("--fps is for animations: several times in a .gif or .webp file.")
+        raise ValueError("--fps needs an animation: several times, in a .gif or .webp file.")

@@ -1,4 +1,4 @@
-"""The page that `webviz` and `webviz demo` serve, until Ctrl-C."""
+"""Serves the page of `webviz` and `webviz demo` until Ctrl-C."""
 
 import contextlib
 import functools
@@ -8,12 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from webviz.api.registry import display_types
-from webviz.files import config as config_file
-from webviz.files import opening
 from webviz.files.config import Config
-from webviz.files.config.overrides import override
 from webviz.shell.app.viewer import Viewer
-from webviz.shell.cli.convert import tell
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say
 from webviz.shell.cli.viewing_options import LOCAL, ViewingOptions
 
@@ -23,24 +19,26 @@ DEMO = Path(__file__).parent / "demo.yaml"
 def serve(
     options: ViewingOptions, ros: Sequence[str], stop: Stop, standard: Path | None = None
 ) -> int:
-    """Show the page until the program is to end.
+    """Serve the page until the program is asked to stop.
 
     Args:
         options: what to show and where.
         ros: arguments for ROS.
-        stop: asked when to end.
-        standard: the config if none is given.
+        stop: asks the program to stop.
+        standard: config to use if none is given.
 
     Returns:
         The exit status.
-
-    Raises:
-        Error: it cannot be shown; one sentence.
     """
-    read = functools.cache(functools.partial(_config, options, standard))
+
+    @functools.cache
+    def read(path: Path | None) -> Config:
+        saved = options.autosave and _last_session().exists()
+        return options.read(path or (_last_session() if saved else standard))
+
     if options.display_config is not None and not options.plugin:
-        # Mistakes are reported before imports that take seconds. With plug-ins the viewer reads it,
-        # after it has loaded the displays that the file may name.
+        # Report errors before imports that take seconds. With plug-ins the viewer reads the file
+        # later, once it has loaded the displays that the file may name.
         read(options.display_config)
     options.allow_meshes()
     _import_slow_parts()
@@ -63,47 +61,33 @@ def serve(
             if is_shown:
                 _announce(options, viewer)
                 viewer.wait()
-    if is_shown:
-        say("\nwebviz: stopped.")
-        return 0
-    say("webviz: interrupted.")
-    return INTERRUPTED
+    say("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
+    return 0 if is_shown else INTERRUPTED
 
 
 def _import_slow_parts() -> None:
-    """Import what a viewer needs, so that it is made quickly and a signal meets few half made."""
+    """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
     import webviz.edges.gui
     import webviz.edges.scene
     import webviz.shell.pictures.snapshots
 
-    with contextlib.suppress(ImportError):  # reported when it is needed
+    with contextlib.suppress(ImportError):  # reported when ROS is needed
         import webviz.edges.ros.node  # noqa: F401
 
 
 def _announce(options: ViewingOptions, viewer: Viewer) -> None:
-    print(f"webviz: open {viewer.url} (Ctrl-C ends it)")
+    print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
     if options.host not in (LOCAL, "localhost", "::1"):
-        names = ", ".join(options.allow_host) or "the address given with --host only"
+        names = ", ".join(options.allow_host) or "the address given with --host"
         print(
-            f"webviz: everyone who reaches {options.host}:{viewer.port} can watch and change "
-            f"this viewer; browsers must address it as: {names}."
+            f"webviz: anyone who can reach {options.host}:{viewer.port} can watch and control "
+            f"this viewer. Browsers must address it by {names}."
         )
     sys.stdout.flush()
 
 
 def _last_session() -> Path:
-    """Where the last session is kept, by the XDG base directory specification."""
+    """The file of --autosave, according to the XDG base directory specification."""
     home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     return Path(home) / "webviz" / "last.yaml"
-
-
-def _config(options: ViewingOptions, standard: Path | None, path: Path | None) -> Config:
-    """What to begin with; `path` is what somebody asked for, `standard` what the command shows."""
-    if path is None and options.autosave and _last_session().exists():
-        path = _last_session()
-    path = path or standard
-    config = config_file.standard() if path is None else opening.load(path)
-    if path is not None:
-        tell(path, config.report)
-    return override(config, options.set)

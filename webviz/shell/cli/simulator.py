@@ -1,4 +1,4 @@
-"""The simulated robot of `webviz demo`, in a process of its own."""
+"""The simulated robot of `webviz demo`, in its own process."""
 
 import contextlib
 import importlib.util
@@ -17,17 +17,17 @@ PATIENCE_S = 2.0
 
 @contextlib.contextmanager
 def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
-    """Run the simulator as long as the block; if it fails, the program is to end.
+    """Run the simulator during the block, and stop the program if it fails.
 
-    It also ends when this program does, however that happens: its input is a pipe from here. Ctrl-C
-    in a terminal does not reach it.
+    The simulator stops when its standard input closes, so it never outlives this program. Ctrl-C in
+    a terminal does not reach it.
 
     Raises:
-        Error: there is no ROS, or the simulator failed.
+        Error: ROS is missing, or the simulator failed.
     """
     if importlib.util.find_spec("rclpy") is None:
         raise Error(NO_ROS.format(version=sys.version.split()[0]))
-    # The demo stays on this machine unless the environment says otherwise.
+    # Keep the demo on this machine unless the environment says otherwise.
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     command = [sys.executable, "-m", "webviz_sim", "--until-stdin-closes", *ros]
     simulator = subprocess.Popen(command, stdin=subprocess.PIPE, process_group=0)
@@ -46,7 +46,7 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
     try:
         yield
         if failed:
-            raise Error(f"the simulator ended by itself with status {failed[0]}.")
+            raise Error(f"The simulator failed with exit status {failed[0]}.")
     finally:
         simulator.terminate()
         try:

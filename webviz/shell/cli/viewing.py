@@ -1,4 +1,4 @@
-"""`webviz` and `webviz demo`, as far as the command line knows them: imports wait for a call."""
+"""`webviz` and `webviz demo`; slow imports wait until a command runs."""
 
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import RosArgs
@@ -6,20 +6,20 @@ from webviz.shell.cli.viewing_options import ViewingOptions
 
 EXAMPLES = """\
 Examples:
-  webviz                          show the usual topics of the robots around
-  webviz -d lab.yaml -f odom      open a saved config, in another fixed frame
+  webviz                          show the usual topics of the ROS graph
+  webviz -d lab.yaml -f odom      open a config, in another fixed frame
   webviz -d nav2.rviz             open a config of RViz
-  webviz --plugin my_display.py   with a display of your own, see the README
-  webviz demo                     a simulated robot, nothing else needed
+  webviz --plugin my_display.py   load your own display, see the README
+  webviz demo                     show a simulated robot
   webviz screenshot -d lab.yaml --bag run.mcap -o lab.png
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
 
-`webviz COMMAND --help` lists the options of a command.
+Run `webviz COMMAND --help` for the options of a command.
 """
 
 
 def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
-    """Show the page until Ctrl-C or SIGTERM."""
+    """Serve the page until Ctrl-C or SIGTERM."""
 
     def work(stop: Stop) -> int:
         from webviz.shell.cli.serving import serve
@@ -30,7 +30,7 @@ def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
 
 
 def demo(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
-    """Show the page, and start a simulated robot as well."""
+    """Serve the page with a simulated robot."""
 
     def work(stop: Stop) -> int:
         from webviz.shell.cli.serving import DEMO, serve

@@ -14,15 +14,15 @@ LOCAL = "127.0.0.1"
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ViewingOptions(ConfigOptions):
-    """Where the page is served, and what is kept."""
+    """Where to serve the page, and what to save."""
 
     port: Annotated[int, Parameter(validator=validators.Number(gte=0, lte=65535))] = 8080
     """Port of the page; 0 picks a free one."""
     host: Annotated[str, Parameter(metavar="ADDRESS")] = LOCAL
-    """Address to listen on; the default is this machine only, 0.0.0.0 is everybody."""
+    """Address to listen on. The default allows this machine only; 0.0.0.0 allows any network."""
     allow_host: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
-    """With --host: a name under which browsers may reach this machine (repeatable)."""
+    """Host name that browsers may use with --host (repeatable)."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
-    """Let the ROS parameter config_file open configs below this folder, too (repeatable)."""
+    """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     autosave: Flag = False
-    """Keep the last session in ~/.local/state/webviz, and begin with it unless -d is given."""
+    """Save the session in ~/.local/state/webviz; restore it unless -d is given."""

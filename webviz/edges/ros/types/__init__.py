@@ -1,21 +1,20 @@
-"""Message and service classes for rclpy by name, also for types whose package is not installed.
+"""Message and service classes for rclpy by name, even if the package of the type is missing.
 
-`/tf` carries `tf2_msgs/msg/TFMessage`, and tf2_msgs is not among the ROS packages on PyPI; neither
-are map_msgs and nav2_msgs. rclpy needs no generated Python code of a type, only what the middleware
-must know of it: a `rosidl_message_type_support_t` or `rosidl_service_type_support_t`, held by a
-capsule in the attribute `_TYPE_SUPPORT` of the class's metaclass. A package brings that struct
-compiled in a shared library. If the package is missing, this package composes the same struct with
-ctypes, from the definition:
+`/tf` carries `tf2_msgs/msg/TFMessage`, but PyPI has no tf2_msgs; nor has it map_msgs and nav2_msgs.
+rclpy does not need the generated Python code of a type. It needs a `rosidl_message_type_support_t`
+or `rosidl_service_type_support_t`, as a capsule in `_TYPE_SUPPORT` of the metaclass. A package
+contains this struct in a shared library. Without the package, it is composed here with ctypes from
+the definition of the type:
 
-* names and bounds, as rmw_fastrtps_cpp wants them (`message_type_support_callbacks_t`),
-* the members of the type and of every nested type (`MessageMembers`), which Fast DDS announces,
-* the type description and its hash (REP 2016), which other nodes compare and ask for.
+* names and bounds for rmw_fastrtps_cpp (`message_type_support_callbacks_t`),
+* the members of the type and its nested types (`MessageMembers`), announced by Fast DDS,
+* the type description and its hash (REP 2016), which other nodes request and compare.
 
-No C struct stands behind such a class, so its messages exist as serialised CDR bytes only:
-subscribe with `raw=True`, publish `bytes`; requests and responses hold their bytes in `cdr`. The
-layouts are those of ROS 2 Jazzy, in the headers of rosidl_runtime_c,
-rosidl_typesupport_fastrtps_cpp and rosidl_typesupport_introspection_c. Another RMW implementation
-looks for other structs and so needs the real package.
+There is no C struct of the message itself, so messages are serialised CDR bytes only: subscribe
+with `raw=True`, publish `bytes`; requests and responses hold their bytes in `cdr`. The layouts are
+those of ROS 2 Jazzy in the headers of rosidl_runtime_c, rosidl_typesupport_fastrtps_cpp and
+rosidl_typesupport_introspection_c. Other RMW implementations have other structs and need the
+package.
 """
 
 from webviz.edges.ros.types.classes import (

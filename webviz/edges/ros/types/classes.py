@@ -1,4 +1,4 @@
-"""The class of a type for rclpy: the installed one, else one composed from the definition."""
+"""Classes for rclpy: installed ones, or composed from the definition of the type."""
 
 from __future__ import annotations
 
@@ -18,23 +18,22 @@ _FEEDBACK = "_FeedbackMessage"
 
 
 class MessageTypeError(Exception):
-    """A type cannot be provided; the text says why and what to do."""
+    """A type is unavailable; the message says why and what to do."""
 
 
 def message_class(type_name: str) -> type:
-    """The message class to create publishers and subscriptions with.
+    """The message class for publishers and subscriptions.
 
-    The real class if its package is importable, else one composed at run time, which works with
-    `create_subscription(..., raw=True)` and `publisher.publish(bytes)` only. The same call returns
-    the same class.
+    A composed class works with `create_subscription(..., raw=True)` and `publish(bytes)` only.
+    Repeated calls return the same class.
 
     Args:
-        type_name: full name, such as "tf2_msgs/msg/TFMessage". Types that neither an installed
-            package nor webviz knows are made known by `webviz.data.messages.register`.
+        type_name: full name, such as "tf2_msgs/msg/TFMessage". Register types unknown to webviz
+            whose package is missing with `webviz.data.messages.register`.
 
     Raises:
-        MessageTypeError: the name is malformed or unknown, or the package is missing under another
-            RMW implementation than rmw_fastrtps_cpp.
+        MessageTypeError: the name is malformed or unknown, or the package is missing and the RMW
+            implementation is not rmw_fastrtps_cpp.
     """
     match type_name.split("/"):
         case [package, "msg", name] if package.isidentifier() and name.isidentifier():
@@ -50,9 +49,9 @@ def message_class(type_name: str) -> type:
 
 
 def service_class(type_name: str) -> Any:
-    """The service class to create clients with; also of the services that an action consists of.
+    """The service class for clients, including the services of an action.
 
-    Its requests and responses go through `to_cdr` and `from_cdr`, installed or not.
+    Convert its requests and responses with `to_cdr` and `from_cdr`.
 
     Args:
         type_name: such as "std_srvs/srv/Trigger" or "nav2_msgs/action/Spin_SendGoal".
@@ -85,7 +84,7 @@ def to_cdr(message: Any) -> bytes:
 
 
 def _installed(package: str, kind: str, name: str) -> Any:
-    """The generated class; a source folder that merely bears the package's name has none."""
+    """The generated class, or None; a source folder named like the package has none."""
     try:
         return getattr(importlib.import_module(f"{package}.{kind}"), name, None)
     except ModuleNotFoundError as error:

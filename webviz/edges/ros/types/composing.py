@@ -1,4 +1,4 @@
-"""Classes for rclpy of types whose package is not installed; see the package's own docstring."""
+"""Composes classes for rclpy of types whose package is missing; see `webviz.edges.ros.types`."""
 
 from __future__ import annotations
 
@@ -38,22 +38,22 @@ _pointer = ctypes.c_void_p
 
 
 class _ComposedType(type):
-    """Metaclass of the composed classes; a subclass per class holds the capsules."""
+    """Metaclass of the composed classes; each class has its own subclass with the capsules."""
 
     @classmethod
     def __import_type_support__(cls) -> None:
-        """Nothing to import: the capsules are there from the start."""
+        """Do nothing: the capsules exist from the start."""
 
 
 class _ComposedMessage(_ComposedType):
     def __call__(cls, *_: object, **__: object) -> Any:
-        raise TypeError(f"{cls.__name__} was composed without its package: use serialised bytes.")
+        raise TypeError(f"The package of {cls.__name__} is missing: use serialised bytes.")
 
 
 @functools.cache
 def composed_message(type_name: str) -> type:
-    """The class of a message type whose definition is known."""
-    # A subscription without raw=True calls this for a message: null makes rclpy raise.
+    """The class of a message type, composed from its definition."""
+    # Called by a subscription without raw=True: null makes rclpy raise.
     no_message = capsule(function(lambda: None, _pointer))
     attributes = dict.fromkeys(wire.conversions(), no_message)
     attributes["_TYPE_SUPPORT"] = capsule(_message_support(type_name))
@@ -62,7 +62,7 @@ def composed_message(type_name: str) -> type:
 
 @functools.cache
 def composed_service(type_name: str) -> type:
-    """The class of a service type that `interfaces` knows; its requests are `wire.Raw`."""
+    """The class of a service type, composed from its definition; its requests are `wire.Raw`."""
     parts = interfaces.service(type_name)
     cls = _class(type_name, _ComposedType, (), {"_TYPE_SUPPORT": capsule(_service(type_name))})
     for name, part in (("Request", parts.request), ("Response", parts.response)):
@@ -87,9 +87,9 @@ def _handle(type_name: str, identifier: str, data: int, others: dict[str, int]) 
 
 @functools.cache
 def _introspection(type_name: str) -> int:
-    """The handle from which Fast DDS learns the members, to announce them as an XTypes object.
+    """The handle from which Fast DDS reads the members to announce them as an XTypes object.
 
-    Sizes, offsets and functions stay zero: they are about the C struct that does not exist.
+    Sizes, offsets and functions stay zero, since they describe a C struct that does not exist.
     """
     members = [
         Member(
@@ -111,7 +111,7 @@ def _introspection(type_name: str) -> int:
 
 @functools.cache
 def _message_support(type_name: str) -> int:
-    """The handle for rclpy, which leads rmw_fastrtps_cpp to the two it works with."""
+    """The handle for rclpy, through which rmw_fastrtps_cpp finds the two that it uses."""
     package, kind, name = type_name.split("/")
 
     def max_serialized_size(bounds: Any) -> int:
@@ -135,7 +135,7 @@ def _message_support(type_name: str) -> int:
 
 
 def _service(type_name: str) -> int:
-    """A `rosidl_service_type_support_t`, as `_message_support` is for messages."""
+    """A `rosidl_service_type_support_t`; the counterpart of `_message_support`."""
     package, kind, name = type_name.split("/")
     parts = interfaces.service(type_name)
     supports = [_message_support(part) for part in (*parts, f"{type_name}_Event")]

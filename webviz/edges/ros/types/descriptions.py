@@ -1,4 +1,4 @@
-"""What a type looks like: from its definition to its description and hash (REP 2016)."""
+"""Type descriptions and their hashes (REP 2016)."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Field(NamedTuple):
     Args:
         name: as in the definition.
         type_name: a primitive, or the full name of a nested type.
-        string_bound: the longest string, 0 without limit.
+        string_bound: maximum length of a string, 0 for unbounded.
         repeated: 0 for one value, else `ARRAY`, `BOUNDED_SEQUENCE` or `SEQUENCE`.
-        capacity: length of an array, upper bound of a bounded sequence, else 0.
+        capacity: length of an array or upper bound of a sequence, else 0.
     """
 
     name: str
@@ -47,10 +47,10 @@ class Field(NamedTuple):
 
 
 def fields(type_name: str) -> list[Field]:
-    """The members of a type in the order of the wire.
+    """The members of a type in order of serialisation.
 
     Raises:
-        UnknownTypeError: no definition of the type is known.
+        UnknownTypeError: the type is unknown.
     """
     result = []
     node: Any
@@ -67,10 +67,10 @@ def fields(type_name: str) -> list[Field]:
 
 
 def describe(type_name: str) -> dict[str, Any]:
-    """The description of a type as JSON data, with the keys in the order that is hashed.
+    """The description of a type as JSON data, with its keys in the order of the hash.
 
     Raises:
-        UnknownTypeError: the type, or one it contains, is not known.
+        UnknownTypeError: the type, or one of its nested types, is unknown.
     """
     described: dict[str, dict] = {}
 
@@ -95,11 +95,10 @@ def describe(type_name: str) -> dict[str, Any]:
 def type_hash(type_name: str) -> str:
     """The `RIHS01_…` hash of a type, computed from its definition.
 
-    rosbags has such a function too, which takes a `char` for a type of its own and so disagrees
-    with rosidl about std_msgs/msg/Char.
+    The function of rosbags disagrees with rosidl about `char`, as in std_msgs/msg/Char.
 
     Raises:
-        UnknownTypeError: the type, or one it contains, is not known.
+        UnknownTypeError: as `describe`.
     """
     text = json.dumps(describe(type_name))
     return f"RIHS01_{hashlib.sha256(text.encode()).hexdigest()}"

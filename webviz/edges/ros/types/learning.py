@@ -1,4 +1,4 @@
-"""Definitions of installed types that webviz does not know by itself, read from their classes."""
+"""Reads the definitions of installed types from their classes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _REPEATED = re.compile(
 
 
 def learn(type_name: str) -> None:
-    """Make the decoder and the encoder know a message, service or action type that is installed.
+    """Register an installed message, service or action type with decoder and encoder.
 
     Args:
-        type_name: such as "my_msgs/msg/Wheel" or "my_msgs/action/Dock". Nothing happens if it is
-            known already or not installed.
+        type_name: such as "my_msgs/msg/Wheel" or "my_msgs/action/Dock". Types that are known
+            already or not installed are ignored.
 
     Raises:
-        DefinitionError: the type holds something that webviz cannot decode, such as a wstring.
+        DefinitionError: the type contains something that webviz cannot decode, such as a wstring.
     """
     package, kind, name = type_name.split("/")
     try:
@@ -41,7 +41,7 @@ def learn(type_name: str) -> None:
 
 
 def _joined(*parts: Any) -> str:
-    """The definition of a service or an action; the messages in it are learnt."""
+    """The definition of a service or an action; its nested messages are registered."""
     for part in parts:
         for nested in _nested(part):
             learn(nested)
@@ -49,7 +49,7 @@ def _joined(*parts: Any) -> str:
 
 
 def _with_nested(cls: Any) -> str:
-    """A message's definition, and those of all that it holds, as bags store it."""
+    """The definitions of a message and its nested messages, in the format of bags."""
     texts = {"": _text(cls)}
     waiting = _nested(cls)
     while waiting:
@@ -75,7 +75,7 @@ def _members(cls: Any) -> list[tuple[str, str]]:
 
 
 def _nested(cls: Any) -> list[str]:
-    """Full names of the message types that a class holds."""
+    """Full names of the message types of the members."""
     kinds = [_item(kind) for _, kind in _members(cls)]
     return [kind.replace("/", "/msg/") for kind in kinds if "/" in kind]
 
@@ -86,7 +86,7 @@ def _item(kind: str) -> str:
 
 
 def _type(kind: str) -> str:
-    """A type as rosidl's Python names it, as a .msg file does."""
+    """A type name of rosidl's Python classes in the syntax of .msg files."""
     if found := _REPEATED.fullmatch(kind):
         if found["item"]:
             return f"{_type(found['item'])}[{found['size']}]"

@@ -1,7 +1,7 @@
-"""The C structs of rosidl that the middleware reads, made with ctypes.
+"""The C structs of rosidl that the middleware reads, in ctypes.
 
-The middleware keeps plain pointers into all of this for as long as the process lives, so nothing is
-ever freed, not even when the interpreter ends.
+The middleware keeps pointers to them until the process ends, so they are never freed, not even at
+interpreter shutdown.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _Description = struct("main:main referenced:list", main=_Individual, list=_Seque
 
 
 def address(value: Any) -> int:
-    """Where a ctypes value lies, for good."""
+    """The address of a ctypes value, which is kept alive forever."""
     _immortal.append(value)
     return ctypes.addressof(value)
 
@@ -72,7 +72,7 @@ def function(call: Callable, result: Any, *arguments: Any) -> int:
 
 
 def capsule(address: int) -> object:
-    """A Python capsule round a pointer, as rclpy reads it from classes."""
+    """A Python capsule of a pointer, as rclpy reads it from classes."""
     new = ctypes.pythonapi.PyCapsule_New
     new.restype = ctypes.py_object
     new.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
@@ -81,7 +81,7 @@ def capsule(address: int) -> object:
 
 @functools.cache
 def getters(type_name: str) -> list[int]:
-    """Three functions: a type's hash, its description, and its source files (none)."""
+    """Functions that return the hash, the description and the (empty) sources of a type."""
     described = describe(type_name)
     main = _individual(described["type_description"])
     referenced = [_individual(other) for other in described["referenced_type_descriptions"]]
@@ -97,7 +97,7 @@ def getters(type_name: str) -> list[int]:
 
 
 def finder(handles: dict[str, int]) -> int:
-    """The function of a handle: asked for an identifier, it leads there or nowhere."""
+    """The `func` of a handle: returns the handle of an identifier, or null."""
     named = {name.encode(): each for name, each in handles.items()}
     return function(
         lambda _, wanted: named.get(wanted), ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p

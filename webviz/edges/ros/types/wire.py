@@ -1,8 +1,8 @@
-"""The bytes of requests and responses on their way through the middleware.
+"""Passes the bytes of requests and responses through the middleware.
 
-To rclpy a composed request is a Python object with its CDR bytes. To rmw_fastrtps it is a pointer
-to a `Blob`, which it hands to the callbacks of the type support together with the `Cdr` of Fast CDR
-that writes or reads the sample.
+In rclpy a composed request is a Python object with CDR bytes. In rmw_fastrtps it is an opaque
+pointer, here an id, which is passed to the callbacks of the type support together with the `Cdr` of
+Fast CDR that writes or reads the sample.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ import itertools
 from webviz.edges.ros.types.structs import capsule, function, struct
 
 ENCAPSULATION = b"\x00\x01\x00\x00"
-"""Plain CDR, little endian: how this side begins each serialised message."""
+"""Plain CDR, little endian: the header of serialised messages."""
 
-# In Fast CDR 2, a `Cdr` has a reference to its buffer behind seven pointers to members.
+# In Fast CDR 2, a `Cdr` starts with seven pointers to members, then the reference to its buffer.
 _BUFFER_OFFSET = 7 * 16
 _FastBuffer = struct("virtual_table buffer size:size")
 _pointer = ctypes.c_void_p
 
 
 class Raw:
-    """A request or a response of a composed service.
+    """A request or response of a composed service.
 
     Args:
-        cdr: serialised, with its encapsulation header.
+        cdr: serialised, with encapsulation header.
     """
 
     __slots__ = ("cdr",)
@@ -35,29 +35,19 @@ class Raw:
         self.cdr = cdr
 
 
-class _Blobs:
-    """The messages that the middleware holds pointers to, by an id that stands for the pointer."""
-
-    def __init__(self) -> None:
-        self._ids = itertools.count(1)
-        self._held: dict[int, bytes] = {}
-
-    def create(self) -> int:
-        id = next(self._ids)
-        self._held[id] = b""
-        return id
-
-    def destroy(self, id: int) -> None:
-        self._held.pop(id, None)
-
-    def get(self, id: int) -> bytes:
-        return self._held[id]
-
-    def set(self, id: int, cdr: bytes) -> None:
-        self._held[id] = cdr
+_ids = itertools.count(1)
+_blobs: dict[int, bytes] = {}
+"""The messages in the middleware, by the id that serves as their pointer."""
 
 
-_blobs = _Blobs()
+def _create() -> int:
+    id = next(_ids)
+    _blobs[id] = b""
+    return id
+
+
+def _destroy(id: int) -> None:
+    _blobs.pop(id, None)
 
 
 @functools.cache
@@ -76,49 +66,46 @@ def _fastcdr() -> ctypes.CDLL:
 
 
 def serialize(blob: int, cdr: int) -> bool:
-    """`cdr_serialize` of a composed type: copies the bytes behind the encapsulation header."""
-    body = _blobs.get(blob)[len(ENCAPSULATION) :]
+    """`cdr_serialize` of a composed type: copies the bytes after the encapsulation header."""
+    body = _blobs[blob][len(ENCAPSULATION) :]
     write = _fastcdr()._ZN8eprosima7fastcdr3Cdr15serialize_arrayEPKcm
     write(cdr, body, len(body))
     return True
 
 
 def deserialize(cdr: int, blob: int) -> bool:
-    """`cdr_deserialize` of a composed type: takes all bytes that are left.
-
-    How many that are stands in the buffer that the first member of a `Cdr` refers to.
-    """
+    """`cdr_deserialize` of a composed type: takes all bytes that remain in the buffer."""
     library = _fastcdr()
     begin = library._ZN8eprosima7fastcdr3Cdr18get_buffer_pointerEv(cdr)
     now = library._ZN8eprosima7fastcdr3Cdr20get_current_positionEv(cdr)
     buffer = _FastBuffer.from_address(_pointer.from_address(cdr + _BUFFER_OFFSET).value or 0)
     if buffer.buffer != begin:
-        return False  # another layout of Fast CDR than the one this was written for
+        return False  # the layout of this Fast CDR is unknown
     body = ctypes.string_at(now, buffer.size - (now - begin))
-    _blobs.set(blob, ctypes.string_at(begin, len(ENCAPSULATION)) + body)
+    _blobs[blob] = ctypes.string_at(begin, len(ENCAPSULATION)) + body
     return True
 
 
 def serialized_size(blob: int) -> int:
-    """`get_serialized_size` of a composed type, without the encapsulation header."""
-    return len(_blobs.get(blob)) - len(ENCAPSULATION)
+    """`get_serialized_size` of a composed type, without encapsulation header."""
+    return len(_blobs[blob]) - len(ENCAPSULATION)
 
 
 def _from_python(message: Raw, blob: int) -> bool:
-    _blobs.set(blob, message.cdr)
+    _blobs[blob] = message.cdr
     return True
 
 
 def _to_python(blob: int) -> Raw:
-    return Raw(_blobs.get(blob))
+    return Raw(_blobs[blob])
 
 
 @functools.cache
 def conversions() -> dict[str, object]:
-    """The capsules by which rclpy turns a `Raw` into what the middleware takes, and back."""
+    """The capsules with which rclpy converts a `Raw` for the middleware, and back."""
     return {
-        "_CREATE_ROS_MESSAGE": capsule(function(_blobs.create, _pointer)),
-        "_DESTROY_ROS_MESSAGE": capsule(function(_blobs.destroy, None, _pointer)),
+        "_CREATE_ROS_MESSAGE": capsule(function(_create, _pointer)),
+        "_DESTROY_ROS_MESSAGE": capsule(function(_destroy, None, _pointer)),
         "_CONVERT_FROM_PY": capsule(
             function(_from_python, ctypes.c_bool, ctypes.py_object, _pointer)
         ),

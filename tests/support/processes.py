@@ -1,0 +1,30 @@
+"""Processes and threads that tests start, of which each may end at any moment."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+import psutil
+
+
+def command_lines(pid: int | None = None) -> dict[psutil.Process, str]:
+    """The living processes that a process has started, with their command lines.
+
+    Args:
+        pid: of the process; None is this one.
+    """
+    found = {}
+    for process in psutil.Process(pid).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):  # also of one that only waits to be reaped
+            found[process] = " ".join(process.cmdline())
+    return found
+
+
+@contextmanager
+def no_thread_left() -> Iterator[None]:
+    """Fails if a thread that was started in the block still runs; older ones may end in it."""
+    before = set(threading.enumerate())
+    yield
+    assert set(threading.enumerate()) - before == set()

@@ -1,0 +1,47 @@
+"""Opens the channel in every page that connects."""
+
+from __future__ import annotations
+
+import viser
+from viser import _messages as wire
+from viser.infra._infra import ClientId, WebsockClientConnection
+
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import Beat
+from webviz.edges.page.modules import Modules
+
+BEAT_PERIOD = 1.0
+"""Seconds between two heartbeats."""
+
+
+def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
+    """Makes every page that connects open the channel, and sends heartbeats.
+
+    To be called before the server has browsers.
+
+    Args:
+        server: of the pages.
+        channel: to the pages.
+        modules: of the pages.
+    """
+    socket = server._websock_server
+
+    def join(client: WebsockClientConnection) -> None:
+        key = channel.join(client.client_id)
+        source = modules.connect(client.client_id, key)
+        client.queue_message(wire.RunJavascriptMessage(source=source))
+
+    def end(browser: int) -> None:
+        if browser in socket._live_connections:
+            socket._live_connections[ClientId(browser)].transport.abort()
+
+    channel.on_lost = end
+    loop = server.get_event_loop()
+
+    def beat() -> None:
+        channel.send(Beat())
+        loop.call_later(BEAT_PERIOD, beat)
+
+    loop.call_soon_threadsafe(beat)
+    socket.on_client_connect(join)
+    socket.on_client_disconnect(lambda client: channel.leave(client.client_id))

@@ -1,0 +1,25 @@
+"""Errors for values that do not fit."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import msgspec
+
+from webviz.files.config import ConfigError, explain, sentences
+
+
+def not_changed(
+    error: msgspec.ValidationError, cls: type[msgspec.Struct], path: str, value: Any
+) -> ConfigError:
+    """The error for a value that does not fit a property.
+
+    Args:
+        error: of validating the value.
+        cls: the class with the property.
+        path: of the property, dotted if it is nested.
+        value: what it was to be set to.
+    """
+    values = functools.reduce(lambda inner, key: {key: inner}, reversed(path.split(".")), value)
+    return ConfigError(f"Not changed: {sentences([explain(error, cls, values)])}")
