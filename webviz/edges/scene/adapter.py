@@ -279,7 +279,7 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     loop = server.get_event_loop()
 
     def beat() -> None:
-        channel.send(Beat())
+        channel.send(Beat(time.time()))
         loop.call_later(BEAT_PERIOD, beat)
 
     loop.call_soon_threadsafe(beat)
