@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from webviz.api.declared import Topic
-from webviz.engine.commands import Command, InspectTopic, InspectTransforms, Pause, Reset
+from webviz.engine.commands import (
+    Command,
+    InspectTopic,
+    InspectTopics,
+    InspectTransforms,
+    Pause,
+    Reset,
+)
+from webviz.engine.parts.topics import MAX_INSPECTED
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import State
 from webviz.shell.testing.messages import header
@@ -16,6 +25,7 @@ from webviz.shell.testing.source import SECOND
 from webviz_displays.path import Path
 
 PATH = "nav_msgs/msg/Path"
+STRING = "std_msgs/msg/String"
 
 
 def do(b: Any, *commands: Command) -> State:
@@ -83,31 +93,58 @@ def test_the_rates_of_topics_are_measured_over_the_last_seconds(
     assert do(b).traffic["/path"].rate_hz == 0.0
 
 
+def test_the_delay_of_a_topic_is_from_its_stamp_to_its_arrival(bench: Callable[..., Any]) -> None:
+    b = bench(Path(name="P", topic=Topic("/path")))
+    do(b)
+    stamp = header("map", b.source.now)
+    b.source.now += SECOND // 4
+    b.publish("/path", PATH, {"header": stamp, "poses": []})
+    b.clock += 1.0
+    assert do(b).traffic["/path"].delay_s == pytest.approx(0.25)
+
+
 def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., Any]) -> None:
     b = bench()
-    inspected = do(b, InspectTopic("/text")).inspected
-    assert inspected is not None
-    assert inspected.text == "No publisher on this topic."
-    publisher = Publisher("/talker", "std_msgs/msg/String", "reliable", "volatile")
+    assert do(b, InspectTopic("/text")).inspected["/text"].problem == "No publisher on this topic."
+    publisher = Publisher("/talker", STRING, "reliable", "volatile")
     b.source.known["/text"] = Offer((publisher,))
-    assert "No message" in do(b).inspected.text  # pyright: ignore[reportOptionalMemberAccess]
-    assert b.source.wanted["/text"].type == "std_msgs/msg/String"
-    b.publish("/text", "std_msgs/msg/String", {"data": "hello"})
-    inspected = do(b).inspected
-    assert inspected is not None
-    assert (inspected.text, inspected.age_s) == ("data: 'hello'", 0.0)
-    b.clock += 2.0
-    inspected = do(b).inspected
-    assert inspected is not None
-    assert inspected.age_s == 2.0
+    assert do(b).inspected["/text"].problem == "No message has come yet."
+    assert b.source.wanted["/text"].type == STRING
+    b.publish("/text", STRING, {"data": "hello"})
+    inspected = do(b).inspected["/text"]
+    assert (inspected.message, inspected.type) == ({"fields": {"data": "'hello'"}}, STRING)
+    assert inspected.received_s == pytest.approx(time.time(), abs=30)
     b.scene.watched = False
     b.turn()
     assert "/text" not in b.source.wanted
     b.scene.watched = True
     b.turn()
     assert "/text" in b.source.wanted
-    assert do(b, InspectTopic("")).inspected is None
+    assert do(b, InspectTopic("")).inspected == {}
     assert "/text" not in b.source.wanted
+
+
+def test_a_message_is_read_once_a_second_at_most(bench: Callable[..., Any]) -> None:
+    b = bench()
+    b.source.known["/text"] = Offer((Publisher("/talker", STRING, "reliable", "volatile"),))
+    do(b, InspectTopic("/text"))
+    for text in ("one", "two"):
+        b.publish("/text", STRING, {"data": text})
+        b.clock += 0.1
+        assert do(b).inspected["/text"].message == {"fields": {"data": "'one'"}}
+    b.clock += 1.0
+    assert do(b).inspected["/text"].message == {"fields": {"data": "'two'"}}
+
+
+def test_pages_look_into_several_topics_besides_that_of_a_program(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench()
+    state = do(b, InspectTopic("/a"), InspectTopics(frozenset({"/b", "/c"})))
+    assert set(state.inspected) == {"/a", "/b", "/c"}
+    assert set(do(b, InspectTopics(frozenset({"/c"}))).inspected) == {"/a", "/c"}
+    many = frozenset(f"/t{i}" for i in range(1000))
+    assert len(do(b, InspectTopics(many)).inspected) == MAX_INSPECTED + 1
 
 
 def test_a_message_that_cannot_be_read_is_told(bench: Callable[..., Any]) -> None:
@@ -115,10 +152,8 @@ def test_a_message_that_cannot_be_read_is_told(bench: Callable[..., Any]) -> Non
     publisher = Publisher("/talker", "nav_msgs/msg/Path", "reliable", "volatile")
     b.source.known["/path"] = Offer((publisher,))
     do(b, InspectTopic("/path"))
-    b.publish("/path", "std_msgs/msg/String", {"data": "no path"})
-    inspected = do(b).inspected
-    assert inspected is not None
-    assert inspected.text.startswith("The last message cannot be read: ")
+    b.publish("/path", STRING, {"data": "no path"})
+    assert do(b).inspected["/path"].problem.startswith("The last message cannot be read: ")
 
 
 def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(
@@ -129,9 +164,8 @@ def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(
     do(b, InspectTopic("/path"))
     assert b.source.wanted["/path"].topic.reliability == "best_effort"
     publish(b, 7.5)
-    inspected = do(b).inspected
-    assert inspected is not None
-    assert "7.5" in inspected.text
+    b.clock += 1.0
+    assert "7.5" in str(do(b).inspected["/path"].message)
     assert drawn(b) == [7.5]
 
 

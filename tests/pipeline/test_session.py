@@ -264,7 +264,7 @@ def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
     topic = Topic("/front", reliability="reliable")
     scan = LaserScan(name="Front", enabled=False, topic=topic, size=0.5, decay_time=3.0)
     state = do(bench(scan, Group(name="G")), ResetDisplay("display1"))
-    (row,) = state.rows
+    row = state.rows[0]
     assert row.display is not None
     assert to_values(row.display) == {
         "name": "Front",

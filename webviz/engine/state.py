@@ -11,6 +11,7 @@ from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
 from webviz.api.tool import Gesture
 from webviz.api.views import View
+from webviz.data.messages.tree import Tree
 from webviz.engine.sources import Offer
 from webviz.files.config import Settings
 
@@ -77,6 +78,24 @@ class Answer:
 
 
 @dataclass(frozen=True)
+class Pace:
+    """How ROS time goes on, for pages that count by themselves.
+
+    Args:
+        ros_ns, wall_s: ROS time, and wall time in seconds since 1970, of one moment.
+        rate: seconds of ROS time per second, 0 while it stands still.
+    """
+
+    ros_ns: int = 0
+    wall_s: float = 0.0
+    rate: float = 0.0
+
+    def at(self, wall_s: float) -> float:
+        """ROS time in ns at a wall time."""
+        return self.ros_ns + (wall_s - self.wall_s) * self.rate * 1e9
+
+
+@dataclass(frozen=True)
 class Clock:
     """The times of RViz's Time panel.
 
@@ -85,7 +104,10 @@ class Clock:
         ros_elapsed_ns: since the viewer started or was reset.
         wall_s: seconds since 1970.
         wall_elapsed_s: since the viewer started or was reset.
-        is_paused: whether the shown time is paused.
+        is_paused: whether somebody let the time stand still.
+        pace: how the time that is shown goes on.
+        is_simulated: whether ROS time comes from /clock or a bag instead of this machine.
+        clock_hz: messages per second on /clock, 0 while ROS time is wall time.
     """
 
     ros_ns: int = 0
@@ -93,14 +115,23 @@ class Clock:
     wall_s: float = 0.0
     wall_elapsed_s: float = 0.0
     is_paused: bool = False
+    pace: Pace = Pace()
+    is_simulated: bool = False
+    clock_hz: float = 0.0
 
 
 @dataclass(frozen=True)
 class Traffic:
-    """Average traffic of a topic over the last seconds."""
+    """What arrives on a topic, over the last seconds.
+
+    Args:
+        rate_hz, bytes_per_s: over the last seconds.
+        delay_s: how long after its stamp a recent message came, None if it has no stamp.
+    """
 
     rate_hz: float
     bytes_per_s: float
+    delay_s: float | None = None
 
 
 @dataclass(frozen=True)
@@ -108,14 +139,18 @@ class Inspected:
     """The inspected topic.
 
     Args:
-        topic: its name.
-        text: its last message, or why it cannot be shown.
-        age_s: since the last message, None if there is none.
+        type: of its messages, "" if nobody publishes it.
+        message: the last one, see `webviz.data.messages.to_tree`; None without one.
+        problem: why there is none, or why it cannot be read; a sentence.
+        size: of it in bytes.
+        received_s: when it came, in seconds of wall time since 1970; 0 without one.
     """
 
-    topic: str
-    text: str
-    age_s: float | None = None
+    type: str = ""
+    message: Tree | None = None
+    problem: str = ""
+    size: int = 0
+    received_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -175,10 +210,10 @@ class State:
         answer: to the last command.
         clock: the time.
         offers: publishers and QoS by topic name.
-        traffic: of the subscribed topics, by name.
-        inspected: the inspected topic, if any.
-        transforms: the tree of transforms as lines of text, "" if it is not inspected.
-        views: of each browser, by its id.
+        traffic: by topic name, of the topics that are subscribed to.
+        inspected: the topics that somebody looks into, by name.
+        transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
+        views: what each browser shows, by its id.
         tools: in the order of the toolbar.
         history: what can be undone and redone.
         more: fields of additional parts, by name.
@@ -195,7 +230,7 @@ class State:
     clock: Clock = Clock()
     offers: Mapping[str, Offer] = field(default_factory=dict)
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
-    inspected: Inspected | None = None
+    inspected: Mapping[str, Inspected] = field(default_factory=dict)
     transforms: str = ""
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()

@@ -38,7 +38,7 @@ from webviz.data.messages.geometry import (
     TwistWithCovariance,
     Vector3,
 )
-from webviz.data.messages.text import to_text
+from webviz.data.messages.tree import to_tree
 from webviz.data.messages.types import (
     Clock,
     JointState,
@@ -94,7 +94,7 @@ __all__ = [
     "message_class",
     "peek_header",
     "register",
-    "to_text",
+    "to_tree",
     "type_exists",
     "type_hash",
 ]

@@ -44,8 +44,6 @@ ALLOWED = (
     commands.Reset,
     commands.Undo,
     commands.Redo,
-    commands.InspectTopic,
-    commands.InspectTransforms,
 )
 """What pages may ask for."""
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})

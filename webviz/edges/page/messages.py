@@ -52,9 +52,15 @@ class Pong(ToPage, frozen=True):
 
 
 class Beat(ToPage, frozen=True):
-    """Says that the server is there; at least every second something does."""
+    """Says that the server is there; at least every second something does.
+
+    Args:
+        wall: its time in seconds since 1970; clocks of browsers may be wrong.
+    """
 
     kept = True
+
+    wall: float
 
 
 class ShowView(ToPage, frozen=True):

@@ -9,8 +9,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import rclpy
-from rclpy.clock import ROSClock
+from rclpy.clock import JumpThreshold, ROSClock
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
@@ -34,6 +35,11 @@ WANTED_POLL_S = 0.25
 GRAPH_POLL_S = 2.0
 INBOX_LIMIT = 1000
 TF_TYPE = "tf2_msgs/msg/TFMessage"
+ANY_JUMP = JumpThreshold(
+    min_forward=Duration(nanoseconds=1),
+    min_backward=Duration(nanoseconds=-1),
+    on_clock_change=False,
+)
 TF_LIMIT = 20_000
 """Every transform counts: room for the 10 s that the buffer keeps, at 2 kHz."""
 
@@ -68,6 +74,8 @@ class RosSource:
         silent = Parameter("start_type_description_service", value=False)
         self._node = Node(node_name, context=self._context, parameter_overrides=[silent])
         self._clock = self._node.get_clock()
+        self._clock_messages = 0
+        self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
         self.control = Control(self._node)
         self._executor = _executor(self._context)
         self.graph = RosGraph(self._node, self._executor.wake)
@@ -93,6 +101,11 @@ class RosSource:
         if isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active:
             return self._clock.now().nanoseconds
         return time.time_ns()
+
+    def clock_messages(self) -> int | None:
+        """How many messages of /clock have moved ROS time; None without use_sim_time."""
+        is_simulated = isinstance(self._clock, ROSClock) and self._clock.ros_time_is_active
+        return self._clock_messages if is_simulated else None
 
     def resolve(self, topic: str) -> str:
         """The full name of a topic.
@@ -151,10 +164,9 @@ class RosSource:
             publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
             held = self._held.get(topic)
             problem = self._problems.get(topic, "")
-            if held is None:
-                offers[topic] = Offer(publishers, None, problem)
-            else:
-                offers[topic] = Offer(publishers, held.policies, problem, held.wish.type)
+            subscribers = self._node.count_subscribers(topic)
+            policies, type_ = (held.policies, held.wish.type) if held else (None, "")
+            offers[topic] = Offer(publishers, policies, problem, type_, subscribers)
         if offers != self._offers:
             self._offers = offers
             self.inbox.arrived.set()
@@ -205,6 +217,9 @@ class RosSource:
         held = self._held.pop(topic, None)
         for subscription in held.subscriptions if held else ():
             self._node.destroy_subscription(subscription)
+
+    def _count_clock(self, jump: object) -> None:
+        self._clock_messages += 1
 
     def _arrive(self, topic: str, cdr: bytes) -> None:
         self._heap.note(len(cdr))

@@ -17,7 +17,7 @@ from webviz.engine.commands.plugins import ReloadPlugin
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.commands.time import Pause, Reset
 from webviz.engine.commands.tools import SetToolProperty, UseTool
-from webviz.engine.commands.topics import InspectTopic
+from webviz.engine.commands.topics import InspectTopic, InspectTopics
 from webviz.engine.commands.transforms import InspectTransforms
 from webviz.engine.commands.views import (
     ChangeView,
@@ -42,6 +42,7 @@ __all__ = [
     "FileCommand",
     "FocusDisplay",
     "InspectTopic",
+    "InspectTopics",
     "InspectTransforms",
     "Load",
     "MoveDisplay",

@@ -9,6 +9,16 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class InspectTopic(Command):
-    """Show the rate and the last message of a topic, displayed or not; "" is none."""
+    """Follow a topic that need not be shown: its rate and its last message; "" is none.
+
+    Programs and plug-ins follow one at a time, besides those that pages follow.
+    """
 
     topic: str
+
+
+@dataclass(frozen=True)
+class InspectTopics(Command):
+    """Follow exactly these topics for all pages; the viewer itself keeps count of who looks."""
+
+    topics: frozenset[str]

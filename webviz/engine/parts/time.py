@@ -9,6 +9,7 @@ from typing import Any
 from webviz.api.status import Status
 from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.pipeline.pace import PaceMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
 from webviz.engine.state import Clock
 
@@ -27,6 +28,8 @@ class TimePart(Part):
         super().__init__(core)
         self._reset_all = reset
         self._paused_ns: int | None = None
+        self._pace = PaceMeter()
+        self._clock_rate = Rate()
         self._start()
         self.ros = RosTime(core.clock)
         """Detects that time went back."""
@@ -50,8 +53,18 @@ class TimePart(Part):
         """Both clocks."""
         ros_ns, wall_s = self.core.frames.now_ns, time.time()
         self._began_ns = self._began_ns or ros_ns
-        elapsed = ros_ns - self._began_ns, wall_s - self._began_s
-        return {"clock": Clock(ros_ns, elapsed[0], wall_s, elapsed[1], self.is_paused)}
+        messages = self.core.source.clock_messages()
+        clock = Clock(
+            ros_ns,
+            ros_ns - self._began_ns,
+            wall_s,
+            wall_s - self._began_s,
+            self.is_paused,
+            self._pace.step(ros_ns, wall_s, self.is_paused),
+            messages is not None,
+            self._clock_rate.step(messages or 0, self.core.clock()),
+        )
+        return {"clock": clock}
 
     def statuses(self) -> Mapping[str, Status]:
         """Whether time runs."""

@@ -1,104 +1,165 @@
-"""Topics: types, publishers, rates, and the last message of the inspected one."""
+"""What arrives on topics: rates, and the last messages of those that somebody looks into."""
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.declared import Topic
-from webviz.data.messages import MessageError, decode, to_text
-from webviz.engine.commands import Command, InspectTopic, Sender
+from webviz.data.messages import MessageError, decode, peek_header, to_tree
+from webviz.engine.commands import Command, InspectTopic, InspectTopics, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
-from webviz.engine.sources import Raw, Subscription
+from webviz.engine.sources import Offer, Raw, Subscription
 from webviz.engine.state import Inspected, Traffic
 
 SPAN_S = 3.0
-"""The window that rates are averaged over."""
-MAX_LINES = 60
+"""Over how long a rate is measured."""
+EVERY_S = 1.0
+"""How often a message is read to be looked into."""
+MAX_INSPECTED = 64
+"""Topics that are looked into at once."""
 
 
 class TopicsPart(Part):
-    """Lists topics and their traffic, and inspects one of them."""
+    """Who publishes what, how fast it arrives, and the last messages of some topics."""
 
     name = "Topics"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._inspected = ""
+        self._own = ""
+        self._of_pages: frozenset[str] = frozenset()
+        self._offers: Mapping[str, Offer] | None = None
+        self._types: dict[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
-        self._last: tuple[str, Raw, float] | None = None
-        self._text: tuple[Raw, str] | None = None
+        self._delays: dict[str, tuple[float, float | None]] = {}
+        self._last: dict[str, tuple[Raw, float]] = {}
+        self._read: dict[str, tuple[float, Raw, Inspected]] = {}
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {InspectTopic: self._inspect}
+        return {InspectTopic: self._inspect, InspectTopics: self._inspect_for_pages}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
-        """The inspected topic with its first type, while a browser is connected."""
-        topic = self._inspected
-        offer = self.core.offers.get(topic)
-        if not offer or not offer.publishers or not self.core.is_watched():
+        """The topics that are looked into while a browser is open, as the first type of each."""
+        if not self.core.is_watched():
             return {}
-        return {topic: Subscription(offer.publishers[0].type, Topic(topic))}
+        offers = {topic: self.core.offers.get(topic) for topic in self._inspected()}
+        return {
+            topic: Subscription(offer.publishers[0].type, Topic(topic))
+            for topic, offer in offers.items()
+            if offer and offer.publishers
+        }
 
     def take(self, batches: Batches) -> None:
-        """Keep the newest message of the inspected topic."""
-        for raw in batches.get(self._inspected, ()):
-            self._last = self._inspected, raw, self.core.clock()
+        """Keep the newest messages of the topics that are looked into, and measure delays."""
+        inspected = self._inspected()
+        for topic, batch in batches.items():
+            newest = next(reversed(list(batch)), None)
+            if newest is None:
+                continue
+            self._measure(topic, newest)
+            if topic in inspected:
+                self._last[topic] = newest, time.time()
+
+    def reset(self) -> None:
+        """Forget delays, which another time makes meaningless."""
+        self._delays.clear()
 
     def state(self) -> Mapping[str, Any]:
         """All topics."""
         offers = self.core.offers
-        types = {
-            topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
-            for topic, offer in offers.items()
+        if offers is not self._offers:
+            self._offers = offers
+            self._types = {
+                topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
+                for topic, offer in offers.items()
+            }
+        inspected = self._inspected()
+        for gone in self._last.keys() - inspected:
+            del self._last[gone]
+            self._read.pop(gone, None)
+        return {
+            "topics": self._types,
+            "offers": offers,
+            "traffic": self._traffic(),
+            "inspected": {topic: self._look(topic) for topic in inspected},
         }
-        traffic, inspected = self._traffic(), self._inspected_topic()
-        return {"topics": types, "offers": offers, "traffic": traffic, "inspected": inspected}
 
     def _inspect(self, command: InspectTopic, sender: Sender) -> None:
-        self._inspected = command.topic
+        self._own = command.topic
+
+    def _inspect_for_pages(self, command: InspectTopics, sender: Sender) -> None:
+        self._of_pages = frozenset(sorted(command.topics)[:MAX_INSPECTED])
+
+    def _inspected(self) -> set[str]:
+        return {topic for topic in (self._own, *self._of_pages) if topic}
+
+    def _measure(self, topic: str, raw: Raw) -> None:
+        """Note how old a message was when it came, now and then."""
+        now = self.core.clock()
+        if now - self._delays.get(topic, (-EVERY_S, None))[0] < EVERY_S:
+            return
+        offer = self.core.offers.get(topic)
+        try:
+            header = peek_header(_type_of(offer), raw.cdr) if offer and _type_of(offer) else None
+        except MessageError:
+            header = None
+        delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None
+        self._delays[topic] = now, delay
 
     def _traffic(self) -> dict[str, Traffic]:
-        """Rates by topic over the last `SPAN_S`, if called a few times a second."""
+        """Rates by topic, since some seconds ago; to be called some times a second."""
         now, counts = self.core.clock(), self.core.source.inbox.received()
         self._counts.append((now, counts))
         while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
             self._counts.popleft()
+        for gone in self._delays.keys() - counts.keys():
+            del self._delays[gone]
         then, before = self._counts[0]
         if now == then:
             return {}
         traffic = {}
         for topic, (count, size) in counts.items():
             old_count, old_size = before.get(topic, (0, 0))
-            if count < old_count:  # subscribed again
+            if count < old_count:  # subscribed anew
                 old_count = old_size = 0
-            span = now - then
-            traffic[topic] = Traffic((count - old_count) / span, (size - old_size) / span)
+            rates = (count - old_count) / (now - then), (size - old_size) / (now - then)
+            traffic[topic] = Traffic(*rates, self._delays.get(topic, (0.0, None))[1])
         return traffic
 
-    def _inspected_topic(self) -> Inspected | None:
-        """The inspected topic with its last message as text."""
-        topic = self._inspected
-        if not topic:
-            return None
+    def _look(self, topic: str) -> Inspected:
+        """What there is to say of a topic that is looked into."""
         offer = self.core.offers.get(topic)
+        type_ = _type_of(offer) if offer else ""
         if not offer or not offer.publishers:
-            return Inspected(topic, "No publisher on this topic.")
+            return Inspected(problem="No publisher on this topic.")
         if offer.problem:
-            return Inspected(topic, f"This topic cannot be read: {offer.problem}.")
-        if self._last is None or self._last[0] != topic:
-            return Inspected(topic, "No message yet.")
-        _, raw, at = self._last
-        if self._text is None or self._text[0] is not raw:
-            self._text = raw, _as_text(offer.type or offer.publishers[0].type, raw)
-        return Inspected(topic, self._text[1], self.core.clock() - at)
+            return Inspected(type_, problem=f"This topic cannot be read: {offer.problem}.")
+        if topic not in self._last:
+            return Inspected(type_, problem="No message has come yet.")
+        raw, received_s = self._last[topic]
+        now = self.core.clock()
+        read = self._read.get(topic)
+        if read is None or (read[1] is not raw and not 0.0 <= now - read[0] < EVERY_S):
+            read = now, raw, _read(type_, raw, received_s)
+            self._read[topic] = read
+        return read[2]
 
 
-def _as_text(type_name: str, raw: Raw) -> str:
+def _type_of(offer: Offer) -> str:
+    """What its messages are read as."""
+    return offer.type or (offer.publishers[0].type if offer.publishers else "")
+
+
+def _read(type_name: str, raw: Raw, received_s: float) -> Inspected:
+    size = len(raw.cdr)
     try:
-        return to_text(decode(type_name, raw.cdr), MAX_LINES)
+        tree = to_tree(decode(type_name, raw.cdr))
     except MessageError as error:
-        return f"The last message cannot be read: {error}"
+        problem = f"The last message cannot be read: {error}"
+        return Inspected(type_name, None, problem, size, received_s)
+    return Inspected(type_name, tree, "", size, received_s)

@@ -148,6 +148,10 @@ class BagSource:
         """ROS time at the position in the bag."""
         return self._time.at(self._position_ns)
 
+    def clock_messages(self) -> int | None:
+        """Time comes from the bag; nobody sees its /clock one by one."""
+        return 0
+
     def resolve(self, topic: str) -> str:
         """The full name of a topic, remapped.
 

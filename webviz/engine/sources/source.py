@@ -63,12 +63,14 @@ class Offer:
         requested: reliability and durability of our subscription, None without one.
         problem: why no message can arrive, "" if it can.
         type: of our subscription, "" without one; a topic can be read as one type only.
+        subscribers: how many there are, us included; None if nobody can know.
     """
 
     publishers: tuple[Publisher, ...]
     requested: tuple[Reliability, Durability] | None = None
     problem: str = ""
     type: str = ""
+    subscribers: int | None = None
 
 
 class Source(Protocol):
@@ -91,6 +93,10 @@ class Source(Protocol):
 
     def now_ns(self) -> int:
         """ROS time; 0 while it is unknown."""
+        ...
+
+    def clock_messages(self) -> int | None:
+        """How many messages of /clock have set ROS time; None while ROS time is wall time."""
         ...
 
     def resolve(self, topic: str) -> str:

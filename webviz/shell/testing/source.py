@@ -22,6 +22,9 @@ class HandFedSource:
     known: dict[str, Offer] = field(default_factory=dict)
     now: int = 100 * SECOND
     """ROS time in ns."""
+    clock_count: int | None = None
+    """Of messages on /clock; None is wall time."""
+    _told: dict[str, Offer] = field(default_factory=dict)
 
     def put(self, topic: str, type_name: str, cdr: bytes) -> None:
         """Let a message arrive now, from a reliable publisher."""
@@ -40,11 +43,17 @@ class HandFedSource:
 
     def offers(self) -> Mapping[str, Offer]:
         """What is known of every topic."""
-        return self.known
+        if self._told != self.known:
+            self._told = dict(self.known)
+        return self._told
 
     def now_ns(self) -> int:
         """ROS time, which is `now`."""
         return self.now
+
+    def clock_messages(self) -> int | None:
+        """How many messages of /clock there were, which is `clock_count`."""
+        return self.clock_count
 
     def resolve(self, topic: str) -> str:
         """The full name of a topic."""

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from webviz.edges.page.content.clock import clock
 from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
 from webviz.edges.page.content.scene import legend, watchers
-from webviz.edges.page.content.viewer import clock, file, frames, settings
+from webviz.edges.page.content.viewer import file, frames, settings
 from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {

@@ -35,15 +35,3 @@ def file(state: State, _: str) -> Mapping[str, Any]:
         "folder": file.folder,
         "others": file.others,
     }
-
-
-def clock(state: State, _: str) -> Mapping[str, Any]:
-    """The times of RViz's panel "Time" in seconds, to hundredths."""
-    clock = state.clock
-    return {
-        "ros": round(clock.ros_ns / 1e9, 2),
-        "ros_elapsed": round(clock.ros_elapsed_ns / 1e9, 2),
-        "wall": round(clock.wall_s, 2),
-        "wall_elapsed": round(clock.wall_elapsed_s, 2),
-        "is_paused": clock.is_paused,
-    }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import viser
 from viser import _messages as wire
 from viser.infra._infra import ClientId, WebsockClientConnection
@@ -39,7 +41,7 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     loop = server.get_event_loop()
 
     def beat() -> None:
-        channel.send(Beat())
+        channel.send(Beat(time.time()))
         loop.call_later(BEAT_PERIOD, beat)
 
     loop.call_soon_threadsafe(beat)

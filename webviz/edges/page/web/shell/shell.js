@@ -7,6 +7,7 @@ import { recall, remember } from "../remember.js";
 import * as commands from "./commands.js";
 import * as header from "./header.js";
 import * as theme from "./theme.js";
+import * as timeBar from "./time_bar.js";
 import * as toasts from "./toasts.js";
 
 const MIN_WIDTH = 240;
@@ -38,6 +39,7 @@ function build() {
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
   toasts.install(scene);
+  timeBar.build(places.time);
   side.append(header.build(), ...tabs(), border(side));
   document.body.append(el("div", { id: "webviz" }, side, scene, places.time));
   document.body.classList.add("wv-on");

@@ -1,0 +1,105 @@
+"""The bar with the time."""
+
+from __future__ import annotations
+
+import time
+
+from tests.page.conftest import Loop, Tab
+from webviz.engine.commands import Pause, Reset
+from webviz.engine.state import Clock, Pace
+
+MUTATIONS = """() => {
+  window.mutations = 0;
+  new MutationObserver((all) => { window.mutations += all.length })
+    .observe(document.querySelector(".wv-time"),
+      { subtree: true, childList: true, characterData: true, attributes: true });
+}"""
+
+
+def bar(tab: Tab) -> str:
+    """What the bar says, in one line."""
+    return " ".join(tab.page.locator(".wv-time").inner_text().split())
+
+
+def running(ros_s: float, **more: object) -> Clock:
+    """A simulation that has run for 5 s and goes on."""
+    pace = Pace(round(ros_s * 1e9), time.time(), 1.0)
+    values = {"pace": pace, "is_simulated": True, **more}
+    return Clock(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
+
+
+def test_a_time_that_is_not_known_yet_is_not_zero(loop: Loop, tab: Tab) -> None:
+    loop.show(clock=Clock(is_simulated=True))
+    tab.wait_for(lambda: "No time yet" in bar(tab))
+    assert "1970" not in bar(tab)
+
+
+def test_times_tick_without_messages(loop: Loop, tab: Tab) -> None:
+    loop.show(clock=running(3600.0, clock_hz=98.7))
+    tab.wait_for(lambda: "sim time · 99 Hz" in bar(tab))
+    tab.wait_for(lambda: "1:00:02" in bar(tab))
+    assert "Elapsed 0:00:0" in bar(tab)
+    assert "Wall 20" in bar(tab)
+
+
+def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
+    loop: Loop, tab: Tab
+) -> None:
+    now = time.time()
+    pace = Pace(round(now * 1e9), now, 1.0)
+    loop.show(clock=Clock(round(now * 1e9), 0, now, 0.0, pace=pace))
+    tab.wait_for(lambda: "wall time" in bar(tab))
+    assert time.strftime("%Y-%m-%d ") in bar(tab)
+    assert "Wall 20" not in bar(tab), "it is the same time"
+    tab.page.locator(".wv-ros-time").click()
+    tab.wait_for(lambda: bar(tab).startswith(f"{now:.0f}"[:8]))
+    tab.page.reload()
+    tab.wait_for(lambda: tab.page.locator(".wv-ros-time").count() > 0)
+    tab.wait_for(lambda: bar(tab).startswith(f"{now:.0f}"[:8]))
+    tab.page.locator(".wv-ros-time").click()
+
+
+def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None:
+    loop.show(clock=running(100.25, is_paused=True, pace=Pace(100_250_000_000, time.time(), 0.0)))
+    tab.wait_for(lambda: "0:01:40.250" in bar(tab))
+    tab.page.evaluate(MUTATIONS)
+    tab.page.wait_for_timeout(1500)
+    assert tab.page.evaluate("window.mutations") == 0
+
+
+def test_a_running_time_changes_the_page_ten_times_a_second_at_most(loop: Loop, tab: Tab) -> None:
+    loop.show(clock=running(100.0))
+    tab.wait_for(lambda: "0:01:4" in bar(tab))
+    tab.page.evaluate(MUTATIONS)
+    tab.page.wait_for_timeout(2000)
+    # Two tenths and two seconds are shown; a new text is one that goes and one that comes.
+    assert 0 < tab.page.evaluate("window.mutations") <= 2 * 2 * (2 * 10 + 2) + 10
+
+
+def test_time_stands_still_and_goes_on_and_starts_over(loop: Loop, tab: Tab) -> None:
+    loop.show(clock=running(100.0))
+    tab.button("Pause").click()
+    tab.wait_for_command(Pause(True))
+    loop.show(clock=running(100.0, is_paused=True))
+    tab.wait_for(lambda: tab.button("Resume").count() > 0)
+    tab.button("Resume").click()
+    tab.wait_for_command(Pause(False))
+    tab.page.locator(".wv-time").get_by_role("button", name="Reset").click()
+    tab.wait_for_command(Reset())
+
+
+def test_the_key_r_resets_unless_somebody_types(loop: Loop, tab: Tab) -> None:
+    loop.show()
+    tab.page.evaluate("document.activeElement?.blur()")
+    tab.page.keyboard.press("r")
+    tab.wait_for_command(Reset())
+    loop.commands.clear()
+    tab.page.evaluate(
+        "document.querySelector('.wv-time').append(Object.assign("
+        "document.createElement('input'), {id: 'typed'}))"
+    )
+    tab.page.locator("#typed").press("r")
+    tab.page.evaluate("document.querySelector('#typed').remove()")
+    tab.page.wait_for_timeout(200)
+    tab.turn()
+    assert loop.commands == []

@@ -1,0 +1,57 @@
+"""How ROS time goes on, for those who count by themselves."""
+
+from __future__ import annotations
+
+import pytest
+
+from webviz.engine.pipeline.pace import PaceMeter, Rate
+from webviz.engine.state import Pace
+
+WALL = 1_700_000_000.0
+
+
+def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[Pace]:
+    """What a simulation at a rate gives in 10 s, whose /clock has these ticks."""
+    meter = PaceMeter()
+    found = []
+    for i in range(int(10 / step_s)):
+        ros_s = 100 + (i * step_s * rate) // tick_s * tick_s
+        found.append(meter.step(round(ros_s * 1e9), WALL + i * step_s))
+    return found
+
+
+@pytest.mark.parametrize("rate", [1.0, 0.5, 3.0])
+def test_a_steady_time_is_told_once_its_rate_is_known(rate: float) -> None:
+    found = paces(rate)
+    assert len(set(found)) <= 4
+    assert found[-1].rate == pytest.approx(rate, abs=0.1)
+    assert abs(found[-1].at(WALL + 9.8) - round((100 + 9.8 * rate) * 1e9)) < 0.15e9
+
+
+def test_steps_of_a_slow_clock_are_no_changes() -> None:
+    assert len(set(paces(1.0, tick_s=0.1))) <= 2
+
+
+def test_a_time_that_stands_still_is_told_and_one_that_goes_on_too() -> None:
+    meter = PaceMeter()
+    for i in range(10):
+        meter.step(round((100 + i * 0.2) * 1e9), WALL + i * 0.2)
+    still = [meter.step(round(101.8e9), WALL + 1.8 + i * 0.2) for i in range(10)]
+    assert still[-1].rate == 0.0
+    assert still[-1].ros_ns == round(101.8e9)
+    moving = [meter.step(round((101.8 + i * 0.2) * 1e9), WALL + 3.8 + i * 0.2) for i in range(20)]
+    assert moving[-1].rate == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_paused_time_stands_still_at_once() -> None:
+    meter = PaceMeter()
+    meter.step(100, WALL)
+    assert meter.step(100, WALL + 0.001, is_paused=True).rate == 0.0
+
+
+def test_a_rate_counts_the_last_seconds() -> None:
+    rate = Rate()
+    assert rate.step(0, 10.0) == 0.0
+    found = [rate.step(20 * i, 10.0 + i * 0.2) for i in range(1, 50)]
+    assert found[-1] == pytest.approx(100.0)
+    assert rate.step(0, 20.0) == 0.0  # counted anew

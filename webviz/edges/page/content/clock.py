@@ -1,0 +1,29 @@
+"""The time, as something that pages count by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.engine.state import State
+
+
+def clock(state: State, _: str) -> Mapping[str, Any]:
+    """ROS time and wall time in seconds; changes only if one of them does not go on as before.
+
+    "pace": ROS time, wall time of the same moment, and how fast ROS time runs from there. "began":
+    both times at the start or the last reset. "hz": rate of /clock to two digits.
+    """
+    clock = state.clock
+    pace = clock.pace
+    return {
+        "pace": [pace.ros_ns / 1e9, pace.wall_s, pace.rate],
+        "began": [
+            round((clock.ros_ns - clock.ros_elapsed_ns) / 1e9, 3),
+            round(clock.wall_s - clock.wall_elapsed_s, 3),
+        ],
+        "is_known": clock.ros_ns != 0,
+        "is_paused": clock.is_paused,
+        "is_simulated": clock.is_simulated,
+        "hz": float(f"{clock.clock_hz:.2g}"),
+    }

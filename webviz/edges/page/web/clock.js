@@ -1,0 +1,40 @@
+// The viewer's time, counted here: the server says how it runs only when that changes.
+
+import * as channel from "./channel.js";
+import { watch } from "./stores.js";
+
+const DRIFT_S = 0.001;
+
+let ahead = null; // of the server's clock over that of this browser, in seconds
+
+// A message that took longer makes the server's clock seem slower; the fastest one is right.
+channel.on("Beat", ({ wall }) => {
+  const seen = wall - Date.now() / 1000;
+  ahead = ahead === null || seen > ahead || ahead - seen > 1 ? seen : ahead - DRIFT_S;
+});
+
+/** Wall time of the server in seconds. */
+export const wallNow = () => Date.now() / 1000 + (ahead ?? 0);
+
+/** ROS time in seconds by the store "clock", a Map. */
+export function rosNow(clock) {
+  const [ros, wall, rate] = clock.get("pace");
+  return rate ? ros + (wallNow() - wall) * rate : ros;
+}
+
+/** Calls `show(clock)` when the store "clock" changes, and every `period` ms. Returns what ends it. */
+export function watchTime(period, show) {
+  let clock = null;
+  const tick = () => {
+    if (clock && !document.hidden) show(clock);
+  };
+  const end = watch("clock", (values) => {
+    clock = values;
+    tick();
+  });
+  const timer = setInterval(tick, period);
+  return () => {
+    clearInterval(timer);
+    end();
+  };
+}

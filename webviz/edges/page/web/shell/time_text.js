@@ -1,0 +1,30 @@
+// Times as text.
+
+const YEAR_S = 31_536_000;
+
+const pad = (number, digits = 2) => String(number).padStart(digits, "0");
+
+/**
+ * Date and time of day here of a time in seconds since 1970, with milliseconds if wanted. Simulations
+ * count from zero: a time of the first year is hours, minutes and seconds.
+ */
+export function timeOfDay(seconds, precise = false) {
+  const ms = Math.floor(seconds * 1000);
+  const rest = precise ? `.${pad(((ms % 1000) + 1000) % 1000, 3)}` : "";
+  if (Math.abs(seconds) < YEAR_S) return duration(seconds, 0) + rest;
+  const date = new Date(ms);
+  if (Number.isNaN(date.getTime())) return `${seconds.toFixed(0)} s`;
+  const day = [date.getFullYear(), pad(date.getMonth() + 1), pad(date.getDate())].join("-");
+  const time = [date.getHours(), date.getMinutes(), date.getSeconds()].map((n) => pad(n)).join(":");
+  return `${day} ${time}${rest}`;
+}
+
+/** Hours, minutes and seconds of a time in seconds: 1:02:03.4. */
+export function duration(seconds, digits = 1) {
+  const unit = 10 ** digits;
+  const total = Math.floor(Math.abs(seconds) * unit + 1e-6);
+  const whole = Math.floor(total / unit);
+  const [h, m, s] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60, whole % 60];
+  const rest = digits ? `.${pad(total % unit, digits)}` : "";
+  return `${seconds < 0 && total ? "−" : ""}${h}:${pad(m)}:${pad(s)}${rest}`;
+}
