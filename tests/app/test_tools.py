@@ -56,7 +56,7 @@ def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[P
 def page(pages: list[Page], viewer: webviz.Viewer) -> Page:
     viewer.view = {"type": "TopDownOrtho", "scale": SCALE}
     tab = pages[0].tab
-    pages[0].wait_for(lambda: tab.locator(".webviz-tools button").count() == 1, "the toolbar")
+    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 1, "the toolbar")
     pages[0].draw()
     if is_active(pages[0]):
         tab.keyboard.press("Escape")
@@ -64,11 +64,11 @@ def page(pages: list[Page], viewer: webviz.Viewer) -> Page:
 
 
 def is_active(page: Page) -> bool:
-    return page.tab.locator(".webviz-tools button[aria-pressed=true]").count() == 1
+    return page.tab.locator(".wv-tools button[aria-pressed=true]").count() == 1
 
 
 def answer(page: Page) -> str:
-    return page.tab.locator(".webviz-tools output").inner_text()
+    return page.tab.locator(".wv-hint").inner_text()
 
 
 def middle(page: Page) -> tuple[float, float]:

@@ -112,8 +112,8 @@ def test_the_peer_receives_the_goal_that_is_dragged_on_the_page(
     echo: Program, url: str, open_page: Callable[..., Page]
 ) -> None:
     page = open_page(url)
-    answer = page.tab.locator(".webviz-tools output")
-    page.tab.locator(".webviz-tools button").wait_for(timeout=60_000)
+    answer = page.tab.locator(".wv-hint")
+    page.tab.locator(".wv-tools button").wait_for(timeout=60_000)
 
     def publish() -> bool:
         """Send a goal, again until the two programs know each other."""

@@ -79,7 +79,7 @@ def test_the_focus_goes_back_when_nothing_is_chosen(
     panel.focus()
     menu = open_menu()
     if leave == "click":
-        tab.page.mouse.click(880, 20)
+        tab.page.mouse.click(600, 500)
     else:
         tab.page.keyboard.press("Escape")
     playwright.expect(menu).to_have_count(0)

@@ -21,15 +21,9 @@ class Pages:
     Args:
         channel: to the pages.
         enqueue: takes commands and their senders, from any thread.
-        debug: whether to show viser's own panel too.
     """
 
-    def __init__(
-        self,
-        channel: Channel,
-        enqueue: Callable[[Command, Sender], Future[str]],
-        debug: bool = False,
-    ) -> None:
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
         self._toolbar = Toolbar(channel, enqueue)
@@ -37,7 +31,11 @@ class Pages:
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
         channel.on(Ping, lambda browser, _: channel.send(Pong(), browser))
-        channel.send(Shell(debug))
+        channel.send(Shell())
+
+    def debug(self) -> None:
+        """Show viser's own panel, too."""
+        self._channel.send(Shell(debug=True))
 
     def update(self, state: State) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""

@@ -125,6 +125,10 @@ class Running:
         atexit.unregister(self.close)
         self._stack.close()
 
+    def show_viser_panel(self) -> None:
+        """Show viser's own panel on every page, too, for those who look into webviz itself."""
+        self._pages.debug()
+
     def stop(self) -> None:
         """Let `wait` return, from any thread or a signal handler; `close` ends the rest."""
         self._loop.stop()

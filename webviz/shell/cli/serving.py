@@ -57,6 +57,8 @@ def serve(
             config_folders=options.config_folder,
         ) as viewer:
             stop.then(viewer.stop)
+            if options.debug:
+                viewer.show_viser_panel()
             is_shown = not stop.is_asked
             if is_shown:
                 _announce(options, viewer)

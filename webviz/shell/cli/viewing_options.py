@@ -26,3 +26,5 @@ class ViewingOptions(ConfigOptions):
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     autosave: Flag = False
     """Save the session in ~/.local/state/webviz; restore it unless -d is given."""
+    debug: Flag = False
+    """Show viser's own panel beside the page."""

@@ -15,18 +15,23 @@ from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
 from webviz.edges.page.content.scene import legend, watchers
-from webviz.edges.page.content.viewer import file, frames, settings
+from webviz.edges.page.content.types import addable, types
+from webviz.edges.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
+    "addable": addable,
     "clock": clock,
     "displays": displays,
     "file": file,
     "frames": frames,
+    "graph": graph,
     "history": history,
     "legend": legend,
     "properties": properties,
     "rate": rate,
     "settings": settings,
+    "types": types,
+    "view_type": view_type,
     "watchers": watchers,
 }

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.api.views import type_of
 from webviz.edges.page.content.displays import level_name
 from webviz.engine.state import State
+
+OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
 
 
 def settings(state: State, _: str) -> Mapping[str, Any]:
@@ -35,3 +38,14 @@ def file(state: State, _: str) -> Mapping[str, Any]:
         "folder": file.folder,
         "others": file.others,
     }
+
+
+def graph(state: State, _: str) -> Mapping[str, Any]:
+    """Whether anybody publishes anything besides what every ROS node does."""
+    return {"is_empty": not (state.topics.keys() - OF_EVERY_NODE)}
+
+
+def view_type(state: State, browser: str) -> Mapping[str, Any]:
+    """Of the browser with this id: the type of its view and what that follows; nothing before."""
+    view = next((view for id_, view in state.views.items() if str(id_) == browser), None)
+    return {} if view is None else {"type": type_of(view), "target_frame": view.target_frame}

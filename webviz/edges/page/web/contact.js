@@ -29,9 +29,7 @@ export function install() {
   const banner = document.createElement("div");
   banner.id = "webviz-contact";
   banner.setAttribute("role", "alert");
-  banner.style.cssText =
-    "position: fixed; inset: 0 0 auto; z-index: 10000; pointer-events: none; padding: 0.5em 1em;" +
-    "text-align: center; font: 600 14px/1.4 sans-serif; color: #fff; background: #b3261e";
+  banner.className = "wv-contact";
 
   function age() {
     const seconds = Math.round((Date.now() - heard) / 1000);
@@ -42,7 +40,7 @@ export function install() {
   function hide() {
     if (!banner.isConnected) return;
     banner.remove();
-    viser.canvas().style.filter = "";
+    document.body.classList.remove("wv-lost");
   }
 
   function tick() {
@@ -53,7 +51,7 @@ export function install() {
       "Check that webviz is running; this page reconnects by itself.";
     if (banner.isConnected) return;
     document.body.append(banner);
-    viser.canvas().style.filter = "grayscale(1)";
+    document.body.classList.add("wv-lost");
   }
 
   setInterval(tick, TICK_MS);

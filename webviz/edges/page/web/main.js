@@ -13,7 +13,7 @@ import * as saveImage from "./scene/save_image.js";
 import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
 import * as tiles from "./scene/tiles.js";
-import * as tools from "./tools.js";
+import * as toolbar from "./shell/toolbar.js";
 import * as typing from "./typing.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
@@ -23,7 +23,8 @@ async function install() {
   await viser.until(viser.hasScene);
   for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, saveImage, tools, overlay]) part.install();
+  for (const part of [view, mouse, saveImage, overlay]) part.install();
+  toolbar.install(shell.places);
 }
 
 const answer = (token) => channel.send({ type: "Answer", token });

@@ -58,7 +58,7 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
       ),
       el(
         "div",
-        { class: "wv-dialog-content" },
+        { class: "wv-dialog-content", tabindex: -1 },
         typeof content === "function" ? content(close) : content,
       ),
       buttons.length
@@ -85,6 +85,10 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
   }
   document.getElementById("webviz").append(dialog);
   dialog.showModal();
+  // Not the button that closes it, which the browser takes.
+  const body = dialog.querySelector(".wv-dialog-content");
+  const first = body.querySelector("input:not([hidden]), textarea, select, button:not(:disabled)");
+  (dialog.querySelector("[autofocus]") ?? first ?? body).focus();
   return new Promise((resolve) => {
     dialog.addEventListener("close", () => {
       dialog.remove();

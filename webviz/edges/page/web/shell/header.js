@@ -1,16 +1,90 @@
 // The head of the side: the config file, and what is done with it.
 
-import { el, setText } from "../dom.js";
-import { watch } from "../stores.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { actions, item } from "./actions.js";
+import * as files from "./files.js";
+import * as history from "./history.js";
+import { fold } from "./layout.js";
+import { openMenuBelow } from "./menu.js";
+import { theme } from "./theme.js";
 
 export function build() {
-  const name = el("span", { class: "wv-file" });
-  const mark = el("span", { class: "wv-mark", title: "Unsaved changes" });
-  watch("file", (file) => {
-    const path = file.get("path") ?? "";
-    setText(name, path.split("/").pop() || "webviz");
-    mark.hidden = !file.get("is_changed");
-    document.title = `${mark.hidden ? "" : "* "}${path ? `${name.textContent} · ` : ""}webviz`;
+  const name = el("button", {
+    type: "button", class: "wv-file", "aria-haspopup": "menu", onclick: () => openMenuBelow(name, fileMenu()),
+  }, "Connecting…");
+  const mark = el("span", {
+    class: "wv-mark", role: "img", "aria-label": "Unsaved changes", "data-tip": "Unsaved changes", hidden: true,
   });
-  return el("header", { class: "wv-head" }, name, mark);
+  files.onFile(() => {
+    if (!files.isThere()) return;
+    setText(name, files.fileName() || "webviz");
+    set(name, { "data-tip": files.path() || "Not yet saved in a file" });
+    mark.hidden = !files.isChanged();
+    document.title = `${mark.hidden ? "" : "* "}${files.fileName() ? `${files.fileName()} · ` : ""}webviz`;
+  });
+  const more = button("dots", "Menu", null, () => openMenuBelow(more, menu(more)));
+  set(more, { "aria-haspopup": "menu" });
+  return el(
+    "header",
+    { class: "wv-head" },
+    name,
+    mark,
+    el("span", { class: "wv-read-only-mark" }, "Read only"),
+    el("span", { class: "wv-gap" }),
+    button("search", "Commands", "Ctrl+k", actions.commands.run),
+    step("undo", actions.undo),
+    step("redo", actions.redo),
+    more,
+    button("fold", "Hide the panels", "Ctrl+b", () => fold(true)),
+  );
+}
+
+function button(iconName, label, key, run) {
+  return el("button", {
+    type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, "data-key": key, onclick: run,
+  }, icon(iconName));
+}
+
+// What it would undo is in its tooltip; all steps are in a menu: by a right click, or the arrow key.
+function step(way, action) {
+  const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
+  made.classList.add("wv-edits");
+  history.onSteps(() => {
+    const label = history.next(way);
+    made.disabled = label === undefined;
+    set(made, { "data-tip": label === undefined ? action.name : `${action.name}: ${label}` });
+  });
+  made.addEventListener("contextmenu", (event) => {
+    event.preventDefault();
+    history.openSteps(made);
+  });
+  made.addEventListener("keydown", (event) => {
+    if (event.key !== "ArrowDown") return;
+    event.preventDefault();
+    history.openSteps(made);
+  });
+  return made;
+}
+
+const fileMenu = () => [
+  item(actions.save), item(actions.saveAs), item(actions.open), null, item(actions.yaml), item(actions.rviz),
+];
+
+function menu(owner) {
+  const isTheme = (name) => ({ checked: theme() === name });
+  return [
+    ...fileMenu(),
+    null,
+    item(actions.image),
+    item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
+    item(actions.reset),
+    { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
+    null,
+    item(actions.dark, isTheme("dark")),
+    item(actions.light, isTheme("light")),
+    item(actions.system, isTheme("system")),
+    null,
+    item(actions.keys),
+  ];
 }

@@ -4,16 +4,18 @@ import * as channel from "../channel.js";
 import { panels } from "../panels/panels.js";
 import { el, set } from "../dom.js";
 import { recall, remember } from "../remember.js";
+import * as actions from "./actions.js";
 import * as commands from "./commands.js";
+import * as drop from "./drop.js";
+import * as files from "./files.js";
+import * as firstRun from "./first_run.js";
 import * as header from "./header.js";
+import * as history from "./history.js";
+import * as layout from "./layout.js";
 import * as theme from "./theme.js";
 import * as timeBar from "./time_bar.js";
 import * as toasts from "./toasts.js";
-
-const MIN_WIDTH = 240;
-const MAX_SHARE = 0.7;
-const STEP = 16;
-const NARROW = "(max-width: 640px)";
+import * as tooltips from "./tooltips.js";
 
 /** Places for what lies over the scene and beside it; filled by the modules that they belong to. */
 export const places = {
@@ -36,51 +38,31 @@ export function install() {
 function build() {
   theme.install();
   commands.install();
+  actions.install();
+  files.install();
+  history.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
   toasts.install(scene);
   timeBar.build(places.time);
-  side.append(header.build(), ...tabs(), border(side));
-  document.body.append(el("div", { id: "webviz" }, side, scene, places.time));
+  side.append(header.build(), ...tabs(), layout.border(side));
+  const shade = el("div", { class: "wv-shade", onclick: () => layout.fold(true) });
+  const page = el("div", { id: "webviz" }, scene, shade, side, places.time);
+  document.body.append(page);
   document.body.classList.add("wv-on");
-  const narrow = matchMedia(NARROW);
-  fold(narrow.matches || recall("folded", false));
-  setWidth(recall("width", 320));
+  tooltips.install(page);
+  drop.install(page);
+  firstRun.install(scene);
+  layout.install();
 }
 
 /** Folds the side away, or shows it again. */
-export function fold(isFolded = !document.body.classList.contains("wv-folded")) {
-  document.body.classList.toggle("wv-folded", isFolded);
-  if (!matchMedia(NARROW).matches) remember("folded", isFolded);
-}
+export const { fold } = layout;
 
 /** Opens the tab of a panel by its name. */
 export function openPanel(name) {
-  fold(false);
+  layout.fold(false);
   document.getElementById(`wv-tab-${name}`)?.click();
-}
-
-function setWidth(pixels) {
-  const width = Math.max(MIN_WIDTH, Math.min(pixels, innerWidth * MAX_SHARE));
-  document.documentElement.style.setProperty("--wv-width", `${Math.round(width)}px`);
-  return width;
-}
-
-function border(side) {
-  const drag = (event) => {
-    if (bar.hasPointerCapture(event.pointerId)) setWidth(event.clientX);
-  };
-  const step = ({ key }) => {
-    const change = { ArrowLeft: -STEP, ArrowRight: STEP }[key];
-    if (change) remember("width", setWidth(side.offsetWidth + change));
-  };
-  const bar = el("div", {
-    class: "wv-border", role: "separator", tabindex: 0, "aria-orientation": "vertical",
-    "aria-label": "Width of the panels", onkeydown: step, onpointermove: drag,
-    onpointerdown: (event) => bar.setPointerCapture(event.pointerId),
-    onpointerup: () => remember("width", side.offsetWidth),
-  });
-  return bar;
 }
 
 function tabs() {

@@ -1,0 +1,88 @@
+// The list of commands (Ctrl+K): everything that can be done, found by its name.
+
+import { act } from "../act.js";
+import { el } from "../dom.js";
+import { watch } from "../stores.js";
+import { all, keysOf } from "./commands.js";
+import { openDialog } from "./dialog.js";
+import { optionList, search } from "./option_list.js";
+
+const MAX_SHOWN = 60;
+const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
+const STORES = ["settings", "frames", "commands"];
+
+const makers = new Set();
+
+/**
+ * Adds commands that are looked for in the list only, made of the values of stores by their names:
+ * `make({displays: Map, ...})`. `stores` are watched while the list is open.
+ */
+export function provideFrom(stores, make) {
+  makers.add({ stores, make });
+}
+
+export function openCommandList() {
+  if (document.querySelector(".wv-command-list")) return;
+  const input = el("input", {
+    class: "wv-field wv-search", type: "text", "aria-label": "Command", placeholder: "Type a command",
+  });
+  const values = {};
+  const stores = new Set([...STORES, ...[...makers].flatMap((maker) => maker.stores)]);
+  const ends = [];
+  const nothing = el("p", { class: "wv-quiet wv-nothing", hidden: true }, "No command with these words.");
+
+  openDialog({
+    title: "Commands",
+    className: "wv-command-list",
+    isLight: true,
+    content(close) {
+      const list = optionList(input, "Commands", (row) => close(found[row.id].run));
+      let found = [];
+      const show = () => {
+        found = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
+        found.length = Math.min(found.length, MAX_SHOWN);
+        list.show(found.map((one, id) => ({
+          id, title: one.name, icon: one.icon ?? "chevron", note: one.note, key: keysOf(one)[0],
+          group: input.value.trim() ? "" : one.group,
+        })));
+        nothing.hidden = found.length > 0;
+      };
+      for (const name of stores) {
+        ends.push(watch(name, (store) => {
+          values[name] = store;
+          show();
+        }));
+      }
+      input.addEventListener("input", show);
+      show();
+      return [input, list.element, nothing];
+    },
+  }).then((run) => {
+    ends.forEach((end) => end());
+    run?.();
+  });
+}
+
+function commands(values) {
+  const { settings, frames, commands: ofPanels } = values;
+  const more = [...makers].flatMap(({ stores, make }) =>
+    stores.every((name) => values[name]) ? make(values) : []);
+  const place = ({ group }) => (ORDER.indexOf(group) + ORDER.length) % ORDER.length;
+  return [
+    ...all().filter(({ isHidden }) => !isHidden).sort((a, b) => place(a) - place(b)),
+    ...more,
+    ...(settings?.get("views") ?? []).map((name) => ({
+      name: `Show view ${name}`, icon: "eye", group: "Saved views",
+      run: () => act("ShowView", { view: name }),
+    })),
+    ...(frames?.get("frames") ?? []).map((frame) => ({
+      name: `Fixed frame: ${frame}`, icon: "axes", group: "Fixed frame",
+      note: frame === settings?.get("fixed_frame") ? "now" : "",
+      run: () => act("SetFixedFrame", { frame }),
+    })),
+    ...[...(ofPanels?.values() ?? [])].filter((one) => one?.name).map((one) => ({
+      name: one.name, icon: one.icon, key: one.key, group: one.panel ?? "Panels",
+      run: () => act("RunPanelCommand", { panel: one.panel, command: one.name }),
+    })),
+  ];
+}

@@ -1,0 +1,24 @@
+// A config file that is dropped on the page.
+
+import { el } from "../dom.js";
+import * as files from "./files.js";
+
+export function install(page) {
+  const cover = el("div", { class: "wv-drop", hidden: true }, el("p", {}, "Drop a config to open it"));
+  page.append(cover);
+  const hasFiles = ({ dataTransfer }) => [...(dataTransfer?.types ?? [])].includes("Files");
+  const on = (name, act) => window.addEventListener(name, (event) => hasFiles(event) && act(event), true);
+  on("dragenter", () => (cover.hidden = false));
+  on("dragover", (event) => event.preventDefault());
+  on("dragleave", (event) => {
+    // Out of the window, not into another element of it.
+    if (event.relatedTarget === null) cover.hidden = true;
+  });
+  on("drop", (event) => {
+    event.preventDefault();
+    event.stopPropagation();
+    cover.hidden = true;
+    const [file] = event.dataTransfer.files;
+    if (file && !document.querySelector("dialog[open]")) files.load(file);
+  });
+}

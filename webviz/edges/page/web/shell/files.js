@@ -1,0 +1,169 @@
+// The config file: saving, opening, downloading.
+
+import { act } from "../act.js";
+import * as channel from "../channel.js";
+import { el, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { watch } from "../stores.js";
+import { ask, openDialog } from "./dialog.js";
+import { toast } from "./toasts.js";
+
+const SUFFIXES = [".yaml", ".yml", ".rviz"];
+const MAX_BYTES = 2 << 20;
+const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
+const NEW_NAME = "webviz.yaml";
+
+const file = { path: "", is_changed: false, folder: null, others: [] };
+const listeners = new Set();
+
+/** The last part of a path. */
+export const baseName = (path) => path.split("/").pop();
+/** The name of the file, "" if there is none. */
+export const fileName = () => baseName(file.path);
+export const path = () => file.path;
+export const isChanged = () => file.is_changed;
+/** Whether the server has told which file it is. */
+export const isThere = () => file.folder !== null;
+
+export function install() {
+  watch("file", (values) => {
+    for (const key of Object.keys(file)) file[key] = values.get(key) ?? file[key];
+    for (const listener of [...listeners]) listener();
+  });
+  channel.on("Download", ({ name, text }) => download(name, text));
+}
+
+/** Calls `listener` now and whenever the file is another one; returns what ends it. */
+export function onFile(listener) {
+  listeners.add(listener);
+  listener();
+  return () => listeners.delete(listener);
+}
+
+export const save = () => (file.path ? act("Save") : saveAs());
+
+/** Sends the config here, as "yaml" or "rviz". */
+export const exportAs = (suffix) =>
+  act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
+
+/** A plain file name of what somebody entered, or why it is none: `{name, problem}`. */
+export function checkedName(entered) {
+  const name = entered.trim();
+  if (!name || name === "." || name === "..") return { problem: "Enter a file name, such as lab.yaml." };
+  if (/[/\\\0]/.test(name)) {
+    return { problem: "Enter a name without folders; the file is saved in the folder above." };
+  }
+  return { name: hasSuffix(name) ? name : `${name}.yaml` };
+}
+
+// As of pathlib: a name that begins with its only dot has no suffix.
+const hasSuffix = (name) =>
+  SUFFIXES.some((suffix) => name.toLowerCase().endsWith(suffix) && name.length > suffix.length);
+
+export function saveAs() {
+  const input = el("input", { class: "wv-field", type: "text", "aria-label": "File name", autofocus: true });
+  input.value = fileName() || NEW_NAME;
+  const problem = el("p", { class: "wv-problem", role: "alert" });
+  let confirmed = "";
+
+  function accepted(check) {
+    const { name, problem: text } = checkedName(input.value);
+    setText(problem, text ?? check(name) ?? "");
+    return problem.textContent === "";
+  }
+
+  function replaces(name) {
+    if (!file.others.includes(name) || name === fileName() || name === confirmed) return null;
+    confirmed = name;
+    return `${name} exists already. Save again to replace it.`;
+  }
+
+  const answer = openDialog({
+    title: "Save as",
+    content: [
+      el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
+      input,
+      problem,
+    ],
+    buttons: [
+      { label: "Download", value: "download", accept: () => accepted(() => null) },
+      { label: "Cancel", value: null },
+      { label: "Save", value: "save", primary: true, accept: () => accepted(replaces) },
+    ],
+  });
+  const stem = input.value.lastIndexOf(".");
+  input.setSelectionRange(0, stem > 0 ? stem : input.value.length);
+  return answer.then((value) => {
+    const { name } = checkedName(input.value);
+    if (value === "save") act("Save", { path: name });
+    if (value === "download") act("Export", { name });
+  });
+}
+
+export function open() {
+  const list = el("div", { class: "wv-files", role: "group", "aria-label": "Files" });
+  const upload = el("input", {
+    type: "file", accept: SUFFIXES.join(","), hidden: true, "aria-label": "File of this computer",
+  });
+  let end = () => {};
+
+  return openDialog({
+    title: "Open",
+    content(close) {
+      const row = (name) =>
+        el("button", {
+          type: "button", class: "wv-file-row", disabled: name === fileName() && !file.is_changed,
+          onclick: () => close({ name }),
+        }, icon("file"), el("span", {}, name));
+      end = onFile(() => {
+        if (list.dataset.names === JSON.stringify(file.others)) return;
+        list.dataset.names = JSON.stringify(file.others);
+        list.replaceChildren(...file.others.map(row));
+        if (!file.others.length) list.append(el("p", { class: "wv-quiet" }, "No config files there."));
+      });
+      upload.addEventListener("change", () => upload.files[0] && close({ upload: upload.files[0] }));
+      return [
+        el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
+        list,
+        upload,
+        el("button", {
+          type: "button", class: "wv-button wv-upload", onclick: () => upload.click(),
+        }, icon("upload"), "Upload from this computer"),
+      ];
+    },
+    buttons: [{ label: "Cancel", value: null }],
+  }).then((chosen) => {
+    end();
+    if (chosen?.upload) return load(chosen.upload);
+    if (chosen?.name) return replace(chosen.name, "Open", { path: chosen.name });
+  });
+}
+
+/** Opens a file of this computer. */
+export async function load(upload) {
+  const fail = (text) => toast(text, { level: "error" });
+  const name = baseName(upload.name);
+  if (!hasSuffix(name)) return fail(`Not opened: ${name} is no config; those end with .yaml or .rviz.`);
+  const large = `Not opened: ${name} is larger than 2 MB, which no config is.`;
+  if (upload.size > MAX_BYTES) return fail(large);
+  let text;
+  try {
+    text = new TextDecoder("utf-8", { fatal: true }).decode(await upload.arrayBuffer());
+  } catch {
+    return fail(`Not opened: ${name} is not UTF-8 text.`);
+  }
+  if (JSON.stringify(text).length > MAX_CHARACTERS) return fail(large);
+  return replace(name, "Load", { text, name });
+}
+
+async function replace(name, command, fields) {
+  const question = `Open ${name} and discard unsaved changes? Everyone on this page loses them.`;
+  const options = { title: "Unsaved changes", confirm: "Discard", danger: true };
+  if (!file.is_changed || (await ask(question, options))) act(command, fields);
+}
+
+function download(name, text) {
+  const link = el("a", { download: name, href: URL.createObjectURL(new Blob([text])) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}

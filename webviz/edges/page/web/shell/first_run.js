@@ -1,0 +1,38 @@
+// What to do when nothing is published at all.
+
+import { el } from "../dom.js";
+import { icon } from "../icons.js";
+import { recall, remember } from "../remember.js";
+import { watch } from "../stores.js";
+
+const COMMAND = "webviz-sim";
+
+export function install(scene) {
+  if (recall("knows-first-run", false)) return;
+  const close = () => {
+    remember("knows-first-run", true);
+    card.remove();
+    end();
+  };
+  const copy = el("button", {
+    type: "button", class: "wv-icon", "aria-label": "Copy the command", "data-tip": "Copy",
+    onclick: () => navigator.clipboard?.writeText(COMMAND),
+  }, icon("copy"));
+  const card = el(
+    "section",
+    { class: "wv-first-run", "aria-label": "Nothing is published", hidden: true },
+    el("div", { class: "wv-card" },
+      el("header", {},
+        el("h2", {}, "Nothing is published yet"),
+        el("button", { type: "button", class: "wv-icon", "aria-label": "Close", onclick: close }, icon("close")),
+      ),
+      el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
+      el("p", {}, "For a robot to try things with, run this in a terminal:"),
+      el("p", { class: "wv-command" }, el("code", {}, COMMAND), copy),
+    ),
+  );
+  scene.append(card);
+  const end = watch("graph", (graph) => {
+    card.hidden = !graph.get("is_empty");
+  });
+}

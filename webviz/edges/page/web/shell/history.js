@@ -1,0 +1,70 @@
+// Undo and redo, and a word on what others have changed.
+
+import { act } from "../act.js";
+import { watch } from "../stores.js";
+import { openMenuBelow } from "./menu.js";
+import { toast } from "./toasts.js";
+
+const MAX_LISTED = 30;
+const QUIET_MS = 5000;
+const steps = { undo: [], redo: [] };
+const listeners = new Set();
+let newest = null;
+let told = { text: "", at: 0, remove: () => {} };
+
+export function install() {
+  watch("history", (values) => {
+    for (const way of ["undo", "redo"]) steps[way] = values.get(way) ?? [];
+    for (const listener of listeners) listener();
+    tell();
+  });
+}
+
+/** Calls `listener` now and whenever there are other steps. */
+export function onSteps(listener) {
+  listeners.add(listener);
+  listener();
+}
+
+/** What the next step of a way, "undo" or "redo", would be about; undefined if there is none. */
+export const next = (way) => steps[way][0]?.label;
+
+export const undo = (count = 1) => steps.undo.length && act("Undo", { steps: count });
+export const redo = (count = 1) => steps.redo.length && act("Redo", { steps: count });
+
+/** A menu of steps below a button: the one that is chosen, and all that came after it. */
+export function openSteps(button) {
+  const redos = steps.redo.slice(0, MAX_LISTED).map(({ label }, index) => ({
+    label: `Redo ${label}`, icon: "arrow-forward", run: () => redo(index + 1),
+  }));
+  const undos = steps.undo.slice(0, MAX_LISTED).map(({ label }, index) => ({
+    label: `Undo ${label}`, icon: "arrow-back", run: () => undo(index + 1),
+  }));
+  const all = [...redos.reverse(), ...(redos.length && undos.length ? [null] : []), ...undos];
+  openMenuBelow(button, all.length ? all : [{ label: "Nothing to undo", disabled: true }]);
+}
+
+// Steps have numbers that grow, also when they are taken back.
+function tell() {
+  const all = [...steps.undo, ...steps.redo];
+  const last = all.reduce((a, b) => (b.number > (a?.number ?? -1) ? b : a), null);
+  const before = newest;
+  newest = Math.max(newest ?? -1, last?.number ?? -1);
+  if (before === null || newest === before) return;
+  const isUndone = steps.redo.includes(last);
+  if (last.browser !== window.webviz.browser) {
+    tellOfOthers(`${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`);
+  } else if (!isUndone && last.label.startsWith("Remove ")) {
+    const text = last.label.replace(/^Remove /, "Removed ");
+    toast(`${text}.`, { action: { label: "Undo", run: () => undo() } });
+  }
+}
+
+const whereOf = ({ browser }) => (browser === null ? "by a program" : "in another browser");
+
+// Somebody who drags a slider makes many steps.
+function tellOfOthers(text) {
+  if (text === told.text && Date.now() - told.at < QUIET_MS) return;
+  told.remove();
+  told = { text, at: Date.now(), remove: toast(text) };
+}

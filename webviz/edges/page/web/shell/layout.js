@@ -1,0 +1,53 @@
+// Which part of the window the side has: its width, and whether it is folded away.
+
+import { el } from "../dom.js";
+import { recall, remember } from "../remember.js";
+
+const MIN_WIDTH = 240;
+const MAX_SHARE = 0.7;
+const STEP = 16;
+
+const narrow = matchMedia("(max-width: 640px)");
+
+export function install() {
+  fold(narrow.matches || recall("folded", false));
+  narrow.addEventListener("change", () => fold(narrow.matches || recall("folded", false)));
+  setWidth(recall("width", 320));
+  window.addEventListener("resize", () => setWidth(recall("width", 320)));
+}
+
+export const isFolded = () => document.body.classList.contains("wv-folded");
+
+/** Folds the side away, or shows it again. On a phone it lies over the scene, and begins folded. */
+export function fold(wanted = !isFolded()) {
+  if (wanted !== isFolded()) document.body.classList.toggle("wv-folded", wanted);
+  if (!narrow.matches) remember("folded", wanted);
+}
+
+function setWidth(pixels) {
+  const width = Math.max(MIN_WIDTH, Math.min(pixels, innerWidth * MAX_SHARE));
+  document.documentElement.style.setProperty("--wv-width", `${Math.round(width)}px`);
+  return width;
+}
+
+/** The border of the side, to be dragged or moved by arrow keys. */
+export function border(side) {
+  const drag = (event) => {
+    if (bar.hasPointerCapture(event.pointerId)) setWidth(event.clientX);
+  };
+  const step = (event) => {
+    const change = { ArrowLeft: -STEP, ArrowRight: STEP }[event.key];
+    if (!change) return;
+    event.preventDefault();
+    event.stopPropagation(); // viser's camera turns by them
+    remember("width", setWidth(side.offsetWidth + change));
+  };
+  const bar = el("div", {
+    class: "wv-border", role: "separator", tabindex: 0, "aria-orientation": "vertical",
+    "aria-label": "Width of the panels", onkeydown: step, onpointermove: drag,
+    onpointerdown: (event) => bar.setPointerCapture(event.pointerId),
+    onpointerup: () => remember("width", side.offsetWidth),
+    ondblclick: () => remember("width", setWidth(320)),
+  });
+  return bar;
+}

@@ -1,0 +1,167 @@
+// The toolbar over the scene: the tools, what this page looks at, and what everything is drawn in.
+
+import { act } from "../act.js";
+import * as channel from "../channel.js";
+import { combobox } from "../controls/combobox.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { watch } from "../stores.js";
+import { actions, item } from "./actions.js";
+import { command } from "./commands.js";
+import { ask, openDialog } from "./dialog.js";
+import { fold } from "./layout.js";
+import { openMenuBelow } from "./menu.js";
+import { fit } from "./overflow.js";
+import * as tools from "./tools.js";
+
+const VIEW_TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
+const FIXED = "<Fixed Frame>";
+
+const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
+
+export function install(places) {
+  tools.install();
+  const open = el("button", {
+    type: "button", class: "wv-icon wv-unfold", "aria-label": "Show the panels",
+    "data-tip": "Show the panels", "data-key": "Ctrl+b", onclick: () => fold(false),
+  }, icon("menu"));
+  const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
+  const views = button("eye", "Views", "Saved views", () => openMenuBelow(views, savedMenu()));
+  const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
+  const target = frameField("Follow", "follow", () => shown.target, targetOptions, setTarget);
+  const image = button("camera", null, actions.image.name, actions.image.run);
+  const full = button("fullscreen", null, actions.fullscreen.name, actions.fullscreen.run);
+  const more = button("dots", null, "More", () => openMenuBelow(more, bar.hiddenItems()));
+  const line = el("span", { class: "wv-bar-line" });
+  const element = el(
+    "div",
+    { class: "wv-toolbar wv-card", role: "toolbar", "aria-label": "Tools and view", onkeydown: walk },
+    open, tools.buttons, line, type, views, fixed.element, target.element, image, full, more,
+  );
+  const bar = fit(element, more, [
+    { element: full, items: () => [item(actions.fullscreen)] },
+    { element: image, items: () => [item(actions.image)] },
+    { element: target.element, items: () => [
+      { label: "Follow…", icon: "follow", run: () => choose("Follow", () => shown.target, targetOptions, setTarget) },
+    ] },
+    { element: views, items: () => savedMenu() },
+    { element: fixed.element, items: () => [
+      { label: "Fixed frame…", icon: "axes", run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed) },
+    ] },
+    { element: type, items: () => viewMenu() },
+  ]);
+  places.toolbar.append(element, tools.hint);
+  bar.watch(places.toolbar);
+  // What stands at the right keeps its space.
+  new ResizeObserver(() => {
+    places.toolbar.style.setProperty("--wv-status", `${places.status.offsetWidth}px`);
+  }).observe(places.status);
+
+  const update = () => {
+    setText(type.querySelector(".wv-bar-name"), shown.type);
+    set(type, { "aria-label": `View: ${shown.type}` });
+    line.hidden = !tools.buttons.children.length;
+    fixed.update();
+    target.update();
+    bar.layout();
+  };
+  tools.onTools(update);
+  watch("settings", (settings) => {
+    shown.frame = settings.get("fixed_frame") ?? "";
+    shown.views = settings.get("views") ?? [];
+    update();
+  });
+  watch("frames", (frames) => {
+    shown.frames = frames.get("frames") ?? [];
+    update();
+  });
+  watchView(update);
+  command({ name: "Zero view", icon: "reset", key: "z", group: "View", run: () => act("ResetView") });
+  command({ name: "Save view…", icon: "save", group: "View", run: saveView });
+  for (const name of VIEW_TYPES) {
+    command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });
+  }
+}
+
+// viser gives the page another id when it connects again.
+function watchView(update) {
+  let end = () => {};
+  const begin = () => {
+    end();
+    end = watch(`view_type:${window.webviz.browser}`, (view) => {
+      shown.type = view.get("type") ?? shown.type;
+      shown.target = view.get("target_frame") ?? shown.target;
+      update();
+    });
+  };
+  channel.onOpen(begin);
+  if (channel.isOpen()) begin();
+}
+
+const setType = (value) => act("ChangeView", { key: "type", value });
+const setTarget = (value) => act("ChangeView", { key: "target_frame", value: value || FIXED });
+const setFixed = (frame) => act("SetFixedFrame", { frame });
+const fixedOptions = () => shown.frames.map((value) => ({ value }));
+const targetOptions = () => [
+  { value: FIXED, label: "Follow nothing" },
+  ...shown.frames.map((value) => ({ value })),
+];
+
+function button(iconName, label, tip, run) {
+  const made = el("button", {
+    type: "button", class: "wv-icon wv-bar-button", "aria-label": tip, "data-tip": tip, onclick: run,
+  }, icon(iconName));
+  if (label !== null) made.append(el("span", { class: "wv-bar-name" }, label));
+  return made;
+}
+
+function frameField(label, iconName, value, options, change) {
+  const field = combobox({ label, value: value(), options: options(), change });
+  return {
+    element: el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element),
+    update: () => field.update({ value: value(), options: options() }),
+  };
+}
+
+function choose(title, value, options, change) {
+  const field = combobox({ label: title, value: value(), options: options(), change });
+  openDialog({ title, content: field.element, buttons: [{ label: "Done", primary: true, value: null }] });
+}
+
+const viewMenu = () => [
+  ...VIEW_TYPES.map((name) => ({ label: name, checked: shown.type === name, run: () => setType(name) })),
+  null,
+  { label: "Zero", icon: "reset", key: "z", run: () => act("ResetView") },
+];
+
+const savedMenu = () => [
+  ...shown.views.map((name) => ({ label: name, icon: "eye", run: () => act("ShowView", { view: name }) })),
+  ...(shown.views.length ? [null] : []),
+  { label: "Save this view…", icon: "save", run: saveView },
+  { label: "Start with this view", icon: "play", run: () => act("StartWithView") },
+];
+
+async function saveView() {
+  const numbers = Array.from({ length: shown.views.length + 1 }, (_, index) => `View ${index + 1}`);
+  const input = el("input", { class: "wv-field", type: "text", "aria-label": "Name", autofocus: true });
+  input.value = numbers.find((name) => !shown.views.includes(name));
+  input.select();
+  const accept = async () => {
+    const name = input.value.trim();
+    return name !== "" && (!shown.views.includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" }));
+  };
+  const buttons = [{ label: "Cancel", value: null }, { label: "Save", value: true, primary: true, accept }];
+  if (await openDialog({ title: "Save this view", content: input, buttons })) {
+    act("SaveView", { name: input.value.trim() });
+  }
+}
+
+// Arrow keys go from button to button; a field keeps them.
+function walk(event) {
+  const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+  if (!step || event.target.matches("input")) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const all = [...event.currentTarget.querySelectorAll("button, input")].filter((one) => one.offsetParent);
+  all.at((all.indexOf(event.target) + step) % all.length).focus();
+}

@@ -1,0 +1,71 @@
+// Tooltips: what an element's `data-tip` or `title` says, after a moment under the mouse and on focus.
+
+import { el, setText } from "../dom.js";
+import { keyText } from "./keys.js";
+
+const WAIT_MS = 500;
+const GAP = 6;
+const TIPPED = "[data-tip], [title]";
+
+let shown = null;
+let tip = null;
+let timer = 0;
+
+export function install(page) {
+  tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
+  page.append(tip);
+  page.addEventListener("pointerover", ({ target, pointerType }) => {
+    const owner = target.closest?.(TIPPED);
+    if (owner) adopt(owner);
+    if (owner === shown) return;
+    hide();
+    if (owner && pointerType !== "touch") timer = setTimeout(() => show(owner), WAIT_MS);
+  });
+  page.addEventListener("pointerleave", hide);
+  page.addEventListener("focusin", ({ target }) => {
+    const owner = target.closest(TIPPED);
+    if (!owner || !target.matches(":focus-visible") || target.matches("input, textarea")) return;
+    adopt(owner);
+    timer = setTimeout(() => show(owner)); // not while a dialog or a menu is just being opened
+  });
+  page.addEventListener("focusout", hide);
+  for (const name of ["pointerdown", "keydown", "scroll"]) window.addEventListener(name, hide, true);
+}
+
+// A `title` would show the browser's own tooltip beside this one.
+function adopt(owner) {
+  const text = owner.getAttribute("title");
+  if (!text) return;
+  owner.removeAttribute("title");
+  owner.dataset.tip = text;
+  if (!owner.textContent.trim() && !owner.getAttribute("aria-label")) owner.ariaLabel = text;
+}
+
+function show(owner) {
+  if (!owner.isConnected || !owner.dataset.tip) return;
+  hide();
+  shown = owner;
+  const { tip: text, key } = owner.dataset;
+  tip.replaceChildren(text, ...(key ? [el("kbd", {}, keyText(key))] : []));
+  if (owner.ariaLabel !== text) owner.setAttribute("aria-describedby", "wv-tip");
+  // In a dialog, only what is within it is read out.
+  const home = owner.closest("dialog") ?? document.getElementById("webviz");
+  if (tip.parentElement !== home) home.append(tip);
+  tip.showPopover();
+  const box = owner.getBoundingClientRect();
+  const { width, height } = tip.getBoundingClientRect();
+  const left = box.left + box.width / 2 - width / 2;
+  const below = box.bottom + GAP;
+  const top = below + height > innerHeight ? box.top - GAP - height : below;
+  tip.style.left = `${Math.max(GAP, Math.min(left, innerWidth - width - GAP))}px`;
+  tip.style.top = `${Math.max(GAP, top)}px`;
+}
+
+function hide() {
+  clearTimeout(timer);
+  if (!shown) return;
+  if (shown.getAttribute("aria-describedby") === "wv-tip") shown.removeAttribute("aria-describedby");
+  shown = null;
+  if (tip.matches(":popover-open")) tip.hidePopover();
+  setText(tip, "");
+}
