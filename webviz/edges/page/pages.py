@@ -10,6 +10,7 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.messages import Ping, Pong, Shell
 from webviz.edges.page.toolbar import Toolbar
+from webviz.edges.page.wishes import Wishes
 from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import State
@@ -28,6 +29,7 @@ class Pages:
         self._guard = Guard("The page", strict=False)
         self._toolbar = Toolbar(channel, enqueue)
         self._acts = Acts(channel, enqueue)
+        self._wishes = Wishes(enqueue)
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
         channel.on(Ping, lambda browser, _: channel.send(Pong(), browser))
@@ -40,7 +42,9 @@ class Pages:
     def update(self, state: State) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
         self._toolbar.update(state)
-        for store in self._channel.watched():
+        watched = self._channel.watched()
+        self._wishes.update(watched)
+        for store in watched:
             name, _, argument = store.partition(":")
             if (make := MAKERS.get(name)) is not None:
                 values = self._guard.attempt(store, {}, make, state, argument)

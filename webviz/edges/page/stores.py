@@ -23,9 +23,13 @@ class Stores:
 
     def __init__(self) -> None:
         self._content: dict[str, Content] = {}
+        self._made_of: dict[str, Mapping[str, Any]] = {}
 
     def replace(self, store: str, values: Mapping[str, Any]) -> list[str]:
         """Makes these the values of a store, and returns the keys that are new, changed or gone."""
+        if self._made_of.get(store) is values:
+            return []  # large ones are the same object while nothing changes
+        self._made_of[store] = values
         old = self._content.get(store, {})
         new = {key: _encoded(value) for key, value in values.items()}
         self._content[store] = new
@@ -39,7 +43,7 @@ class Stores:
     def forget(self, watched: set[str]) -> None:
         """Drops the stores that no page watches any more."""
         for store in self._content.keys() - watched:
-            del self._content[store]
+            del self._content[store], self._made_of[store]
 
 
 class Watched:

@@ -16,6 +16,7 @@ from webviz.engine.state import Inspected, Traffic
 
 SPAN_S = 3.0
 """Over how long a rate is measured."""
+MEASURED_S = 0.5
 EVERY_S = 1.0
 """How often a message is read to be looked into."""
 MAX_INSPECTED = 64
@@ -34,6 +35,7 @@ class TopicsPart(Part):
         self._offers: Mapping[str, Offer] | None = None
         self._types: dict[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
+        self._shown: dict[str, Traffic] = {}
         self._delays: dict[str, tuple[float, float | None]] = {}
         self._last: dict[str, tuple[Raw, float]] = {}
         self._read: dict[str, tuple[float, Raw, Inspected]] = {}
@@ -112,8 +114,14 @@ class TopicsPart(Part):
         self._delays[topic] = now, delay
 
     def _traffic(self) -> dict[str, Traffic]:
-        """Rates by topic, since some seconds ago; to be called some times a second."""
+        """Rates by topic over the last seconds, measured anew now and then."""
         now, counts = self.core.clock(), self.core.source.inbox.received()
+        if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
+            return {topic: each for topic, each in self._shown.items() if topic in counts}
+        self._shown = self._rates(now, counts)
+        return self._shown
+
+    def _rates(self, now: float, counts: dict[str, tuple[int, int]]) -> dict[str, Traffic]:
         self._counts.append((now, counts))
         while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
             self._counts.popleft()

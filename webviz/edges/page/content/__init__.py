@@ -15,6 +15,7 @@ from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties
 from webviz.edges.page.content.scene import legend, watchers
+from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.types import addable, types
 from webviz.edges.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.engine.state import State
@@ -33,5 +34,8 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "settings": settings,
     "types": types,
     "view_type": view_type,
+    "message": message,
+    "topics": topics,
+    "traffic": traffic,
     "watchers": watchers,
 }

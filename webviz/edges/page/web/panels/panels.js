@@ -4,5 +4,6 @@
 // what is to be done when it is not any more.
 
 import { displays } from "./displays/displays.js";
+import { topics } from "./topics.js";
 
-export const panels = [displays];
+export const panels = [displays, topics];

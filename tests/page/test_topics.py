@@ -1,0 +1,270 @@
+"""The panel "Topics"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.api import registry
+from webviz.api.declared import Topic
+from webviz.api.display import Display, Input
+from webviz.data.messages import LaserScan, to_tree
+from webviz.edges.page.content.topics import topics
+from webviz.engine.commands import AddDisplay, InspectTopics
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Inspected, State, Traffic
+
+HOSTILE = "<img src=x onerror=alert(1)>"
+CLOUD = "test_msgs/msg/Cloud"
+SCAN = Publisher("/driver", "sensor_msgs/msg/LaserScan", "best_effort", "volatile")
+MAP = Publisher("/server", "nav_msgs/msg/OccupancyGrid", "reliable", "transient_local")
+IMU = Publisher("/imu", "sensor_msgs/msg/Imu", "reliable", "volatile")
+BOTH = Publisher("/camera", CLOUD, "reliable", "volatile")
+
+
+class Dots(Display):
+    topic: Annotated[Topic, Input(CLOUD)] = Topic()
+
+
+class Boxes(Display):
+    source: Annotated[Topic, Input(CLOUD)] = Topic()
+
+
+@pytest.fixture(autouse=True)
+def _displays() -> Iterator[None]:
+    registry.register("tests", {"Dots": Dots, "Boxes": Boxes})
+    yield
+    registry.register("tests", {})
+
+
+@pytest.fixture
+def panel(tab: Tab) -> Iterator[Tab]:
+    """The tab with the panel open."""
+    tab.show_tab("Topics")
+    tab.page.get_by_role("searchbox").fill("")
+    yield tab
+    tab.page.evaluate("localStorage.removeItem('webviz.topics-sort')")
+    tab.show_tab("Displays")
+
+
+def names(tab: Tab) -> list[str]:
+    """The topics that are seen, from top to bottom."""
+    return tab.page.locator(".wv-topic .wv-cell-name").all_inner_texts()
+
+
+def row(tab: Tab, name: str) -> str:
+    """What a row says, in one line."""
+    rows = tab.page.locator(".wv-topic").all_inner_texts()
+    lines = [" ".join(text.split()) for text in rows]
+    return next((line for line in lines if line.startswith(name)), "")
+
+
+def choose(tab: Tab, name: str) -> None:
+    tab.wait_for(lambda: name in names(tab))
+    tab.page.locator(".wv-cell-name").get_by_text(name, exact=True).click()
+
+
+def show(loop: Loop, **publishers: tuple[Publisher, ...]) -> None:
+    loop.show(offers={f"/{name}": Offer(each) for name, each in publishers.items()})
+
+
+def test_a_topic_has_its_facts_in_a_row(loop: Loop, panel: Tab) -> None:
+    offers = {"/scan": Offer((SCAN,), subscribers=3), HOSTILE: Offer((MAP, MAP), subscribers=0)}
+    loop.show(offers=offers, traffic={"/scan": Traffic(10.04, 45_300.0, 0.0061)})
+    panel.wait_for(lambda: "10.0 Hz" in row(panel, "/scan"))
+    scan = row(panel, "/scan")
+    assert scan == "/scan sensor_msgs/LaserScan 1 pub 3 subs 10.0 Hz 45.0 kB/s"
+    assert "2 pubs 0 subs" in row(panel, HOSTILE)
+
+
+def test_a_wide_panel_has_all_columns(loop: Loop, open_tab: Callable[..., Tab]) -> None:
+    wide = open_tab(1300)
+    wide.page.evaluate("document.documentElement.style.setProperty('--wv-width', '850px')")
+    wide.show_tab("Topics")
+    loop.show(
+        offers={"/scan": Offer((SCAN,), subscribers=1)},
+        traffic={"/scan": Traffic(10.04, 45_300.0, 0.0061)},
+    )
+    wide.wait_for(lambda: "best effort, volatile" in row(wide, "/scan"))
+    assert row(wide, "/scan").endswith("10.0 Hz 45.0 kB/s 6 ms")
+    assert wide.page.locator(".wv-topic").bounding_box()["height"] == 26  # pyright: ignore[reportOptionalSubscript]
+
+
+def test_topics_are_found_by_name_and_type(loop: Loop, panel: Tab) -> None:
+    show(loop, scan=(SCAN,), map=(MAP,))
+    panel.wait_for(lambda: names(panel) == ["/map", "/scan"])
+    search = panel.page.get_by_role("searchbox")
+    search.fill("OCCUPANCY")
+    panel.wait_for(lambda: names(panel) == ["/map"])
+    search.fill("nothing like it")
+    panel.wait_for(lambda: "No topic with these words." in panel.text())
+    search.fill("")
+    loop.show(offers={})
+    panel.wait_for(lambda: "No topic is published." in panel.text())
+
+
+def test_a_click_on_a_head_sorts_and_another_turns_the_order(loop: Loop, panel: Tab) -> None:
+    loop.show(
+        offers={"/a": Offer((SCAN,)), "/b": Offer((MAP,)), "/c": Offer((SCAN,))},
+        traffic={"/b": Traffic(5.0, 1.0), "/c": Traffic(50.0, 1.0)},
+    )
+    panel.wait_for(lambda: names(panel) == ["/a", "/b", "/c"])
+    panel.button("Rate").click()
+    panel.wait_for(lambda: names(panel) == ["/c", "/b", "/a"])
+    panel.button("Name").click()
+    panel.button("Name").click()
+    panel.wait_for(lambda: names(panel) == ["/c", "/b", "/a"])
+    heads = panel.page.locator(".wv-head-name")
+    assert heads.get_attribute("aria-sort") == "descending"
+
+
+def test_of_thousands_of_topics_those_in_sight_are_on_the_page(loop: Loop, panel: Tab) -> None:
+    loop.show(offers={f"/t{i:04}": Offer((SCAN,)) for i in range(5000)})
+    panel.wait_for(lambda: "/t0000" in names(panel))
+    assert len(names(panel)) < 60
+    panel.page.locator(".wv-topics .wv-rows").evaluate("e => { e.scrollTop = e.scrollHeight }")
+    panel.wait_for(lambda: "/t4999" in names(panel))
+    assert len(names(panel)) < 60
+    panel.page.locator(".wv-topics-table").focus()
+    panel.page.keyboard.press("Home")
+    panel.wait_for(lambda: "/t0000" in names(panel))
+
+
+def test_keys_move_through_the_rows_and_enter_looks_into_one(loop: Loop, panel: Tab) -> None:
+    show(loop, a=(SCAN,), b=(MAP,))
+    panel.wait_for(lambda: names(panel) == ["/a", "/b"])
+    panel.page.locator(".wv-topics-table").focus()
+    for key in ("ArrowDown", "ArrowDown", "Enter"):
+        panel.page.keyboard.press(key)
+    panel.wait_for_command(InspectTopics(frozenset({"/b"})))
+
+
+def test_a_message_is_a_tree_that_can_be_folded(loop: Loop, panel: Tab) -> None:
+    show(loop, scan=(SCAN,))
+    choose(panel, "/scan")
+    panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
+    message = to_tree(LaserScan(ranges=np.arange(720, dtype=np.float32)))
+    loop.show(inspected={"/scan": Inspected(SCAN.type, message, "", 2912, 1.0)})
+    tree = panel.page.get_by_role("tree", name="Last message on /scan")
+    panel.wait_for(lambda: "angle_min" in tree.inner_text())
+    assert "2.9 kB" in panel.text()
+    ranges = tree.get_by_role("treeitem").filter(has_text="ranges")
+    assert ranges.get_attribute("aria-expanded") == "false"
+    ranges.click()
+    panel.wait_for(lambda: "[19]" in tree.inner_text() or "[5]" in tree.inner_text())
+    panel.page.keyboard.press("ArrowLeft")
+    panel.wait_for(lambda: ranges.get_attribute("aria-expanded") == "false")
+    stamp = tree.get_by_role("treeitem").filter(has_text="stamp")
+    stamp.click()
+    panel.wait_for(lambda: "nanosec:" in tree.inner_text(), 5)
+
+
+def test_a_message_that_changes_changes_only_its_values(loop: Loop, panel: Tab) -> None:
+    show(loop, text=(SCAN,))
+    choose(panel, "/text")
+    tree = {"fields": {"first": "'one'", "second": "1"}}
+    loop.show(inspected={"/text": Inspected("x", tree)})
+    values = panel.page.locator(".wv-field-value")
+    panel.wait_for(lambda: values.all_inner_texts() == ["'one'", "1"])
+    panel.page.evaluate(
+        "window.mutated = []; new MutationObserver((all) => mutated.push(...all.map("
+        "({ target }) => target.className))).observe(document.querySelector('.wv-inspected'),"
+        "{ subtree: true, childList: true, attributes: true, characterData: true })"
+    )
+    loop.show(inspected={"/text": Inspected("x", {"fields": {"first": "'one'", "second": "2"}})})
+    panel.wait_for(lambda: values.all_inner_texts() == ["'one'", "2"])
+    mutated = panel.page.evaluate("mutated")
+    assert set(mutated) == {"wv-field-value wv-ellipsis"}
+    assert len(mutated) <= 2
+
+
+def test_why_there_is_no_message_is_said(loop: Loop, panel: Tab) -> None:
+    show(loop, text=(SCAN,))
+    choose(panel, "/text")
+    loop.show(inspected={"/text": Inspected(problem=f"No message has come yet. {HOSTILE}")})
+    panel.wait_for(lambda: f"No message has come yet. {HOSTILE}" in panel.text())
+
+
+def test_two_browsers_look_into_different_topics(
+    loop: Loop, panel: Tab, open_tab: Callable[[], Tab]
+) -> None:
+    show(loop, scan=(SCAN,), map=(MAP,))
+    other = open_tab()
+    other.show_tab("Topics")
+    choose(other, "/map")
+    choose(panel, "/scan")
+    panel.wait_for_command(InspectTopics(frozenset({"/scan", "/map"})))
+    loop.show(
+        inspected={
+            "/scan": Inspected("x", {"fields": {"mine": "1"}}),
+            "/map": Inspected("x", {"fields": {"yours": "2"}}),
+        }
+    )
+    panel.wait_for(lambda: "mine" in panel.text())
+    other.wait_for(lambda: "yours" in other.text())
+    assert "yours" not in panel.text()
+    other.page.context.close()
+    panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
+    panel.button("Close").click()
+    panel.wait_for_command(InspectTopics(frozenset()))
+
+
+def test_a_panel_that_is_closed_looks_into_nothing(loop: Loop, panel: Tab) -> None:
+    show(loop, scan=(SCAN,))
+    choose(panel, "/scan")
+    panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
+    panel.show_tab("Displays")
+    panel.wait_for_command(InspectTopics(frozenset()))
+
+
+def test_a_topic_is_shown_by_the_display_that_fits_or_says_why_not(loop: Loop, panel: Tab) -> None:
+    show(loop, imu=(IMU,), cloud=(BOTH,), none=())
+    choose(panel, "/imu")
+    panel.wait_for(lambda: "No display for sensor_msgs/msg/Imu." in panel.text())
+    assert panel.button("Show").is_disabled()
+    choose(panel, "/none")
+    panel.wait_for(lambda: "No publisher." in panel.text())
+    choose(panel, "/cloud")
+    panel.button("Show").click()
+    panel.page.get_by_role("menuitem", name="Boxes").click()
+    panel.wait_for_command(AddDisplay("Boxes", {"source": "/cloud"}, made=_any()))
+    panel.wait_for(lambda: "Added Boxes for /cloud." in panel.text())
+
+
+def test_name_and_message_are_copied(loop: Loop, open_tab: Callable[..., Tab]) -> None:
+    tab = open_tab(permissions=["clipboard-read", "clipboard-write"])
+    tab.show_tab("Topics")
+    show(loop, scan=(SCAN,))
+    choose(tab, "/scan")
+    tree = {
+        "fields": {
+            "header": {"fields": {"frame_id": "'base'"}},
+            "ranges": {"length": 720, "type": "float32", "items": ["1", "2"]},
+        }
+    }
+    loop.show(inspected={"/scan": Inspected("x", tree)})
+    tab.wait_for(lambda: "ranges" in tab.text())
+    tab.button("Copy name").click()
+    tab.wait_for(lambda: tab.page.evaluate("navigator.clipboard.readText()") == "/scan")
+    tab.button("Copy message").click()
+    text = "header:\n  frame_id: 'base'\nranges: [1, 2, …]  # 720 \N{MULTIPLICATION SIGN} float32"
+    tab.wait_for(lambda: tab.page.evaluate("navigator.clipboard.readText()") == text)
+
+
+def test_nothing_is_made_anew_while_the_topics_are_the_same() -> None:
+    state = State(offers={"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))})
+    made = topics(state, "")
+    assert topics(state, "") is made
+    assert made["/scan"]["qos"] == "best effort, volatile"
+    assert made["/mixed"]["qos"] == "mixed, mixed"
+
+
+class _any:
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    __hash__: Any = None

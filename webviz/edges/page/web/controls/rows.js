@@ -1,0 +1,159 @@
+// A list or tree of rows of one height, of which only those that are seen are in the page.
+//
+// The list has the focus; arrow keys move the row that is marked, which is told to screen readers.
+
+import { el, set } from "../dom.js";
+
+const BEYOND = 6; // rows above and below what is seen that are there too
+
+const INDENT_PX = 14;
+
+let lists = 0;
+
+/**
+ * `role` is that of the list, `rowRole` that of its rows. `make(item)` returns an element, which
+ * `update(element, item)` fills in; items have a `key`. `choose(item)` is called on click and Enter.
+ * `onKey(event, item)` may take a key before the list does, and returns whether it did. `host` is what
+ * has the focus instead, such as a grid whose rows of heads are above.
+ *
+ * Returns `{element, show(items), resize(height), mark(key), marked()}`; `height` is of a row in pixels.
+ */
+export function rowList({
+  label, role = "listbox", rowRole = "option", height, make, update, choose, onKey = () => false,
+  host = null,
+}) {
+  lists += 1;
+  const id = `wv-rows-${lists}`;
+  const mounted = new Map();
+  const places = new Map();
+  let numbers = 0;
+  let items = [];
+  let marked = null;
+  let total = -1;
+
+  const canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
+  const element = el("div", {
+    class: "wv-rows", role: host ? "rowgroup" : null, onscroll: () => render(),
+    onclick: (event) => {
+      const key = event.target.closest(".wv-row")?.wvKey;
+      if (key === undefined || event.target.closest("button")) return;
+      mark(key);
+      choose?.(items[places.get(key)]);
+    },
+  }, canvas);
+  const focused = host ?? element;
+  set(focused, { role, tabindex: 0, "aria-label": label, onkeydown: press });
+  let seenHeight = 0;
+  const observer = new ResizeObserver(() => {
+    const isSmaller = element.clientHeight < seenHeight;
+    seenHeight = element.clientHeight;
+    if (isSmaller && marked !== null) mark(marked); // what was chosen stays in sight
+    else render();
+  });
+  observer.observe(element);
+
+  function show(next) {
+    items = next;
+    places.clear();
+    items.forEach((item, index) => places.set(item.key, index));
+    if (!places.has(marked)) marked = null;
+    render(true);
+  }
+
+  function render(isChanged = false) {
+    if (total !== items.length * height) {
+      total = items.length * height;
+      canvas.style.height = `${total}px`;
+      isChanged = true;
+    }
+    const first = Math.max(0, Math.floor(element.scrollTop / height) - BEYOND);
+    const last = Math.ceil((element.scrollTop + element.clientHeight) / height) + BEYOND;
+    const seen = items.slice(first, last);
+    const wanted = new Set(seen.map(({ key }) => key));
+    for (const [key, row] of mounted) {
+      if (wanted.has(key)) continue;
+      row.remove();
+      mounted.delete(key);
+    }
+    seen.forEach((item, index) => {
+      let row = mounted.get(item.key);
+      const isNew = !row;
+      if (isNew) mounted.set(item.key, (row = mount(item)));
+      place(row, first + index);
+      if (isNew || isChanged === true) update(row, item);
+      if (canvas.children[index] !== row) canvas.insertBefore(row, canvas.children[index] ?? null);
+    });
+    showMark();
+  }
+
+  function mount(item) {
+    numbers += 1;
+    const row = make(item);
+    row.classList.add("wv-row");
+    set(row, { id: `${id}-${numbers}`, role: rowRole });
+    row.wvKey = item.key;
+    return row;
+  }
+
+  function place(row, index) {
+    if (row.wvTop !== index * height) row.style.top = `${(row.wvTop = index * height)}px`;
+    if (rowRole === "row") set(row, { "aria-rowindex": index + 2 });
+    else set(row, { "aria-posinset": index + 1, "aria-setsize": items.length });
+  }
+
+  function showMark() {
+    for (const [key, row] of mounted) set(row, { "aria-selected": String(key === marked) });
+    set(focused, { "aria-activedescendant": mounted.get(marked)?.id });
+  }
+
+  function mark(key) {
+    marked = key;
+    const index = places.get(key);
+    if (index !== undefined) {
+      const top = index * height;
+      if (top < element.scrollTop) element.scrollTop = top;
+      const over = top + height - element.scrollTop - element.clientHeight;
+      if (over > 0) element.scrollTop += over;
+    }
+    render();
+  }
+
+  function press(event) {
+    const { key } = event;
+    if (event.target !== focused || event.ctrlKey || event.metaKey || event.altKey) return;
+    const at = places.get(marked) ?? -1;
+    const page = Math.max(1, Math.floor(element.clientHeight / height) - 1);
+    const next = {
+      ArrowDown: at + 1, ArrowUp: at - 1, PageDown: at + page, PageUp: at - page,
+      Home: 0, End: items.length - 1,
+    }[key];
+    if (items[at] && onKey(event, items[at])) {
+      // done
+    } else if (next !== undefined && items.length) {
+      mark(items[Math.max(0, Math.min(next, items.length - 1))].key);
+    } else if ((key === "Enter" || key === " ") && items[at]) choose?.(items[at]);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  return {
+    element,
+    show,
+    mark,
+    marked: () => items[places.get(marked)] ?? null,
+    resize(pixels) {
+      if (pixels === height) return;
+      height = pixels;
+      render(true);
+    },
+    close: () => observer.disconnect(),
+  };
+}
+
+/** Indents a row of a tree by its depth: `--wv-indent`. */
+export function indent(row, depth) {
+  if (row.wvDepth === depth) return;
+  row.wvDepth = depth;
+  row.style.setProperty("--wv-indent", `${depth * INDENT_PX}px`);
+}

@@ -1,0 +1,68 @@
+// A message as rows of a foldable tree, and as text.
+
+const SHORT = 60; // characters of what a folded row says of its inside
+const OPEN_DEPTH = 2;
+
+const isLeaf = (tree) => typeof tree === "string";
+const entries = (tree) =>
+  tree.fields ? Object.entries(tree.fields) : tree.items.map((item, index) => [`[${index}]`, item]);
+
+/**
+ * The rows of a message that are not folded away: `{key, depth, name, value, isOpen}`; `isOpen` is null
+ * where nothing can be unfolded. `folds` has what somebody has folded or unfolded, by key.
+ */
+export function rowsOf(tree, folds, depth = 0, path = "") {
+  return entries(tree).flatMap(([name, inside]) => {
+    const key = `${path}/${name}`;
+    const row = { key, depth, name, value: brief(inside), isOpen: null };
+    if (isLeaf(inside) || !entries(inside).length) return [row];
+    // Messages are unfolded at first, and sequences, which may be long, are not.
+    row.isOpen = folds.get(key) ?? (Boolean(inside.fields) && depth < OPEN_DEPTH);
+    if (!row.isOpen) return [row];
+    row.value = inside.fields ? "" : lengthOf(inside);
+    const rows = [row, ...rowsOf(inside, folds, depth + 1, key)];
+    const more = inside.fields ? 0 : inside.length - inside.items.length;
+    if (more > 0) {
+      const value = `… ${more} more`;
+      rows.push({ key: `${key}/…`, depth: depth + 1, name: "", value, isOpen: null });
+    }
+    return rows;
+  });
+}
+
+/** What a row says of a tree that is folded. */
+function brief(tree) {
+  if (isLeaf(tree)) return tree;
+  if (tree.fields) return cut(inline(tree));
+  if (!tree.length) return "[]";
+  const isPlain = tree.items.every(isLeaf);
+  return isPlain ? `${cut(inline(tree))}  ${lengthOf(tree)}` : lengthOf(tree);
+}
+
+const lengthOf = ({ length, type }) => (type ? `${length} × ${type}` : `${length} in all`);
+const cut = (text) => (text.length > SHORT ? `${text.slice(0, SHORT)}…` : text);
+
+function inline(tree) {
+  if (isLeaf(tree)) return tree;
+  if (tree.fields) {
+    return Object.entries(tree.fields).map(([name, inside]) => `${name}: ${inline(inside)}`).join(", ");
+  }
+  return `[${tree.items.map(inline).join(", ")}${tree.length > tree.items.length ? ", …" : ""}]`;
+}
+
+/** The message as `ros2 topic echo` prints it, with what was left out marked. */
+export function textOf(tree, indent = "") {
+  return Object.entries(tree.fields).map(([name, inside]) => field(name, inside, indent)).join("\n");
+}
+
+function field(name, tree, indent) {
+  if (isLeaf(tree)) return `${indent}${name}: ${tree}`;
+  if (tree.fields) return `${indent}${name}:\n${textOf(tree, `${indent}  `)}`;
+  if (tree.items.every(isLeaf)) {
+    const note = tree.length > tree.items.length ? `  # ${lengthOf(tree)}` : "";
+    return `${indent}${name}: ${inline(tree)}${note}`;
+  }
+  const items = tree.items.map((item) => `${indent}- ${textOf(item, `${indent}  `).trimStart()}`);
+  if (tree.length > items.length) items.push(`${indent}# ${lengthOf(tree)}`);
+  return [`${indent}${name}:`, ...items].join("\n");
+}

@@ -1,0 +1,93 @@
+// The panel "Topics": all topics in a table, and the last message of the one that is chosen.
+
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { recall, remember } from "../remember.js";
+import { rowList } from "../controls/rows.js";
+import { watch } from "../stores.js";
+import { inspector } from "./topics_inspector.js";
+import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";
+
+const WIDE_PX = 600;
+const HEIGHTS = { wide: 26, narrow: 44 };
+const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
+
+export const topics = {
+  name: "topics",
+  title: "Topics",
+  open(element) {
+    let facts = new Map();
+    let traffic = new Map();
+    let sort = recall("topics-sort", { column: "name", isUp: true });
+    let inspected = null;
+
+    const search = el("input", {
+      class: "wv-field", type: "search", placeholder: "Filter topics", "aria-label": "Filter topics",
+      oninput: show,
+    });
+    const head = makeHead(sortBy);
+    const table = el("div", { class: "wv-topics-table" }, head.element);
+    const list = rowList({
+      host: table, label: "Topics", role: "grid", rowRole: "row", height: HEIGHTS.narrow,
+      make: makeRow, update: updateRow, choose: ({ key }) => inspect(key),
+    });
+    table.append(list.element);
+    const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
+    const place = el("div", { class: "wv-topics-message" });
+    const panel = el("div", { class: "wv-topics" },
+      el("div", { class: "wv-search" }, icon("search"), search), table, empty, place);
+    element.append(panel);
+
+    function sortBy(column) {
+      const { isNumber = false } = COLUMNS.find(({ id }) => id === column);
+      sort = { column, isUp: sort.column === column ? !sort.isUp : !isNumber };
+      remember("topics-sort", sort);
+      show();
+    }
+
+    function show() {
+      head.update(sort);
+      const all = [...facts].map(([key, topic]) => ({ key, ...topic, ...traffic.get(key) }));
+      const found = arranged(all, search.value, sort);
+      list.show(found);
+      set(table, { "aria-rowcount": found.length + 1 });
+      setText(empty, all.length ? "No topic with these words." : NOTHING);
+      set(empty, { hidden: found.length > 0 });
+      inspected?.update(all.find(({ key }) => key === inspected.name));
+    }
+
+    function inspect(name) {
+      if (inspected?.name === name) return;
+      inspected?.close();
+      inspected = inspector(place, name, () => {
+        inspected.close();
+        inspected = null;
+        table.focus();
+      });
+      show();
+    }
+
+    const observer = new ResizeObserver(([{ contentRect }]) => {
+      const isWide = contentRect.width >= WIDE_PX;
+      panel.classList.toggle("wv-wide", isWide);
+      list.resize(isWide ? HEIGHTS.wide : HEIGHTS.narrow);
+    });
+    observer.observe(panel);
+    const ends = [
+      watch("topics", (values) => {
+        facts = values;
+        show();
+      }),
+      watch("traffic", (values) => {
+        traffic = values;
+        if (facts.size) show();
+      }),
+    ];
+    return () => {
+      for (const end of ends) end();
+      observer.disconnect();
+      list.close();
+      inspected?.close();
+    };
+  },
+};
