@@ -168,7 +168,7 @@ class BagSource:
         """Close the file."""
         self._file.close()
 
-    # Inside
+    # Internal
 
     def _channels(self) -> list[Channel]:
         """The subscribed channels that can be read."""
