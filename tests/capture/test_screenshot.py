@@ -245,7 +245,7 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
     browser = next(p for p, line in family.items() if " --remote-debugging" in line)
     browser.kill()
     assert program.process.wait(PATIENCE_S) == 1
-    assert program.output().startswith("webviz: The browser ended while it drew")
+    assert program.output().startswith("webviz: The browser crashed while drawing")
     assert program.output().count("\n") == 1
     assert os.listdir(tmp_path) == []
     assert left_of(family) == []
