@@ -63,7 +63,7 @@ def test_paused_time_is_told_and_nothing_fades(bench: Callable[..., Any]) -> Non
     b.clock += 60.0
     assert statuses(b)["Time"] == (
         "OK",
-        "Simulated time stands still at 100.0 s: /gazebo is paused.",
+        "Simulated time has stopped at 100.0 s: /gazebo is paused.",
     )
     assert shown(b) == [1.0]
     assert b.statuses()["Transform"] == ("OK", "Transform OK")

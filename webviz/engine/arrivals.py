@@ -34,6 +34,6 @@ class Arrivals:
             batches = {}
             parts.reset()
         if attempt("Transforms", False, self._transforms.insert, batches):
-            self._time.ros.tell("The transforms started over in the past: everything was reset.")
+            self._time.ros.note("The transforms started over in the past: everything was reset.")
             parts.reset()
         return batches

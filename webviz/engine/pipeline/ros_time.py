@@ -40,10 +40,10 @@ class RosTime:
         self._now_ns = now_ns
         if back_ns <= JUMP_NS:
             return False
-        self.tell(f"Time went back by {in_words(back_ns)}: everything was reset.")
+        self.note(f"Time went back by {in_words(back_ns)}: everything was reset.")
         return True
 
-    def tell(self, event: str) -> None:
+    def note(self, event: str) -> None:
         """Log a sentence, and show it for a while."""
         log.warning("%s", event)
         self._event, self._event_at = event, self._clock()
@@ -61,7 +61,7 @@ class RosTime:
             )
         clock = self._clock()
         if clock - self._moved_at > STILL_S:
-            at = f"Simulated time stands still at {self._now_ns / 1e9:.1f} s"
+            at = f"Simulated time has stopped at {self._now_ns / 1e9:.1f} s"
             if nodes:
                 return Status(Level.OK, f"{at}: {nodes} is paused.")
             return Status(Level.WARN, f"{at}: /clock has no publisher any more.")

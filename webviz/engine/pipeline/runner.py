@@ -82,8 +82,8 @@ class Runner:
         """Change a property; the display is redrawn without waiting for a message.
 
         Raises:
-            msgspec.ValidationError: the value does not fit; nothing was changed.
-            AttributeError: there is no such property.
+            msgspec.ValidationError: the value is invalid; nothing was changed.
+            AttributeError: the property does not exist.
         """
         topics = {name: topic for name, _, topic in inputs(self.display)}
         set_property(self.display, path, value)

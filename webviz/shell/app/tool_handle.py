@@ -39,11 +39,11 @@ class ToolHandle:
         """
         first: Future[Status] = Future()
 
-        def tell(status: Status) -> None:
+        def report(status: Status) -> None:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
                 first.set_result(status)
 
-        self._viewer.do(UseTool(self.name, ((x, y, 0.0),), yaw, tell=tell))
+        self._viewer.do(UseTool(self.name, ((x, y, 0.0),), yaw, report=report))
         try:
             status = first.result(PATIENCE_S)
         except TimeoutError:
