@@ -211,7 +211,7 @@ def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
 
 
 def _further(poses: PoseStampedSequence) -> bytes:
-    """All poses of one frame but the first; as each ends at a multiple of 8, all have one layout."""
+    """All poses of one frame but the first; as each ends at a multiple of 8, they are alike."""
     name = poses.frame_ids[0].encode() + b"\0"
     names = ["sec", "nanosec", "length", "name", "numbers"]
     numbers = (12 + len(name) + 7) // 8 * 8
