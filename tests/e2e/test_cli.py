@@ -15,7 +15,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from processes import command_lines
+from processes import command_lines, send
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -158,8 +158,7 @@ def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(
     program = start("webviz", "demo", "--port", "0")
     program.url()
     main = psutil.Process(program.process.pid)
-    for process in (*main.children(recursive=True), main):
-        process.send_signal(signal.SIGINT)
+    send(signal.SIGINT, (*main.children(recursive=True), main))
     assert program.process.wait(20) == 0, program.output()
     assert "Traceback" not in program.output()
 
