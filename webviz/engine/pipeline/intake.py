@@ -206,12 +206,7 @@ class Intake:
         if refusal := self._refusal(offer, matching):
             return Status(Level.ERROR, refusal)
         who = ", ".join(
-            sorted(
-                {
-                    f"{p.node or 'a DDS program'} ({_words(p.reliability, p.durability)})"
-                    for p in matching
-                }
-            )
+            sorted({f"{p.label} ({_words(p.reliability, p.durability)})" for p in matching})
         )
         if not self._received:
             return Status(Level.WARN, f"No message yet on {self.name} from {who}.")

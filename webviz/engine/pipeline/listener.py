@@ -186,4 +186,4 @@ def _few(sentences: list[str]) -> list[str]:
 def _nodes(offers: Mapping[str, Offer], topic: str) -> tuple[str, ...]:
     """The nodes that publish a topic, with duplicates."""
     publishers = offers[topic].publishers if topic in offers else ()
-    return tuple(publisher.node or "a DDS program" for publisher in publishers)
+    return tuple(publisher.label for publisher in publishers)

@@ -51,7 +51,7 @@ class RosTime:
     def status(self, offers: Mapping[str, Offer]) -> Status | None:
         """Whether time is missing, paused or went back; None if all is well."""
         publishers = offers["/clock"].publishers if "/clock" in offers else ()
-        nodes = ", ".join(publisher.node or "a DDS program" for publisher in publishers)
+        nodes = ", ".join(publisher.label for publisher in publishers)
         if not self._now_ns:
             missing = f"{nodes} has not published yet" if nodes else "it has no publisher"
             return Status(

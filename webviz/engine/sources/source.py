@@ -53,6 +53,11 @@ class Publisher:
     reliability: Reliability
     durability: Durability
 
+    @property
+    def label(self) -> str:
+        """Its node, for sentences."""
+        return self.node or "a DDS program"
+
 
 @dataclass(frozen=True)
 class Offer:
