@@ -47,7 +47,7 @@ def read_transforms(reader: Reader) -> list[FrameTransform]:
         child_end = child_start + child_length
         pos = child_end + (4 - child_end & 7)
         if pos + _POSE_SIZE > size:
-            raise CdrError("a transform is longer than what is left")
+            raise CdrError("a transform is longer than the rest of the message")
         if (
             data[end - 1] or data[child_end - 1]
         ):  # for length 0 this is the last byte of the length itself: 0

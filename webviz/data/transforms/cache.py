@@ -174,26 +174,11 @@ class TimeCache:
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
         """The sample interpolated at a time, 0 for the newest; None if `refusal` has a reason."""
-        stamps = self.stamps
-        if not stamps:
+        bracket = self.bracket(stamp_ns)
+        if bracket is None:
             return None
-        newest = stamps[-1]
-        if stamp_ns == newest or stamp_ns == 0:
-            return self.samples[-1]
-        oldest = stamps[0]
-        if stamp_ns == oldest:
-            return self.samples[0]
-        if not oldest < stamp_ns < newest:
-            return None
-        i = bisect_right(stamps, stamp_ns)
-        before = self.samples[i - 1]
-        after = self.samples[i]
-        parent = before[1]
-        if parent != after[1]:
-            return before  # no interpolation across re-parenting
-        start = stamps[i - 1]
-        ratio = float(stamp_ns - start) / float(stamps[i] - start)
-        return interpolate(before[0], after[0], ratio), parent
+        before, after, ratio, parent = bracket
+        return before if after is before else interpolate(before, after, ratio), parent
 
     def bracket(self, stamp_ns: int) -> Bracket | None:
         """The samples that `at` interpolates; the same pose twice if it does not."""
@@ -214,7 +199,7 @@ class TimeCache:
         pose, parent = self.samples[i - 1]
         after, other = self.samples[i]
         if parent != other:
-            return pose, pose, 0.0, parent
+            return pose, pose, 0.0, parent  # no interpolation across re-parenting
         start = stamps[i - 1]
         return pose, after, float(stamp_ns - start) / float(stamps[i] - start), parent
 
