@@ -162,7 +162,7 @@ class Group:
 
 
 class Background(Protocol):
-    """Runs slow work beside the frame loop."""
+    """Runs slow work in a thread."""
 
     def __call__(
         self,

@@ -11,7 +11,7 @@ class Arrivals:
     """Takes what has arrived at the source, and resets all parts when time goes back.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         time: detects that time went back.
         transforms: inserts transforms before other parts look them up.
     """

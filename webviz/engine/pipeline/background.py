@@ -1,4 +1,4 @@
-"""Slow work beside the frame loop."""
+"""Slow work in threads."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Tasks:
             stop: makes `fn` end early; called from any thread once the result is not needed.
 
         Raises:
-            Exception: what `fn` raised.
+            Exception: raised by `fn`.
         """
         self._requested.add(key)
         if key not in self._futures:

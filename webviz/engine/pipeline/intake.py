@@ -19,7 +19,7 @@ from webviz.engine.sources import Offer, Publisher, Raw, Subscription
 PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""
 LATE_S = 0.3
-"""A message drawn later after its arrival, for want of its transform, gets a warning."""
+"""A message drawn later than this because of its transform gets a warning."""
 
 
 _ASKED = itertools.count(1)

@@ -214,7 +214,7 @@ class BagSource:
 
     def _arrive(self, recorded: Recorded) -> None:
         if recorded.topic == "/clock" and recorded.type == CLOCK:
-            self._time.hear(recorded)
+            self._time.update(recorded)
         self._put(recorded)
 
     def _put(self, recorded: Recorded) -> None:
