@@ -123,10 +123,10 @@ def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refused: R
     assert names(viewer.displays) == ["First", "Last", "First 2"]
     copy.remove()
     assert names(viewer.displays) == ["First", "Last"]
-    gone = "This display was removed: take another one."
+    gone = "This display was removed."
     assert refused(copy.remove) == gone
     assert refused(lambda: copy.name) == gone
-    assert repr(copy) == "<a display that was removed>"
+    assert repr(copy) == "<removed display>"
 
 
 def test_groups_hold_displays(viewer: webviz.Viewer, refused: Refused) -> None:
@@ -153,9 +153,9 @@ def test_a_name_that_several_have_is_refused(viewer: webviz.Viewer, refused: Ref
     viewer.add("Grid")
     viewer.add("Axes")
     viewer.add("Grid")
-    assert "take one by its number in the list, 0 or 2" in refused(lambda: viewer["Grid"])
+    assert "Use the number in the list: 0 or 2" in refused(lambda: viewer["Grid"])
     assert "did you mean `Axes`" in refused(lambda: viewer["Axs"])
-    assert refused(lambda: viewer[3]) == "There is no display 3, only 3."
+    assert refused(lambda: viewer[3]) == "There is no display 3; the list has 3."
     assert viewer[-1].type == "Grid"
 
 
@@ -170,7 +170,7 @@ def test_a_topic_is_shown_by_the_display_that_fits(
     scan = viewer.add(topic="/rear", size=0.2)
     assert (scan.type, scan.topic.name, scan.size) == ("LaserScan", "/rear", 0.2)
     assert refused(lambda: viewer.add(topic="/odd")) == (
-        "No display shows /odd, whose type is acme_msgs/msg/Odd."
+        "No display shows /odd of type acme_msgs/msg/Odd."
     )
 
 

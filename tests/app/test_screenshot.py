@@ -72,7 +72,7 @@ def test_what_cannot_be_made_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert "no supported image extension" in refused(lambda: viewer.screenshot("now.txt"))
-    assert "pixels a side" in refused(lambda: viewer.screenshot(size=(1, 1)))
+    assert "pixels per side" in refused(lambda: viewer.screenshot(size=(1, 1)))
     assert "Unknown saved view `Top`" in refused(lambda: viewer.screenshot(view="Top"))
     monkeypatch.setenv(VARIABLE, "/no/browser")
     assert "/no/browser" in refused(viewer.screenshot)

@@ -85,8 +85,8 @@ def test_a_taken_port_is_refused_and_leaves_nothing(
 def test_after_the_end_everything_is_refused(source: HandFedSource, refused: Refused) -> None:
     with webviz.Viewer(port=0, source=source) as viewer:
         grid = viewer["Grid"]
-    assert refused(viewer.reset) == "The viewer has ended: make a new one."
-    assert refused(grid.remove) == "The viewer has ended: make a new one."
+    assert refused(viewer.reset) == "The viewer is closed. Create a new one."
+    assert refused(grid.remove) == "The viewer is closed. Create a new one."
 
 
 def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
@@ -112,7 +112,7 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(viewer.url, timeout=5)
     (record,) = caplog.records
-    assert record.getMessage() == "The frame loop did not end within 1.5 s."
+    assert record.getMessage() == "The frame loop did not close within 1.5 s."
 
 
 def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
@@ -227,10 +227,10 @@ def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused:
 
     assert "did you mean `Above`" in refused(look("Abve"))
     assert refused(look({"type": "Orbit", "distance": -1})).startswith(
-        "Not a valid view: distance: expected > 0, got -1."
+        "Invalid view: distance: expected > 0, got -1."
     )
     assert refused(look({"type": "TopDown"})) == (
-        "Not a valid view: type: "
+        "Invalid view: type: "
         "expected Orbit, XYOrbit, ThirdPersonFollower, FPS or TopDownOrtho, got `TopDown`."
     )
     viewer.remove_view("Above")

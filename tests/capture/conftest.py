@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import contextlib
+import signal
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
 from bags import START_NS, Bag, ns
 
+from webviz.shell.cli import main as cli
+from webviz.shell.pictures import capture
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.testing import header
 
 SIZE = (320, 240)
+CONFIG = Path(__file__).parent / "top.yaml"
 SECONDS = 6
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def write_run(path: Path) -> Path:
@@ -48,3 +55,38 @@ def studio(browser: playwright.Browser) -> Iterator[Studio]:
     studio = Studio(browser, *SIZE)
     yield studio
     studio.close()
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended, and what it printed."""
+
+    status: int
+    output: str
+    errors: str
+
+
+@pytest.fixture
+def screenshot(
+    browser: playwright.Browser,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> Iterator[Callable[..., Ended]]:
+    """Runs `webviz screenshot` in this process, by the browser of all tests, in the test's folder.
+
+    To start Python and a browser takes longer than most pictures.
+    """
+    monkeypatch.setattr(capture, "launched", lambda: contextlib.nullcontext(browser))
+    monkeypatch.setenv("WEBVIZ_MESH_ROOT", "")  # what --mesh-root adds is taken back
+    monkeypatch.chdir(tmp_path)
+    handlers = {number: signal.getsignal(number) for number in SIGNALS}
+
+    def screenshot(*arguments: str) -> Ended:
+        status = cli(["screenshot", "-d", str(CONFIG), *arguments])
+        printed = capfd.readouterr()
+        return Ended(status, printed.out, printed.err)
+
+    yield screenshot
+    for number, handler in handlers.items():
+        signal.signal(number, handler)

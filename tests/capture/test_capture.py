@@ -150,9 +150,9 @@ def test_an_unknown_fixed_frame_is_reported(capture):
         ({"at": [1.0, "soon"]}, "'soon' is not a valid time"),
         ({"views": ["Farr"]}, "did you mean `Far`?"),
         ({"wait_for": ["Scam"]}, "No enabled display is named 'Scam': did you mean `Scan`?"),
-        ({"size": (8, 240)}, "16 to 8192 pixels a side, not 8 x 240"),
+        ({"size": (8, 240)}, "16 to 8192 pixels per side, not 8 x 240"),
         ({"focus": "bass"}, "bass"),
-        ({"timeout": 1e-9, "at": 2.0}, "played to 0.0 s of 2.0 s when the time-out passed"),
+        ({"timeout": 1e-9, "at": 2.0}, "time-out passed after 0.0 s of 2.0 s"),
         ({"bag": "nowhere.mcap"}, "Bag nowhere.mcap not found"),
         ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' is not supported with a bag"),
     ],
@@ -168,7 +168,7 @@ def test_what_cannot_be_is_one_sentence(capture, options, sentence):
     "displays", ["", "displays:\n- {type: Group, enabled: false, displays: [{type: Grid}]}\n"]
 )
 def test_a_config_that_shows_nothing_is_refused(capture, displays):
-    with pytest.raises(webviz.Error, match="The config shows nothing"):
+    with pytest.raises(webviz.Error, match="The config has no enabled display"):
         capture(f"fixed_frame: map\n{displays}")
 
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import PIL.Image
@@ -15,7 +12,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 
 from robot import Robot, Scan
 
-CONFIG = Path(__file__).parent / "top.yaml"
+SMALL = ["--size", "320x240"]
 
 
 @pytest.fixture
@@ -27,27 +24,17 @@ def robot(webviz_domain: int) -> Iterator[Robot]:
     robot.close()
 
 
-def screenshot(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "webviz", "screenshot", "-d", str(CONFIG), "-o", "a.png"]
-    return subprocess.run(
-        [*command, "--size", "320x240", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=100,
-        cwd=folder,
-    )
-
-
-def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(robot, tmp_path):
+def test_a_running_robot_becomes_a_picture_once_its_display_is_ok(robot, tmp_path, screenshot):
     robot.scans["/scan"] = Scan("base", offset_s=-0.1)
-    result = screenshot(tmp_path, "--timeout", "60")
-    assert result.returncode == 0, result.stderr
+    result = screenshot("-o", "a.png", *SMALL, "--timeout", "60")
+    assert result.status == 0, result.errors
     with PIL.Image.open(tmp_path / "a.png") as image:
         assert (np.asarray(image) == (255, 0, 255)).all(axis=2).sum() > 20
 
 
-def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(robot, tmp_path):
-    result = screenshot(tmp_path, "--timeout", "3")
-    assert result.returncode == 3, result.stderr
-    assert "not all displays are OK within 3 s" in result.stderr
-    assert "No publisher on /scan" in result.stderr
+@pytest.mark.usefixtures("robot")
+def test_a_display_that_never_becomes_ok_is_reported_after_the_time_out(screenshot):
+    result = screenshot("-o", "a.png", *SMALL, "--timeout", "0.5")
+    assert result.status == 3, result.errors
+    assert "not all displays are OK within 0.5 s" in result.errors
+    assert "No publisher on /scan" in result.errors

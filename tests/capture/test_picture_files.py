@@ -94,7 +94,7 @@ def test_names_of_several_pictures_sort_by_time():
         ("a.txt", {}, "no supported image extension"),
         ("a", {}, "no supported image extension"),
         ("a.jpg", {"transparent": True}, r"Use .png or .webp"),
-        ("a.png", {"is_animation": True}, r"ends with .gif or .webp"),
+        ("a.png", {"is_animation": True}, r"does not support animation. Use .gif or .webp"),
         ("nowhere/a.png", {}, "No such file or directory"),
     ],
 )

@@ -17,7 +17,7 @@ import psutil
 import pytest
 import trimesh
 from bags import Bag, strings
-from processes import command_lines
+from processes import command_lines, send
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -30,23 +30,19 @@ MANY = ["--every", "0.02", *SMALL]
 PATIENCE_S = 60.0
 
 
-def run_in(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the command to its end."""
-    result = subprocess.run(
-        [*COMMAND, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=folder
-    )
-    assert "Traceback" not in result.stderr, result.stderr
-    return result
-
-
-def refused(folder: Path, *arguments: str) -> str:
+@pytest.fixture
+def refused(screenshot, tmp_path: Path) -> Callable[..., str]:
     """The sentence with which the command refuses; nothing may be written."""
-    before = sorted(os.listdir(folder))
-    result = run_in(folder, *arguments)
-    assert result.returncode == 1, result.stderr
-    assert sorted(os.listdir(folder)) == before
-    (line,) = result.stderr.splitlines()
-    return line
+
+    def refused(*arguments: str) -> str:
+        before = sorted(os.listdir(tmp_path))
+        result = screenshot(*arguments)
+        assert result.status == 1, result.errors
+        assert sorted(os.listdir(tmp_path)) == before
+        (line,) = result.errors.splitlines()
+        return line
+
+    return refused
 
 
 @pytest.fixture
@@ -78,8 +74,12 @@ def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
 
 
 def test_a_picture_of_a_bag(run, tmp_path):
-    result = run_in(tmp_path, "--bag", str(run), "--at", "2", "-o", "a.png", *SMALL)
+    arguments = ["--bag", str(run), "--at", "2", "-o", "a.png", *SMALL]
+    result = subprocess.run(
+        [*COMMAND, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=tmp_path
+    )
     assert result.returncode == 0, result.stderr
+    assert result.stderr == ""
     assert result.stdout == "webviz: wrote a.png, 1 picture of 320 x 240 pixels.\n"
     with PIL.Image.open(tmp_path / "a.png") as image:
         pixels = np.asarray(image)
@@ -88,41 +88,41 @@ def test_a_picture_of_a_bag(run, tmp_path):
     assert os.listdir(tmp_path) == ["a.png"]
 
 
-def test_several_times_and_views_are_files_of_their_own(run, tmp_path):
+def test_several_times_and_views_are_files_of_their_own(run, tmp_path, screenshot):
     at = ["--at", "1", "--at", "end", "--view", "Far", "--transparent"]
-    result = run_in(tmp_path, "--bag", str(run), *at, "-o", "a.png", *SMALL)
-    assert result.stdout.startswith("webviz: wrote a-Far-0.png to a-Far-1.png, 2 pictures")
+    result = screenshot("--bag", str(run), *at, "-o", "a.png", *SMALL)
+    assert result.output.startswith("webviz: wrote a-Far-0.png to a-Far-1.png, 2 pictures")
     assert sorted(os.listdir(tmp_path)) == ["a-Far-0.png", "a-Far-1.png"]
 
 
-def test_several_times_with_the_ending_of_a_gif_are_an_animation(run, tmp_path):
+def test_several_times_with_the_ending_of_a_gif_are_an_animation(run, tmp_path, screenshot):
     times = ["--from", "1", "--to", "3", "--every", "0.5", "--fps", "4"]
-    result = run_in(tmp_path, "--bag", str(run), *times, "-o", "a.gif", *SMALL)
-    assert result.returncode == 0, result.stderr
+    result = screenshot("--bag", str(run), *times, "-o", "a.gif", *SMALL)
+    assert result.status == 0, result.errors
     with PIL.Image.open(tmp_path / "a.gif") as image:
         durations = [frame.info["duration"] for frame in PIL.ImageSequence.Iterator(image)]
     assert durations == [250] * 5
 
 
-def test_a_contact_sheet_is_one_picture(run, tmp_path):
-    times = ["--every", "2", "--contact-sheet"]
-    result = run_in(tmp_path, "--bag", str(run), *times, "-o", "a.png", "--size", "160x90")
-    assert "4 pictures of 160 x 90 pixels" in result.stdout
+def test_a_contact_sheet_is_one_picture(run, tmp_path, screenshot):
+    sheet = ["--every", "2", "--contact-sheet", "--size", "160x90"]
+    result = screenshot("--bag", str(run), *sheet, "-o", "a.png")
+    assert "4 pictures of 160 x 90 pixels" in result.output
     with PIL.Image.open(tmp_path / "a.png") as image:
         assert 320 < image.width < 350
 
 
-def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path):
+def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path, screenshot):
     given = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
-    result = run_in(tmp_path, *given)
-    assert result.returncode == 3
+    result = screenshot(*given)
+    assert result.status == 3
     assert (tmp_path / "a.png").exists()
-    first, *table = result.stderr.splitlines()
+    first, *table = result.errors.splitlines()
     assert first == "webviz: not all displays are OK at 6 s of the bag:"
     assert table[0].startswith("  WARN   Scan  No publisher on /scann; ")
 
 
-def test_meshes_below_a_mesh_root_are_drawn(tmp_path):
+def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
     mesh = tmp_path / "meshes" / "box.stl"
     mesh.parent.mkdir()
     trimesh.creation.box().export(mesh)
@@ -135,8 +135,8 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path):
     config = tmp_path / "robot.yaml"
     config.write_text("{fixed_frame: map, displays: [{type: RobotModel, name: Robot}]}")
     given = ["-d", str(config), "--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
-    result = run_in(tmp_path, *given, "--mesh-root", str(mesh.parent))
-    assert result.returncode == 0, result.stderr
+    result = screenshot(*given, "--mesh-root", str(mesh.parent))
+    assert result.status == 0, result.errors
 
 
 def test_help_lists_every_exit_status(capsys):
@@ -157,9 +157,11 @@ def test_help_lists_every_exit_status(capsys):
         (["--bag", "RUN", "--mesh-root", "nowhere"], "--mesh-root nowhere is not a folder"),
     ],
 )
-def test_a_mistake_is_one_sentence_and_status_1(run, tmp_path, arguments, sentence):
+def test_a_mistake_is_one_sentence_and_status_1(
+    run, refused: Callable[..., str], arguments, sentence
+):
     given = [argument.replace("RUN", str(run)) for argument in arguments]
-    line = refused(tmp_path, "-o", "a.png", *given)
+    line = refused("-o", "a.png", *SMALL, *given)
     assert line.startswith("webviz: ")
     assert sentence.replace("RUN", str(run)) in line
 
@@ -183,24 +185,24 @@ def test_wrong_arguments_are_status_2(capsys, arguments, sentence):
     assert sentence in capsys.readouterr().err
 
 
-def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path):
+def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path, screenshot):
     bag = strings(0, 1)
     for topic in ("/odd", "/other"):
         bag.add(topic, "odd_msgs/msg/Odd", definition="other_msgs/Missing part\n")
         bag.put(0, topic, b"\x00\x01\x00\x00")
     folder = bag.write(tmp_path / "run")
     (tmp_path / "odd.yaml").write_text("displays: [{type: Path, topic: /odd}]\n")
-    result = run_in(tmp_path, "-d", "odd.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
-    assert result.returncode == 3, result.stderr
-    assert f"webviz: {folder}: /odd is skipped: " in result.stderr
-    assert "/other" not in result.stderr
-    assert f"webviz: {folder}: The topics are /words." in result.stderr
+    result = screenshot("-d", "odd.yaml", "--bag", str(folder), "-o", "a.png", *SMALL)
+    assert result.status == 3, result.errors
+    assert f"webviz: {folder}: /odd is skipped: " in result.errors
+    assert "/other" not in result.errors
+    assert f"webviz: {folder}: The topics are /words." in result.errors
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_is_one_sentence(run, tmp_path):
+def test_a_full_disk_is_one_sentence(run, tmp_path, refused: Callable[..., str]):
     (tmp_path / "a.png").symlink_to("/dev/full")
-    line = refused(tmp_path, "--bag", str(run), "-o", "a.png", *SMALL)
+    line = refused("--bag", str(run), "-o", "a.png", *SMALL)
     assert line == "webviz: Cannot write a.png: No space left on device."
 
 
@@ -215,8 +217,7 @@ def test_an_interrupted_run_leaves_no_file_and_no_process(
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
     family = psutil.Process(program.process.pid).children(recursive=True)
-    for process in family if whole_family else ():
-        process.send_signal(number)
+    send(number, family if whole_family else ())
     assert program.end(number) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"
     assert os.listdir(tmp_path) == []
@@ -229,8 +230,7 @@ def test_an_interrupted_run_ends_although_its_browser_hangs(
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
     wait_for_part(tmp_path)
     family = psutil.Process(program.process.pid).children(recursive=True)
-    for process in family:
-        process.suspend()
+    send(signal.SIGSTOP, family)
     assert program.end(signal.SIGTERM) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"
     assert os.listdir(tmp_path) == []
@@ -245,7 +245,7 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
     browser = next(p for p, line in family.items() if " --remote-debugging" in line)
     browser.kill()
     assert program.process.wait(PATIENCE_S) == 1
-    assert program.output().startswith("webviz: The browser ended while it drew")
+    assert program.output().startswith("webviz: The browser crashed while drawing")
     assert program.output().count("\n") == 1
     assert os.listdir(tmp_path) == []
     assert left_of(family) == []

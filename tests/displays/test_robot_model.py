@@ -1,11 +1,12 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
+import signal
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from processes import command_lines
+from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
 from robots import link_poses
@@ -108,8 +109,7 @@ def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
     at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
     wait(at, lambda: "tool" in at.statuses()["Loading"][1])
     hanging = [child for child, line in command_lines().items() if "loader" in line]
-    for process in hanging:
-        process.suspend()
+    send(signal.SIGSTOP, hanging)
     describe(at, ARM)
     assert "tool visual grip" in at.nodes()
     _, alive = wait_procs(hanging, timeout=60)

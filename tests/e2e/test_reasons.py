@@ -164,7 +164,7 @@ def test_a_queue_that_overflows_says_which_size_would_do(robot: Robot, page: Pag
     select(page, "Queue")
     wait_for(
         page,
-        "The queue of 10 messages is full before their transforms come, which are",
+        "The queue of 10 messages is full before their transforms arrive, which are",
         "raise the filter size to",
         "messages were given up",
     )

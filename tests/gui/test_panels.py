@@ -34,7 +34,7 @@ class Frames(Panel):
 
 
 class Moody(Panel):
-    """A panel that fails while there is no frame."""
+    """A panel that fails until there are frames."""
 
     def build(self, ui: Ui, send: Send) -> None:
         ui.button("Half", lambda browser: None, width=0.5)

@@ -106,9 +106,9 @@ def test_a_definition_may_not_change_a_type_that_webviz_has_a_class_for():
     ("text", "reason"),
     [
         ("float64 = nothing (", "is not valid .msg text"),
-        ("test_msgs/Missing part", "holds a test_msgs/msg/Missing, whose definition is missing"),
-        ("test_msgs/Bad part", "cannot hold"),
-        ("Other a\n" + "=" * 80 + "\nMSG: test_msgs/Other\nBad[] b", "cannot hold"),
+        ("test_msgs/Missing part", "contains a test_msgs/msg/Missing, whose definition is missing"),
+        ("test_msgs/Bad part", "cannot contain itself"),
+        ("Other a\n" + "=" * 80 + "\nMSG: test_msgs/Other\nBad[] b", "cannot contain itself"),
         ("wstring text", "definition is missing"),
     ],
 )

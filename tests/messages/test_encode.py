@@ -101,7 +101,7 @@ def assert_same_but_padding(ours: bytes, theirs: bytes) -> None:
         (SCAN, {"ranges": 1.0}, ".ranges: expected an array of float32, got 1.0"),
         (SCAN, {"header": {"frame_id": 7}}, ".header.frame_id: expected text without NUL, got 7"),
         (SCAN, {"header": {"frame_id": "a\0b"}}, "expected text without NUL"),
-        (SCAN, {"header": {"frame_id": "\ud800"}}, "expected text that UTF-8 can hold"),
+        (SCAN, {"header": {"frame_id": "\ud800"}}, "expected text that UTF-8 can encode"),
         (SCAN, {"header": []}, ".header: expected a mapping or a std_msgs/msg/Header, got []"),
         (SCAN, 5, "expected a mapping or a sensor_msgs/msg/LaserScan, got 5"),
         ("nav_msgs/msg/Path", {"poses": [{}, {"pose": 1}]}, ".poses[1].pose: expected a mapping"),

@@ -37,7 +37,7 @@ def test_nobody_publishes(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     assert b.statuses()["Topic"] == (
         "WARN",
-        "No publisher on /pose. Start the node that publishes it, or choose another topic.",
+        "No publisher on /pose. Start the node that publishes it or choose another topic.",
     )
 
 
@@ -46,7 +46,7 @@ def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -
     b.source.known["/goal_pose"] = offer()
     text = (
         "No publisher on /pose; geometry_msgs/msg/PoseStamped is published on /goal_pose. "
-        "Choose that topic, or remap it."
+        "Choose or remap that topic."
     )
     assert b.statuses()["Topic"] == ("WARN", text)
 
@@ -56,7 +56,7 @@ def test_another_type_names_both(bench: Callable[..., Any]) -> None:
     b.source.known["/pose"] = offer("nav_msgs/msg/Odometry")
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
-    assert "carries nav_msgs/msg/Odometry" in text
+    assert "has the type nav_msgs/msg/Odometry" in text
     assert f"shows {POSE}" in text
 
 
@@ -65,7 +65,7 @@ def test_a_topic_that_is_none(bench: Callable[..., Any], name: str) -> None:
     b = bench(Dot(name="Dot", topic=Topic(name)))
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
-    assert text in ("No topic is chosen.", "'a b' is not a valid topic name: it has a space")
+    assert text in ("No topic. Choose one.", "'a b' is not a valid topic name: it has a space")
 
 
 def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
@@ -75,7 +75,7 @@ def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
     b.source.known["/pose"] = offer(reliability="best_effort")
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
-    assert "asks for reliable, volatile" in text
+    assert "requests reliable, volatile" in text
     assert "offers best effort, volatile" in text
     assert "Set reliability and durability to auto." in text
 
@@ -113,7 +113,7 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     b.source.known["/pose"] = Offer(())
     level, text = b.statuses()["Topic"]
     assert level == "WARN"
-    assert text == "No publisher on /pose any more; the last message arrived 5.1 s ago."
+    assert text == "No publisher on /pose any more, last message 5.1 s ago. Restart it."
 
 
 def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:
@@ -155,7 +155,7 @@ def test_transforms_that_come_long_after_the_data_are_a_warning_until_they_keep_
     level, text = b.statuses()["Transform"]
     assert level == "WARN"
     assert text.startswith(
-        "Drawn 0.6 s late: the transforms come so much after the data. The stamp"
+        "Drawn 0.6 s late: the transforms arrive that long after the data. The stamp"
     )
     assert '"map" → "base" (from /test)' in text
     for _ in range(3):
@@ -188,7 +188,7 @@ def test_messages_that_did_not_fit_the_inbox_are_counted(bench: Callable[..., An
         b.pose("/pose", "base", T)
     level, text = b.statuses()["Message"]
     assert level == "WARN"
-    assert text == "5 messages came faster than they could be read and were dropped."
+    assert text == "5 messages dropped: they arrive faster than they can be read."
 
 
 def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) -> None:

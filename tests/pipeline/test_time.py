@@ -48,7 +48,7 @@ def test_before_the_first_clock_the_viewer_waits_and_says_for_what(
     assert level == "WARN"
     assert "Waiting for /clock: use_sim_time is set, but it has no publisher" in text
     publishes(b, "/clock", "/gazebo")
-    assert "/gazebo has not published it yet" in statuses(b)["Time"][1]
+    assert "/gazebo has not published yet" in statuses(b)["Time"][1]
     b.clock += 20.0
     b.source.now = T
     assert "Time" not in statuses(b)
@@ -63,7 +63,7 @@ def test_paused_time_is_told_and_nothing_fades(bench: Callable[..., Any]) -> Non
     b.clock += 60.0
     assert statuses(b)["Time"] == (
         "OK",
-        "Simulated time stands still at 100.0 s: /gazebo is paused.",
+        "Simulated time has stopped at 100.0 s: /gazebo is paused.",
     )
     assert shown(b) == [1.0]
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
@@ -163,7 +163,7 @@ def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(
     assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
     text = statuses(b)["Transforms"][1]
     assert 'transforms of "base" were refused' in text
-    assert "if a bag started again, press Reset" in text
+    assert "If a bag was restarted, press Reset" in text
     loop(b, 13, 24, "base")
     assert shown(b)[-1] == 23.5
     assert statuses(b)["Time"][1].startswith("The transforms started over in the past")

@@ -78,7 +78,7 @@ def test_publish_point_is_a_tool_that_publishes_what_is_clicked(bench: Callable[
         b = bench()
         graph = b.source.graph = RememberingGraph()
         told: list[Status] = []
-        answer = b.viewer.enqueue(UseTool("Publish Point", ((1.0, 2.0, 0.0),), tell=told.append))
+        answer = b.viewer.enqueue(UseTool("Publish Point", ((1.0, 2.0, 0.0),), report=told.append))
         b.turn()
         assert answer.result() == ""
     finally:

@@ -240,7 +240,7 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
 def test_a_node_that_cannot_be_drawn_is_a_status(b: Any, plugin: Any) -> None:
     plugin.edit(("        ctx.ok", "        ctx.add('nothing', None)\n        ctx.ok"))
     shown(b, plugin)
-    assert b.statuses()["Display"][1] == "Polygon failed: TypeError: 'nothing' is no node: None"
+    assert b.statuses()["Display"][1] == "Polygon failed: TypeError: 'nothing' is not a node: None"
     assert outlines(b) == [(GREEN, 1.0)]
 
 

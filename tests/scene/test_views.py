@@ -181,14 +181,14 @@ def test_up_from_above_is_turned_by_the_angle_as_rviz_does(window: Window) -> No
 
 def test_scale_is_kept_when_the_page_gets_another_size(window: Window) -> None:
     window.look(TopDownOrtho(scale=40.0, x=1.0))
-    window.resize(WIDTH, 400)
+    window.resize_picture(WIDTH, 400)
     view = window.tell(
         lambda _: window.scene.cameras.size(max(window.scene.cameras.views()))[1] == 400, "size"
     )
     assert view == TopDownOrtho(scale=40.0, x=1.0)
     window.draw(4)
     assert window.pixel_of(2.0, 1.0) == pytest.approx((450 + 40, 200 - 40), abs=0.05)
-    window.resize(WIDTH, HEIGHT)
+    window.resize_picture(WIDTH, HEIGHT)
     window.wait_for(lambda: window.size == (WIDTH, HEIGHT), "the size")
 
 

@@ -86,7 +86,7 @@ def sim():
 
 
 class Robot(Node):
-    """What somebody sees of the robot from outside."""
+    """A node that receives what the robot publishes, and sends it commands."""
 
     def __init__(self, context):
         super().__init__("test_viewer", context=context)

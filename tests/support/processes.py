@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 
 import psutil
@@ -20,6 +20,13 @@ def command_lines(pid: int | None = None) -> dict[psutil.Process, str]:
         with suppress(psutil.NoSuchProcess):  # also of one that only waits to be reaped
             found[process] = " ".join(process.cmdline())
     return found
+
+
+def send(number: int, processes: Iterable[psutil.Process]) -> None:
+    """Send a signal to those that still live."""
+    for process in processes:
+        with suppress(psutil.NoSuchProcess):
+            process.send_signal(number)
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""What a stranger's package gets: pytest runs of their own, in a folder of their own."""
+"""The fixtures in other packages: separate pytest runs in separate folders."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) ->
     result = run(package)
     result.assert_outcomes(failed=2)
     result.stdout.fnmatch_lines(
-        ["E *AssertionError: There is no test/pictures/axes.png: run pytest with --update-pic*"]
+        ["E *AssertionError: test/pictures/axes.png is missing. Run pytest with --update-pic*"]
     )
     assert list(package.path.rglob("*.png")) == []
 
@@ -60,7 +60,7 @@ def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) ->
     result.assert_outcomes(failed=1, passed=1)
     result.stdout.fnmatch_lines(
         [
-            "E *AssertionError: * % of the picture differ from test/pictures/axes.png: look at "
+            "E *AssertionError: * % of the picture differ from test/pictures/axes.png. See "
             "picture_output/axes.png and picture_output/axes.difference.png.*"
         ]
     )
@@ -84,7 +84,7 @@ def test_without_a_browser_the_failure_is_one_sentence(
     result = run(package, "-k", "masked", "--update-pictures")
     result.assert_outcomes(failed=1, deselected=1)
     result.stdout.fnmatch_lines(
-        ["E *NoBrowser: There is no browser for pictures: install Chromium or Google Chrome*"]
+        ["E *NoBrowser: No browser found. Install Chromium or Google Chrome*"]
     )
 
 

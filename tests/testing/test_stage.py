@@ -96,5 +96,5 @@ def test_a_ros_message_is_published_as_it_is(webviz_stage: Callable[..., Stage])
     stage.publish("/scan", scan)
     stage.wait_until_drawn("LaserScan")
     np.testing.assert_allclose(stage.points()[0], (2.0, 0.0, 0.0))
-    with pytest.raises(TypeError, match="object is no ROS message"):
+    with pytest.raises(TypeError, match="object is not a ROS message"):
         stage.publish("/scan", object())

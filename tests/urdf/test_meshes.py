@@ -86,7 +86,7 @@ def test_suffixes_may_be_in_capitals(one_mesh, only_node, stl, suffix):
     assert isinstance(only_node(one_mesh(path)), Mesh)
 
 
-def test_an_stl_file_wears_the_material_of_the_description(one_mesh, only_node, stl):
+def test_an_stl_file_has_the_material_of_the_description(one_mesh, only_node, stl):
     assert only_node(one_mesh(stl, material=URDF_BLUE)).color == (0, 0, 255)
 
 
@@ -103,7 +103,7 @@ def test_the_own_colour_of_a_collada_file_wins(tmp_path, one_mesh, only_node, te
     assert only_node(one_mesh(path, material=URDF_BLUE)).color == (0, 255, 0)
 
 
-def test_a_collada_body_without_a_material_wears_that_of_the_description(
+def test_a_collada_body_without_a_material_has_that_of_the_description(
     tmp_path, one_mesh, only_node, tetrahedron_dae
 ):
     path = tmp_path / "t.dae"
@@ -166,7 +166,7 @@ def test_an_obj_file_keeps_colours_and_textures_of_its_mtl(tmp_path, one_mesh, o
     assert b"image/jpeg" in only_node(one_mesh(path)).data
 
 
-def test_an_obj_file_without_materials_wears_that_of_the_description(tmp_path, one_mesh, only_node):
+def test_an_obj_file_without_materials_has_that_of_the_description(tmp_path, one_mesh, only_node):
     path = tmp_path / "a.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
     assert only_node(one_mesh(path, material=URDF_BLUE)).color == (0, 0, 255)

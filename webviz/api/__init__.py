@@ -1,1 +1,1 @@
-"""What plug-ins are made of: properties, displays, nodes, samples, statuses, views."""
+"""The API of plug-ins: properties, displays, nodes, samples, statuses, views."""

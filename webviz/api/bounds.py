@@ -1,4 +1,4 @@
-"""How far what is drawn reaches."""
+"""Bounding boxes of nodes."""
 
 from __future__ import annotations
 
@@ -35,28 +35,28 @@ _CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, 8).T
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """A box along the axes.
+    """An axis-aligned box.
 
     Args:
-        low, high: float64 (3,), its corners in metres.
+        low, high: float64 (3,), corners in metres.
     """
 
     low: F64
     high: F64
 
     def moved(self, pose: Pose) -> Box:
-        """The box, along the outer axes, around this one at a pose."""
+        """The axis-aligned box around this one at a pose."""
         corners = np.where(_CORNERS, self.high, self.low) @ matrices(pose.wxyz).T + pose.position
         return Box(corners.min(axis=0), corners.max(axis=0))
 
 
 def bounds(node: Node) -> Box | None:
-    """The box around a node, in its own coordinates; None if there is nothing to see of it."""
+    """The box around a node in its own coordinates; None if nothing of it is visible."""
     return _around(_EXTENTS[type(node)](node))
 
 
 def union(boxes: Iterable[Box]) -> Box | None:
-    """The box around several; None if there are none."""
+    """The box around several boxes; None without any."""
     boxes = list(boxes)
     if not boxes:
         return None
@@ -65,7 +65,7 @@ def union(boxes: Iterable[Box]) -> Box | None:
 
 
 Extents = tuple[Any, Any]
-"""Points (N, 3), and how far each reaches in every direction: a number, (N, 1) or (N, 3)."""
+"""Points (N, 3), and their extent in all directions: a number, (N, 1) or (N, 3)."""
 
 
 def _around(extents: Extents) -> Box | None:
@@ -79,7 +79,7 @@ def _around(extents: Extents) -> Box | None:
 
 def _of_instances(node: Instances) -> Extents:
     half = np.asarray(node.scales, dtype=np.float64) / 2.0
-    if node.wxyzs is not None:  # turned as it may be, it stays within the ball around it
+    if node.wxyzs is not None:  # within its bounding sphere, however it is rotated
         half = np.linalg.norm(half, axis=-1, keepdims=True)
     return node.positions, half
 
@@ -94,7 +94,7 @@ def _of_glb(node: Glb) -> Extents:
 
 
 def _corners(document: dict[str, Any], nodes: list[int], outer: F64, depth: int) -> Iterator[F64]:
-    """Corners of the boxes of all meshes below some nodes of a glTF, each float64 (8, 3)."""
+    """Corners of the boxes of all meshes below nodes of a glTF, each float64 (8, 3)."""
     for index in nodes if depth < _DEEPEST else ():
         node = document["nodes"][index]
         matrix = outer @ _matrix(node)
@@ -107,7 +107,7 @@ def _corners(document: dict[str, Any], nodes: list[int], outer: F64, depth: int)
 
 
 def _matrix(node: dict[str, Any]) -> F64:
-    """Where a node of a glTF is in its parent, float64 (4, 4)."""
+    """The matrix of a glTF node relative to its parent, float64 (4, 4)."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     x, y, z, w = node.get("rotation", (0.0, 0.0, 0.0, 1.0))

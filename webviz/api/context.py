@@ -1,7 +1,7 @@
-"""What a display draws on.
+"""The context that a display draws on.
 
-A `Context` is made for one call of a hook and collects what the display says: nodes, where they
-belong, statuses. The framework compares that with the call before and changes the scene.
+A `Context` exists for one call of a hook and collects nodes, their placement and statuses. The
+framework compares them with those of the previous call and updates the scene.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from webviz.api.status import Level, Status
 from webviz.data.transforms.geometry import REACH_M
 
 When = Literal["latest", "now"]
-"""The latest common time of a frame and the fixed frame, or the time of the viewer's clock."""
+"""The latest common time of a frame and the fixed frame, or the viewer's current time."""
 
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a group of nodes is.
+    """The placement of a group of nodes.
 
     Args:
         frame: frame id; None is the fixed frame.
-        when: the time at which the transform to the fixed frame is taken.
+        when: time of the transform to the fixed frame.
         offset: pose of the group in `frame`.
-        keep_last: stay at the last pose while there is no transform, instead of being hidden.
-        interval_s: least time between moves; 0 is on every frame of the loop.
+        keep_last: without a transform, stay at the last pose instead of being hidden.
+        interval_s: minimum time between moves; 0 moves on every turn of the frame loop.
     """
 
     frame: str | None = None
@@ -67,14 +67,14 @@ class Group:
         self.poses: dict[str, Pose] = {}
 
     def add(self, key: str, node: Node, pose: Pose | None = None) -> None:
-        """Draw a ready-made node, at a pose in the coordinates of the group.
+        """Draw a node at a pose in the coordinates of the group.
 
         Raises:
-            TypeError: it is none of the nodes of `webviz.api.nodes`.
-            ValueError: the pose cannot be drawn.
+            TypeError: it is not a node of `webviz.api.nodes`.
+            ValueError: the pose is not finite or out of reach.
         """
         if not isinstance(node, Node):
-            raise TypeError(f"{key!r} is no node: {node!r:.80}")
+            raise TypeError(f"{key!r} is not a node: {node!r:.80}")
         if pose is not None:
             self.poses[key] = _checked(pose, key)
         self.nodes[key] = node
@@ -178,7 +178,7 @@ class Group:
 
 
 class Background(Protocol):
-    """Runs slow work beside the frame loop."""
+    """Runs slow work in a thread."""
 
     def __call__(
         self,
@@ -187,25 +187,25 @@ class Background(Protocol):
         *args: Any,
         stop: Callable[[], None] | None = None,
     ) -> Any:
-        """The result of `fn(*args)` if it is there, else None.
+        """The result of `fn(*args)`, None until it is ready.
 
-        `stop` is called from any thread once the result is not wanted any more, to end `fn`.
+        `stop` makes `fn` end early; it is called from any thread once the result is not needed.
         """
         ...
 
 
 class Context(Group):
-    """Collects what one call of a hook draws.
+    """Collects the nodes and statuses of one call of a hook.
 
-    Nodes added to the context itself lie in the frame of the sample at its stamp (`draw`) or in
-    the fixed frame (`draw_all`, `tick`); those of `follow` move with a frame.
+    Nodes added to the context itself are placed in the frame of the sample at its stamp (`draw`) or
+    in the fixed frame (`draw_all`, `tick`); those of `follow` move with a frame.
 
     Args:
-        frames: the transforms of this moment; knows the fixed frame and the time.
+        frames: the current transforms, fixed frame and time.
         background: see `Background`.
-        state: what the display remembers between calls; see `Display.new_state`.
+        state: kept between calls; see `Display.new_state`.
         placement: of the context's own nodes.
-        order: place of the display in the list of displays; later ones lie on top.
+        order: place of the display in the list; later displays are drawn on top.
     """
 
     def __init__(
@@ -241,25 +241,25 @@ class Context(Group):
         Args:
             frame: frame id; None or "" is the fixed frame.
             when, offset, keep_last, interval_s: see `Placement`.
-            key: tells groups of one frame apart.
+            key: distinguishes groups of one frame.
 
         Raises:
-            ValueError: the offset cannot be drawn.
+            ValueError: the offset is not finite or out of reach.
         """
         _checked(offset, f"{frame or 'the fixed frame'} {key}".rstrip())
         placement = Placement(frame or None, when, offset, keep_last, interval_s)
         return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
 
     def ok(self, key: str, text: str) -> None:
-        """Say that something is as it should be."""
+        """Report that all is well."""
         self.statuses[key] = Status(Level.OK, text)
 
     def warn(self, key: str, text: str) -> None:
-        """Say what is doubtful, and what to do about it."""
+        """Report a warning, with its remedy."""
         self.statuses[key] = Status(Level.WARN, text)
 
     def error(self, key: str, text: str) -> None:
-        """Say what is wrong, and what to do about it."""
+        """Report an error, with its remedy."""
         self.statuses[key] = Status(Level.ERROR, text)
 
 

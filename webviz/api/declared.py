@@ -1,9 +1,9 @@
-"""What has properties: each is declared once, by a field.
+"""Classes with declared properties: displays, tools and panels.
 
     size: Annotated[float, Prop(gt=0, unit="m", help="Edge of each point.")] = 0.03
 
-That one declaration gives its control in the panel, its key in the config file, its check and its
-place in the docs and in .rviz files. Displays, tools and panels are `Declared`.
+One field declares the control in the panel, the key in config files, the validation, and the entry
+in the docs and in .rviz files.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Topic(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     reliability: Literal["auto", "reliable", "best_effort"] = "auto"
     durability: Literal["auto", "volatile", "transient_local"] = "auto"
     depth: Annotated[int, msgspec.Meta(ge=0)] = 0
-    """0 is what suits the message type."""
+    """0 chooses the depth by message type."""
     filter_size: Annotated[int, msgspec.Meta(ge=1)] = 10
     """Messages that may wait for their transform."""
 
@@ -42,14 +42,14 @@ def Prop(
     lt: float | None = None,
     le: float | None = None,
 ) -> msgspec.Meta:
-    """What is known of a property besides its type and default.
+    """Annotates a property.
 
     Args:
-        help: one sentence, the control's tooltip.
+        help: one sentence, the tooltip of the control.
         unit: "m", "s", "px", ...
-        rviz: RViz's name, where it is not the name in snake_case written with spaces.
-        when: (property, value) on which this property has a meaning; several values as a tuple.
-        widget: how to edit it, where the type alone does not tell.
+        rviz: RViz's name, if it differs from this name with spaces and capitals.
+        when: (property, value) at which this property has an effect; several values as a tuple.
+        widget: the control, if the type alone does not determine it.
         gt, ge, lt, le: bounds.
     """
     extra = {"unit": unit, "rviz": rviz, "when": when, "widget": widget}
@@ -59,12 +59,12 @@ def Prop(
 
 
 class Declared(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, eq=False, weakref=True):
-    """Base of all that has properties."""
+    """Base of all classes with properties."""
 
     kind: ClassVar[str] = ""
-    """The kind of plug-in: "display", "tool" or "panel"; packages name theirs by it."""
+    """The kind of plug-in: "display", "tool" or "panel"; names its entry point group."""
     title: ClassVar[str] = ""
-    """Its name when nobody gave it one; "" is that of its class."""
+    """The default name; "" is the name of the class."""
     rviz: ClassVar[str] = ""
     """The class of the counterpart in a .rviz file."""
 
@@ -75,18 +75,17 @@ P = TypeVar("P", bound=Declared)
 
 
 def default_name(cls: type[Declared]) -> str:
-    """The name it has when nobody gave it one."""
+    """The name of an instance without one of its own."""
     return cls.title or cls.__name__
 
 
 def make(cls: type[P], values: dict[str, Any]) -> P:
-    """A display, tool or panel from plain values, as a config file has them.
+    """A display, tool or panel from plain values, as in a config file.
 
-    A topic may be its bare name. A nested setting given in part keeps its own defaults
-    for the rest.
+    A topic may be given by its name alone. Missing keys of a nested setting have their defaults.
 
     Raises:
-        msgspec.ValidationError: a value does not fit; the text ends with the path of the value.
+        msgspec.ValidationError: a value is invalid; the text ends with its path.
     """
     defaults = {f.name: f.default for f in msgspec.structs.fields(cls)}
     merged = {key: _merge(defaults.get(key), value) for key, value in values.items()}
@@ -101,8 +100,8 @@ def set_property(declared: Declared, path: str, value: Any) -> None:
     """Set one property, nested ones by a dotted path (`topic.depth`).
 
     Raises:
-        msgspec.ValidationError: the value does not fit; nothing was changed.
-        AttributeError: there is no such property.
+        msgspec.ValidationError: the value is invalid; nothing was changed.
+        AttributeError: the property does not exist.
     """
     head, _, rest = path.partition(".")
     if head not in declared.__struct_fields__:
@@ -113,7 +112,7 @@ def set_property(declared: Declared, path: str, value: Any) -> None:
 
 
 def _replaced(current: Any, path: list[str], value: Any) -> Any:
-    """`current` as plain values, with what lies at a path replaced."""
+    """`current` as plain values, with the value at a path replaced."""
     plain = msgspec.to_builtins(current)
     if not path:
         return _merge(current, value)
@@ -122,7 +121,7 @@ def _replaced(current: Any, path: list[str], value: Any) -> Any:
 
 
 def _merge(default: Any, value: Any) -> Any:
-    """`value` as a whole value of the type of `default`, with what it leaves out taken from it."""
+    """`value` as plain values, completed from `default`."""
     if isinstance(default, Topic) and isinstance(value, str):
         value = {"name": value}
     if isinstance(default, msgspec.Struct) and isinstance(value, dict):
@@ -136,7 +135,7 @@ def _merge(default: Any, value: Any) -> Any:
 
 
 def _check_finite(value: Any, path: str) -> None:
-    """YAML can say .inf and .nan, and bounds such as gt=0 let infinity through."""
+    """YAML has .inf and .nan, and bounds such as gt=0 accept infinity."""
     if isinstance(value, float) and not math.isfinite(value):
         raise msgspec.ValidationError(f"Expected a finite number, got {value} - at `{path}`")
     if isinstance(value, msgspec.Struct):

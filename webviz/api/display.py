@@ -1,4 +1,4 @@
-"""What a display is: properties declared once, and a function from messages to nodes.
+"""The base class of displays: declared properties, and a function from messages to nodes.
 
     class Heading(Display):
         \"\"\"An arrow along a pose.\"\"\"
@@ -9,9 +9,8 @@
         def draw(self, sample, ctx):
             ...
 
-One declaration of a property gives its control in the panel, its key in the config file, its check
-and its place in the docs. Everything else (subscribing, transforms, history, redrawing, removing)
-is the framework's.
+A property is declared once, for the panel, config files, validation and docs. Subscriptions,
+transforms, history, redrawing and removal are up to the framework.
 """
 
 from __future__ import annotations
@@ -39,16 +38,16 @@ class Sync:
 
         sync = Sync("image", "info")
 
-    A set is one sample: that of the first input, with the others in `Sample.synced`. It is placed
-    where the first input's message is. Each message waits for its own transform first, unless
-    `Display.waits` says otherwise. Inputs that the display does not listen to are left out, and
-    optional ones until a message arrives on them.
+    A set is one sample: that of the first input, with the others in `Sample.synced`. Its pose is
+    that of the first input's message. Each message waits for its own transform first, unless
+    `Display.waits` returns False. Inputs that the display does not listen to are ignored, as are
+    optional ones until their first message.
 
     Args:
         inputs: at least two; their message types have a header.
-        slop: seconds by which the stamps of a set may differ; 0 is equal stamps. These are
+        slop: maximum difference of the stamps of a set in seconds; 0 is equal stamps. These are
             message_filters' ExactTime and the Python version of its ApproximateTime.
-        queue_size: messages per input that may wait for the others.
+        queue_size: waiting messages per input.
     """
 
     inputs: tuple[str, ...]
@@ -70,8 +69,8 @@ class Keep:
     """How much history the framework holds for each input of a display.
 
     Args:
-        count: the newest samples to hold; 0 is without limit of number.
-        seconds: hold what was received so recently; 0 is without limit of age.
+        count: number of newest samples to hold; 0 is unlimited.
+        seconds: maximum time since arrival; 0 is unlimited.
     """
 
     count: int = 1
@@ -84,65 +83,65 @@ class Display(Declared, kw_only=True):
     kind = "display"
 
     sync: ClassVar[Sync | None] = None
-    """Inputs that are drawn together; the others are drawn as they come."""
+    """Inputs that are drawn together; others are drawn as their messages arrive."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True
 
     def new_state(self) -> Any:
-        """What the display remembers between calls: an object of its own, `ctx.state`.
+        """The state to keep between calls, any object; available as `ctx.state`.
 
-        Called before the first hook that gets a context, and again after a reset.
+        Called before the first hook that gets a context, and after each reset.
         """
         return None
 
     def history(self) -> Keep:
-        """How much history to hold; every held sample stays drawn."""
+        """How much history to hold; all held samples stay drawn."""
         return Keep()
 
     def listens(self, name: str) -> bool:
-        """Whether the input `name` has a meaning as the properties are; else it is not subscribed.
+        """Whether to subscribe to the input `name`, given the properties.
 
-        What was heard before is kept.
+        Samples received before are kept.
         """
         return True
 
     def waits(self, name: str) -> bool:
         """Whether messages of the input `name` wait for the transform at their stamp.
 
-        Those that do not are for a display that follows their frame; their samples have the pose
-        of the frame now, or the identity while there is none.
+        A display that follows the frame itself returns False; its samples have the current pose
+        of the frame, or the identity without one.
         """
         return True
 
     def duration_ns(self, message: Any) -> int:
-        """How long after its stamp a message goes on; transforms up to there are waited for.
+        """How long a message lasts after its stamp; it waits for transforms until then.
 
-        A message is decoded only when it is drawn, so this tells how long the next one waits.
+        Messages are decoded only when drawn, so the duration of one applies to the next ones.
         """
         return 0
 
     def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
-        """Whether a new sample joins those kept of its input (oldest first).
+        """Whether to hold a new sample, given those held of its input (oldest first).
 
-        A text says what is wrong with it.
+        A text reports why the message cannot be shown.
         """
         return True
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
         """Return `state`, None at first, with a sample of the input `name` merged into it.
 
-        The result becomes the message of the one sample that `draw` gets. Overriding this hook
-        makes every message count: none is skipped for a newer one.
+        The result becomes the message of the only sample that `draw` gets. If this hook is
+        overridden, no message is skipped for a newer one.
         """
         return sample.message
 
     def depends(self, ctx: Context) -> object:
-        """What drawing depends on besides properties and messages, such as which frames are lost.
+        """What drawing depends on besides properties and messages, such as the lost frames.
 
-        Called on every frame of the loop; when the result is another than before, all is drawn
-        anew. So a display that seldom changes draws in `draw_all` and costs little meanwhile.
-        What is drawn or said here is ignored.
+        Called on every turn of the frame loop; everything is redrawn when the result changes. So a
+        display that seldom changes can draw in `draw_all` at little cost. Nodes and statuses
+        added here are ignored.
         """
         return None
 
@@ -155,18 +154,18 @@ class Display(Declared, kw_only=True):
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw all kept samples of all inputs at once, oldest first, in the fixed frame.
 
-        `sample.pose` is where each is.
+        `sample.pose` is the pose of each.
         """
 
     def tick(self, ctx: Context) -> None:
-        """Draw what follows transforms or time; called on every frame of the loop."""
+        """Draw what depends on transforms or time; called on every turn of the frame loop."""
 
 
 D = TypeVar("D", bound=Display)
 
 
 def overrides(display: Display, hook: str) -> bool:
-    """Whether a display's class has its own version of a hook."""
+    """Whether a display overrides a hook."""
     return getattr(type(display), hook) is not getattr(Display, hook)
 
 
@@ -175,7 +174,7 @@ def inputs_of(cls: type[Display]) -> dict[str, Input]:
     """The inputs of a display class by property name, in the order of declaration.
 
     Raises:
-        TypeError: its `sync` names something else.
+        TypeError: its `sync` names something that is not an input.
     """
     ports = {each.path: each.port for each in properties_of(cls)}
     found = {path: port for path, port in ports.items() if isinstance(port, Input)}

@@ -1,5 +1,5 @@
-"""What people can put right."""
+"""The base class of webviz's errors."""
 
 
 class Error(Exception):
-    """Something asked of webviz cannot be done; one sentence says why and what to do next."""
+    """An error that users can fix; one sentence with the cause and a remedy."""

@@ -1,4 +1,4 @@
-"""The transforms of one moment, as displays see them."""
+"""The transforms of one turn, for displays."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class FramePoses:
     """All frames in the fixed frame, each at its latest common time with it.
 
     Args:
-        names: frame ids, in order of first mention.
+        names: frame ids in order of first mention.
         positions: float64 (N, 3), metres.
         wxyzs: float64 (N, 4), unit quaternions.
         stamps_ns: int64 (N,), the latest common time; 0 where all transforms are static.
-        ok: bool (N,), where there is a pose that can be drawn; the other rows mean nothing.
+        ok: bool (N,), whether the pose can be drawn; other rows are invalid.
     """
 
     names: list[str]
@@ -43,14 +43,14 @@ class FramePoses:
 
 
 class Frames:
-    """Poses of frames in the fixed frame at one tick of the frame loop; computed once each.
+    """Poses of frames in the fixed frame at one turn of the frame loop, each computed once.
 
     A frame whose transforms do not compose to a finite pose within `REACH_M` has none.
 
     Args:
         buffer: not to be changed while this object is in use.
         fixed_frame: frame id that everything is drawn in.
-        now_ns: ROS time of the tick.
+        now_ns: ROS time of the turn.
     """
 
     def __init__(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> None:
@@ -64,11 +64,11 @@ class Frames:
 
     @property
     def structure(self) -> object:
-        """Another value whenever frames, their parents or static transforms changed."""
+        """Changes whenever frames, their parents or static transforms do."""
         return self.buffer.structure_version
 
     def next(self, fixed_frame: str, now_ns: int) -> Frames:
-        """The frames of the next tick; what no transform changed is not computed again."""
+        """The frames of the next turn, reusing poses that did not change."""
         frames = Frames(self.buffer, fixed_frame, now_ns)
         frames._is_all_wanted = self._is_all_wanted
         if (frames._version, fixed_frame) == (self._version, self.fixed_frame):
@@ -77,12 +77,12 @@ class Frames:
         return frames
 
     def prepare(self, names: Iterable[str]) -> None:
-        """Compute the latest poses of many frames in one pass, before they are asked for singly."""
+        """Compute the latest poses of many frames in one pass, before single look-ups."""
         missing = [name for name in names if (name, 0) not in self._poses]
         if not missing:
             return
-        if self._is_all_wanted:  # in the tick before, so that some of them cost nothing
-            self._is_all_wanted = False  # it is again when somebody else asks
+        if self._is_all_wanted:  # in the previous turn
+            self._is_all_wanted = False  # set again by `all`
             poses = self._compute_all()
             places = {name: place for place, name in enumerate(poses.names)}
             known = [places[name] for name in missing if name in places]
@@ -96,7 +96,7 @@ class Frames:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
-        """Pose of a frame at a stamp (0: the latest common time), None if there is none."""
+        """Pose of a frame at a stamp (0: the latest common time), None if it is unknown."""
         key = (frame, stamp_ns)
         if key not in self._poses:
             try:
@@ -111,11 +111,11 @@ class Frames:
         return self.at(frame, 0)
 
     def now(self, frame: str) -> Pose | None:
-        """Pose of a frame now, or at the latest common time if now is not known yet."""
+        """Pose of a frame now, or at the latest common time if that is unknown yet."""
         return self.at(frame, self.now_ns) or self.at(frame, 0)
 
     def link(self, frame: str) -> Link | None:
-        """What places a frame in its parent; None for roots and frames without data."""
+        """The newest transform of a frame to its parent; None for roots and frames without data."""
         return self.buffer.link(frame)
 
     def along(
@@ -129,21 +129,21 @@ class Frames:
 
         Returns:
             Positions float64 (N, 3) in metres, unit quaternions float64 (N, 4) as (w, x, y, z),
-            and bool (N,): where there is a pose; the other rows are NaN.
+            and bool (N,): whether the pose is known; other rows are NaN.
         """
         positions, rotations, ok = self.buffer.lookup_many(self.fixed_frame, frame, stamps_ns)
         return positions, w_first(rotations), ok
 
     def why_not(self, frame: str, stamp_ns: int = 0) -> str:
-        """Why a frame has no pose, and what to do; a sentence."""
+        """Why a frame has no pose, with a remedy; one sentence."""
         return self.explain(frame, stamp_ns).sentence
 
     def explain(self, frame: str, stamp_ns: int = 0) -> Explanation:
-        """Why a frame has no pose, and what to do."""
+        """Why a frame has no pose, with a remedy."""
         return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns)
 
     def all(self) -> FramePoses:
-        """Every frame that was ever mentioned."""
+        """All frames ever mentioned."""
         self._is_all_wanted = True
         return self._compute_all()
 
@@ -167,12 +167,12 @@ def to_pose(transform: Transform) -> Pose:
 
 
 def is_placeable(pose: Pose) -> bool:
-    """Whether something can be drawn at a pose: it is finite and within `REACH_M`."""
+    """Whether a pose is finite and within `REACH_M`, so that it can be drawn."""
     return is_within_reach(_flat(pose))
 
 
 def compose(a: Pose, b: Pose) -> Pose:
-    """The pose `b`, given in the coordinates of `a`."""
+    """The pose of `b`, given relative to `a`."""
     x, y, z, qx, qy, qz, qw = compose_tuples(_flat(a), _flat(b))
     return Pose((x, y, z), (qw, qx, qy, qz))
 

@@ -1,4 +1,4 @@
-"""Displays that are switched together."""
+"""Groups of displays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from webviz.api.display import Display
 class Group(Display):
     """A group of displays; switched off, none of them is drawn.
 
-    In a config file it has the type `Group` and its displays under `displays`.
+    In a config file, its type is `Group` and its displays are listed under `displays`.
     """
 
     rviz = "rviz_common/Group"

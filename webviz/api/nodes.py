@@ -1,8 +1,8 @@
-"""What displays draw: plain data that any scene can show.
+"""Nodes: what displays draw, as plain data.
 
-A node is a frozen description in the coordinates of the frame it is placed in (metres, x forward,
-y left, z up). Displays make nodes, tests read them, `webviz.edges.scene` turns them into messages
-of viser. Arrays belong to the node once it is made: nobody may change them afterwards.
+A node is a frozen description in the coordinates of its frame (metres, x forward, y left, z up).
+Displays make nodes, tests read them, and `webviz.edges.scene` turns them into messages of viser.
+Arrays must not be changed once they are part of a node.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
 _COMPARED = 4096
-"""Rows of arrays that are compared at once."""
+"""Rows of arrays per comparison."""
 
 
 class _Node:
-    """Equality by content, so that the scene sends only what changed."""
+    """Equality by content, so that only changes are sent."""
 
     def __eq__(self, other: object) -> bool:
         if self is other:
@@ -39,7 +39,7 @@ class _Node:
 
 
 def same(a: object, b: object) -> bool:
-    """Whether two values are equal; arrays that differ are told apart without reading all."""
+    """Whether two values are equal; stops at the first difference of arrays."""
     if a is b:
         return True
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
@@ -73,7 +73,7 @@ class Lines(_Node):
         segments: float32 (N, 2, 3), metres; finite.
         colors: uint8 (N, 2, 3), or one colour for all.
         width: in `unit`.
-        unit: "px" keeps the width on the screen, "m" in the world.
+        unit: "px" is constant on the screen, "m" in the world.
     """
 
     segments: F32
@@ -122,8 +122,8 @@ class Labels(_Node):
     Args:
         positions: float32 (N, 3), metres.
         texts: one for each position.
-        height: of a line, metres; capitals are 0.6 of it, as in RViz.
-        below: whether they hang below their positions on the screen, instead of around them.
+        height: of a line, metres; that of capitals is 0.6 of it, as in RViz.
+        below: whether texts are below their positions on the screen, instead of centred.
     """
 
     positions: F32
@@ -153,16 +153,16 @@ class Mesh(_Node):
 class Instances(_Node):
     """Many lit solids, drawn as one.
 
-    Opaque ones cost a browser least; opacities are for what seldom changes.
+    Opaque solids are the cheapest; use opacities for what seldom changes.
 
     Args:
-        positions: float32 (N, 3), of the middles, metres.
-        scales: float32 (N, 3), extents along x, y and z, metres; a cylinder or cone stands along z.
+        positions: float32 (N, 3), centres, metres.
+        scales: float32 (N, 3), extents along x, y and z, metres; cylinders and cones are along z.
         colors: uint8 (N, 3), or one colour for all.
-        shape: of all of them.
-        wxyzs: float32 (N, 4), unit quaternions with w first; None leaves all unturned.
+        shape: of all solids.
+        wxyzs: float32 (N, 4), unit quaternions with w first; None is no rotation.
         opacity: 0 to 1, float32 (N,) or one for all.
-        is_data: whether the colours are data, so that shading hardly changes them.
+        is_data: whether colours are data, which shading must hardly change.
     """
 
     positions: F32
@@ -186,10 +186,10 @@ class Image(_Node):
     """A flat picture in the x-y plane, unlit, with sharp cells (nearest filtering).
 
     Args:
-        cells: RGBA, uint8 (H, W, 4), or rows of `palette`, uint8 (H, W), which cost a fraction. As
+        cells: RGBA, uint8 (H, W, 4), or rows of `palette`, uint8 (H, W), which is smaller. As
             in an occupancy grid, row 0 lies along y = 0, column 0 at x = 0.
         width, height: extent along x and y in metres; the corner of cell (0, 0) is the origin.
-        layer: of two pictures in one plane, the one of the higher layer lies on top.
+        layer: of images in one plane, higher layers are drawn on top.
         palette: RGBA, uint8 (256, 4).
     """
 
@@ -209,14 +209,14 @@ Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Glb | Image
 
 
 def has_content(node: Node) -> bool:
-    """Whether there is anything to see of a node."""
+    """Whether a node has any content."""
     content = getattr(node, fields(node)[0].name)
     return len(content) > 0
 
 
 @dataclass(frozen=True)
 class Pose:
-    """Where something is: `position` x, y, z in metres, `wxyz` a unit quaternion."""
+    """A pose: `position` (x, y, z) in metres, `wxyz` a unit quaternion."""
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     wxyz: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)

@@ -1,7 +1,7 @@
-"""What a panel is: a tab of the page that shows the viewer and asks things of it.
+"""The base class of panels: tabs of the page that show the viewer and send commands.
 
     class Robots(Panel):
-        \"\"\"Which frames there are.\"\"\"
+        \"\"\"The known frames.\"\"\"
 
         title = "Frames"
 
@@ -25,13 +25,13 @@ from webviz.api.declared import Declared
 T = TypeVar("T")
 Modifier = Literal["cmd/ctrl", "cmd/ctrl+shift"]
 Act = Callable[[int | None], object]
-"""What a button does. It gets the id of the browser, in a thread of its own."""
+"""The callback of a button. It gets the id of the browser, in a thread of its own."""
 Edit = Callable[[Any, int | None], object]
-"""What becomes of a new value. It gets the id of the browser if that is known."""
+"""The callback of an edited value. It gets the id of the browser if known."""
 
 
 class Send(Protocol):
-    """Asks something of the viewer; returns at once, from any thread."""
+    """Sends commands to the viewer; from any thread, without blocking."""
 
     def __call__(self, command: Any, browser: int | None = None) -> None:
         """Send a command of `webviz.commands`, on behalf of a browser."""
@@ -39,14 +39,14 @@ class Send(Protocol):
 
 
 class Area(Protocol):
-    """A place for text. Each of its methods replaces what it showed before."""
+    """A place for text. Each of its methods replaces the previous content."""
 
     def text(self, text: str) -> None:
-        """Show a paragraph as it is, "" for none."""
+        """Show a paragraph of plain text, "" for none."""
         ...
 
     def lines(self, text: str) -> None:
-        """Show lines as they are, in letters of one width; of very many the first."""
+        """Show plain text with a monospaced font; very long text is cut off."""
         ...
 
     def table(self, rows: Iterable[Sequence[str]]) -> None:
@@ -54,7 +54,7 @@ class Area(Protocol):
         ...
 
     def html(self, markup: str) -> None:
-        """Show HTML. What comes from elsewhere must have been escaped."""
+        """Show HTML. Untrusted text must be escaped."""
         ...
 
 
@@ -69,11 +69,11 @@ class Field(Protocol[T]):
 
     @property
     def value(self) -> T:
-        """What the field holds now."""
+        """The current value."""
         ...
 
     def show(self, value: T) -> None:
-        """Show this value, unless somebody is editing the field."""
+        """Show this value, unless the field is being edited."""
         ...
 
 
@@ -81,21 +81,21 @@ class Choice(Field[str], Protocol):
     """One of several texts."""
 
     def offer(self, values: Sequence[str], current: str) -> None:
-        """Offer these values and show the current one, which need not be among them."""
+        """Offer these values and show the current one, which may be another."""
         ...
 
 
 class Ui(Protocol):
-    """What a panel is built of: widgets below each other, in the order of the calls.
+    """The widgets of a panel, one below the other in the order of the calls.
 
     Labels, values and tooltips are shown as plain text.
     """
 
     viser: Any
-    """The `viser.ViserServer`, for widgets that are not here; they depend on viser's version."""
+    """The `viser.ViserServer`, for other widgets; these depend on viser's version."""
 
     def area(self) -> Area:
-        """Add a place for text, tables or HTML, empty at first."""
+        """Add an empty place for text, tables or HTML."""
         ...
 
     def button(self, label: str, act: Act, hint: str = "", width: float = 1.0) -> Button:
@@ -111,7 +111,7 @@ class Ui(Protocol):
         ...
 
     def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
-        """Add a list to choose from; `Choice.offer` fills it."""
+        """Add a dropdown; `Choice.offer` fills it."""
         ...
 
     def command(
@@ -121,26 +121,26 @@ class Ui(Protocol):
 
         Args:
             label: its name there.
-            act: what it does.
-            key: calls it, with the modifier if there is one.
-            modifier: to hold meanwhile.
+            act: its callback.
+            key: its keyboard shortcut, "" for none.
+            modifier: of the shortcut.
             icon: name of a Tabler icon, such as "refresh".
         """
         ...
 
 
 class Panel(Declared, kw_only=True, dict=True):
-    """Base of all panels. What it raises stands in its tab, and the other panels go on."""
+    """Base of all panels. Its exceptions are shown in its tab and do not affect other panels."""
 
     kind: ClassVar[str] = "panel"
     place: ClassVar[int] = 100
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 
     def build(self, ui: Ui, send: Send) -> None:
-        """Add what the tab holds. Called once, before the first `show`."""
+        """Build the tab. Called once, before the first `show`."""
 
     def show(self, state: Any) -> None:
-        """Show the viewer as it is, a `webviz.State` to read.
+        """Show the state of the viewer, a read-only `webviz.State`.
 
-        Called by the frame loop some times a second, so it must not take long.
+        Called by the frame loop a few times a second, so it must be fast.
         """

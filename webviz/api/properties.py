@@ -1,4 +1,4 @@
-"""The properties of a class as it declares them: the one place that reads annotations."""
+"""The declared properties of a class: the only place that reads annotations."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
 
 
 def _known(hint: Any) -> dict[str, Any]:
-    """What the annotations of a type say; of several the outer one."""
+    """The values of a type's annotations; the outermost wins."""
     known: dict[str, Any] = {}
     for mark in getattr(hint, "__metadata__", ()):
         if isinstance(mark, Input | Output):
@@ -137,7 +137,7 @@ def _default(field: msgspec.inspect.Field) -> Any:
 def _conditions(
     name: str, prefix: str, known: Mapping[str, Mapping[str, Any]], hints: Mapping[str, Any]
 ) -> tuple[tuple[str, tuple[object, ...]], ...]:
-    """What must hold for a property: its own condition, and those of the property it names."""
+    """The conditions of a property: its own, and those of the property it names."""
     when = known[name].get("when")
     if when is None:
         return ()
@@ -150,7 +150,7 @@ def _conditions(
 
 
 def _choices(hint: Any) -> tuple[Any, ...]:
-    """What a Literal allows; msgspec knows it too, but sorted."""
+    """The values of a Literal; msgspec has them too, but sorted."""
     hint = bare(hint)
     return typing.get_args(hint) if typing.get_origin(hint) is Literal else ()
 

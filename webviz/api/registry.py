@@ -1,9 +1,8 @@
-"""The plug-ins there are, by the name each has in config files.
+"""The registry of plug-ins by their names in config files.
 
-A kind of plug-in is a base class with a `kind`: displays, tools and panels are found, named and
-registered in one way. Packages name theirs as entry points of the group `webviz.displays`,
-`webviz.tools` or `webviz.panels`, webviz's own among them; those of `webviz.engine.plugins` are
-registered while the program runs.
+Displays, tools and panels are registered in the same way. Packages, webviz among them, declare
+theirs as entry points of the group `webviz.displays`, `webviz.tools` or `webviz.panels`;
+`webviz.engine.plugins` registers those of files at run time.
 """
 
 from __future__ import annotations
@@ -20,20 +19,20 @@ _registered: dict[str, dict[str, type[Declared]]] = {}
 
 
 def entry_point_group(kind: str) -> str:
-    """The group of entry points under which packages name their plug-ins of a kind."""
+    """The entry point group of a kind of plug-in."""
     return f"webviz.{kind}s"
 
 
 def plugin_types(base: type[P]) -> dict[str, type[P]]:
-    """Every class of a kind by the name it has in config files.
+    """All classes of a kind by their names in config files.
 
     Args:
         base: the base class of the kind: `Display`, `Tool` or `Panel`.
     """
     types = dict(_installed(base.kind)[0])
-    for registered in list(_registered.values()):  # another thread may read a config meanwhile
+    for registered in list(_registered.values()):  # another thread may register
         types |= {name: cls for name, cls in registered.items() if cls.kind == base.kind}
-    return types  # pyright: ignore[reportReturnType]  # a kind has one base class
+    return types  # pyright: ignore[reportReturnType]  # each kind has one base class
 
 
 def broken_types(base: type[Declared]) -> dict[str, str]:
@@ -42,21 +41,21 @@ def broken_types(base: type[Declared]) -> dict[str, str]:
 
 
 def display_types() -> dict[str, type[Display]]:
-    """Every display class by the name it has in config files."""
+    """All display classes by their names in config files."""
     return plugin_types(Display)
 
 
 def type_name(cls: type[Declared]) -> str:
-    """The name a class has in config files."""
+    """The name of a class in config files."""
     types = plugin_types(cls)
     return next((name for name, each in types.items() if each is cls), cls.__name__)
 
 
 def register(owner: str, types: Mapping[str, type[Declared]]) -> None:
-    """Offer plug-ins of any kind by name, in place of all that the same owner offered before.
+    """Register plug-ins of any kind by name, replacing all previous ones of the same owner.
 
     Raises:
-        ValueError: a name belongs to another plug-in of that kind; nothing was changed.
+        ValueError: a name is taken by another plug-in of that kind; nothing was changed.
     """
     for name, cls in types.items():
         installed, broken = _installed(cls.kind)
@@ -79,6 +78,6 @@ def _installed(kind: str) -> tuple[dict[str, type[Declared]], dict[str, str]]:
             if issubclass(cls, Display):
                 inputs_of(cls)
             types[point.name] = cls
-        except Exception as error:  # somebody else's module may raise anything
+        except Exception as error:  # plug-ins may raise anything
             broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
     return types, broken

@@ -1,4 +1,4 @@
-"""One message, or one set of synchronized messages, as a display gets it."""
+"""Samples: decoded messages with their poses, for displays."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from webviz.api.nodes import Pose
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """A decoded message and where and when it belongs.
+    """A decoded message with its pose, or a set of synchronized messages.
 
     Args:
-        message: as `webviz.data.messages.decode` gives it, or what the display's `fold` made of it.
+        message: decoded by `webviz.data.messages.decode`, or the result of the display's `fold`.
         frame: frame id of its header, "" if it has none.
         stamp_ns: of its header, 0 if it has none.
         received_ns: ROS time of arrival.
-        number: counts the messages of the input from 0.
+        number: of the message on its input, from 0.
         pose: of `frame` in the fixed frame at the stamp.
-        input: name of the input, that is of the property with its topic.
-        synced: the samples of the other inputs of its `Sync`, by input.
+        input: name of the input: the property with its topic.
+        synced: samples of the other inputs of the `Sync`, by input.
     """
 
     message: Any

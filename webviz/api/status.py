@@ -1,4 +1,4 @@
-"""What a display says about itself: a level and a sentence for each key, as in RViz."""
+"""Statuses: a level and a sentence per key, as in RViz."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 
 class Level(enum.IntEnum):
-    """How well something is; the worst child decides for its parent."""
+    """The severity of a status; a parent has that of its worst child."""
 
     OK = 0
     WARN = 1
@@ -17,7 +17,7 @@ class Level(enum.IntEnum):
 
 @dataclass(frozen=True)
 class Status:
-    """One line below a display: what is, and what to do about it."""
+    """A status: its level, and a sentence with the cause and a remedy."""
 
     level: Level
     text: str

@@ -1,4 +1,4 @@
-"""What a tool is: properties declared once, and what happens when its gesture is finished.
+"""The base class of tools: declared properties, and an action on a finished gesture.
 
     class GoalPose(Tool):
         \"\"\"Send the robot to a pose: press at the position, drag towards the heading.\"\"\"
@@ -10,8 +10,7 @@
         def done(self, stroke, ctx):
             ctx.publish("topic", {"header": ctx.header, ...})
 
-The page follows the gesture and draws its preview without asking the server; the tool gets the
-finished `Stroke`.
+The page follows the gesture and draws its preview itself; the tool gets the finished `Stroke`.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 
 Gesture = Literal["point", "pose"]
-"""A click on the ground, or a press that is dragged towards a heading."""
+"""A click on the ground, or a drag from a position towards a heading."""
 
 Position = tuple[float, float, float]
 
@@ -42,10 +41,10 @@ class Stroke:
     """A finished gesture.
 
     Args:
-        points: where it went on the ground, x, y and z = 0 in metres in the fixed frame; the first
-            is where it began. At least one.
-        yaw: the heading in radians, of a pose; a click keeps that of the stroke before.
-        keys: the modifier keys that were held: "shift", "ctrl", "alt", "meta".
+        points: its path on the ground from start to end, at least one point: x, y and z = 0 in
+            metres in the fixed frame.
+        yaw: the heading of a pose in radians; a click keeps that of the previous stroke.
+        keys: the held modifier keys: "shift", "ctrl", "alt", "meta".
         browser: id of the browser; None for a program.
     """
 
@@ -56,7 +55,7 @@ class Stroke:
 
     @property
     def position(self) -> Position:
-        """Where the gesture began, in metres in the fixed frame."""
+        """The start of the gesture, in metres in the fixed frame."""
         return self.points[0]
 
     @property
@@ -66,13 +65,13 @@ class Stroke:
 
 
 class ToolContext:
-    """What a tool acts with; made for one stroke.
+    """The context of a tool for one stroke.
 
     Args:
-        frames: the transforms of this moment.
-        now_ns: ROS time, which goes on while the page is paused.
-        publish: sends an encoded message from an output of the tool, and reports what came of it.
-        tell: reports to the browser that made the stroke.
+        frames: the current transforms.
+        now_ns: ROS time, which advances while the page is paused.
+        publish: sends an encoded message from an output of the tool, and reports the result.
+        report: reports to the browser that made the stroke.
     """
 
     def __init__(
@@ -81,13 +80,13 @@ class ToolContext:
         frames: Frames,
         now_ns: int,
         publish: Callable[[str, bytes], None],
-        tell: Callable[[Status], None],
+        report: Callable[[Status], None],
     ) -> None:
         self.frames = frames
         self.now_ns = now_ns
         self._tool = tool
         self._publish = publish
-        self._tell = tell
+        self._report = report
 
     @property
     def fixed_frame(self) -> str:
@@ -101,29 +100,29 @@ class ToolContext:
         return {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": self.fixed_frame}
 
     def publish(self, output: str, values: Mapping[str, Any]) -> None:
-        """Publish a message, and report how many subscriptions there are.
+        """Publish a message, and report the number of subscriptions.
 
         Args:
-            output: the property that declares the topic.
-            values: of the message, by field; what is left out has its default.
+            output: name of the property with the topic.
+            values: of the message by field; missing fields have their defaults.
 
         Raises:
-            EncodeError: a value does not fit the definition of the message.
+            EncodeError: a value does not fit the message definition.
         """
         payload = encode(outputs_of(type(self._tool))[output].type, values)
         self._publish(output, payload)
 
     def ok(self, text: str) -> None:
         """Report a result to the browser that made the stroke."""
-        self._tell(Status(Level.OK, text))
+        self._report(Status(Level.OK, text))
 
     def warn(self, text: str) -> None:
-        """Report what is doubtful, and what to do about it."""
-        self._tell(Status(Level.WARN, text))
+        """Report a warning, with its remedy."""
+        self._report(Status(Level.WARN, text))
 
     def error(self, text: str) -> None:
-        """Report what is wrong, and what to do about it."""
-        self._tell(Status(Level.ERROR, text))
+        """Report an error, with its remedy."""
+        self._report(Status(Level.ERROR, text))
 
 
 class Tool(Declared, kw_only=True):

@@ -1,1 +1,1 @@
-"""What messages and transforms are, without ROS: decoding, encoding, tf2's buffer."""
+"""Messages and transforms without ROS: decoding, encoding, tf2's buffer."""

@@ -1,8 +1,8 @@
 """Rotations as unit quaternions, one or many at a time.
 
-They have w first, as nodes have them; ROS messages and `webviz.transforms` have w last. One is a
-tuple of floats, many are float64 arrays (..., 4). The transform buffer has its own formulas in
-`transforms/geometry.py`, because those must agree with tf2 to the last bit.
+Here and in nodes they have w first; in ROS messages and `webviz.transforms` they have w last. One
+is a tuple of floats, many are float64 arrays (..., 4). The transform buffer has its own formulas in
+`transforms/geometry.py`, which agree with tf2 to the last bit.
 """
 
 from __future__ import annotations
@@ -18,14 +18,21 @@ Vector = tuple[float, float, float]
 F64 = NDArray[np.float64]
 
 
-def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """The rotation `b` followed by the rotation `a`."""
-    return _product(a, b)
+def multiply(a: Any, b: Any) -> Quaternion:
+    """The rotation `b` followed by the rotation `a`: the Hamilton product."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
 
 
 def multiply_many(a: ArrayLike, b: ArrayLike) -> F64:
     """The rotations `b` (..., 4), each followed by the rotation `a`; they broadcast."""
-    return np.stack(_product(_components(a), _components(b)), axis=-1)
+    return np.stack(multiply(_components(a), _components(b)), axis=-1)
 
 
 def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
@@ -61,12 +68,12 @@ def angle_between(a: Quaternion, b: Quaternion) -> float:
 
 
 def w_first(xyzw: ArrayLike) -> F64:
-    """Quaternions (..., 4) in the order of ROS messages, in the order used here."""
+    """Quaternions (..., 4) converted from the order of ROS messages: x, y, z, w."""
     return np.roll(np.asarray(xyzw, dtype=np.float64), 1, axis=-1)
 
 
 def w_last(wxyz: Quaternion) -> Quaternion:
-    """A quaternion in the order of ROS messages: x, y, z, w."""
+    """A quaternion converted to the order of ROS messages: x, y, z, w."""
     w, x, y, z = wxyz
     return x, y, z, w
 
@@ -115,18 +122,6 @@ def from_matrices(m: F64) -> F64:
     lower[:, 2, 0], lower[:, 3, 1] = m[:, 0, 2] - m[:, 2, 0], m[:, 2, 0] + m[:, 0, 2]
     lower[:, 3, 0], lower[:, 3, 2] = m[:, 1, 0] - m[:, 0, 1], m[:, 2, 1] + m[:, 1, 2]
     return np.linalg.eigh(lower)[1][:, :, 3]
-
-
-def _product(a: Any, b: Any) -> Any:
-    """The Hamilton product, of four numbers each or of four arrays each."""
-    aw, ax, ay, az = a
-    bw, bx, by, bz = b
-    return (
-        aw * bw - ax * bx - ay * by - az * bz,
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-    )
 
 
 def _components(quaternions: ArrayLike) -> F64:

@@ -1,1 +1,1 @@
-"""The frame loop and what it keeps: sources, displays at work, settings, views."""
+"""The engine: the frame loop, its sources, the displays and their pipeline."""

@@ -11,7 +11,7 @@ class Arrivals:
     """Takes what has arrived at the source, and resets all parts when time goes back.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         time: detects that time went back.
         transforms: inserts transforms before other parts look them up.
     """
@@ -34,6 +34,6 @@ class Arrivals:
             batches = {}
             parts.reset()
         if attempt("Transforms", False, self._transforms.insert, batches):
-            self._time.ros.tell("The transforms started over in the past: everything was reset.")
+            self._time.ros.note("The transforms started over in the past: everything was reset.")
             parts.reset()
         return batches

@@ -151,7 +151,7 @@ class FrameLoop:
             self.close()
 
     def close(self) -> None:
-        """End all work beside the loop, and autosave."""
+        """End all threads, and autosave."""
         self._requests.end()
         self._parts.close()
         self._workers.close()

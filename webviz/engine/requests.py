@@ -51,7 +51,7 @@ Request = tuple[Command, Sender, Future[str]]
 class Requests:
     """Commands that wait for the frame loop.
 
-    File commands run one after the other beside the loop; other commands overtake them.
+    File commands run in a thread, one after the other; other commands overtake them.
 
     Args:
         guard: logs unexpected exceptions of commands.

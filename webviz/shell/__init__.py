@@ -1,1 +1,1 @@
-"""What people start: the command line, the Python API, pictures, visual tests."""
+"""The command line, the Python API, pictures and visual tests."""

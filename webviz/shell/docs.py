@@ -1,9 +1,8 @@
-"""Writes all that is generated from declarations: `make docs`.
+"""Writes the documentation that is generated from declarations: `make docs`.
 
-That is the pages about displays, tools and panels, the shipped schema of config files and, of the
-.rviz files given as arguments, the page on what is carried over. What a declaration cannot tell
-(what each status means, what differs from RViz2) stands in `notes.yaml` beside the pages; the
-pictures are those of `tests/pictures`.
+That is: the pages on displays, tools and panels; the schema of config files; and, for .rviz files
+given as arguments, the page on their support. Explanations of statuses and differences from RViz2
+are in `notes.yaml` next to the pages; the pictures are those of `tests/pictures`.
 """
 
 from __future__ import annotations
@@ -43,11 +42,11 @@ WORDS = {
 
 
 class Notes(msgspec.Struct, forbid_unknown_fields=True):
-    """What is written by hand about one display.
+    """Notes on one display.
 
     Args:
-        statuses: what the display says under each key.
-        differs: where it does not do what RViz2 does, and why.
+        statuses: explanation of each status.
+        differs: differences from RViz2 with their reasons.
     """
 
     statuses: dict[str, str] = {}
@@ -55,7 +54,7 @@ class Notes(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def pages() -> dict[str, str]:
-    """The text of every generated page by its file name."""
+    """The text of each page by file name."""
     notes = read_notes()
     types = built_in(Display)
     found = {
@@ -69,19 +68,19 @@ def pages() -> dict[str, str]:
 
 
 def built_in(base: type[P]) -> dict[str, type[P]]:
-    """The classes of a kind that come with webviz, by name."""
+    """The displays, tools or panels that come with webviz, by name."""
     types = plugin_types(base)
     return {n: c for n, c in types.items() if c.__module__.split(".")[0] in BUILT_IN}
 
 
 def read_notes() -> Mapping[str, Notes]:
-    """What is written by hand, by the name of the display."""
+    """The notes by display."""
     text = (PAGES / "notes.yaml").read_text(encoding="utf-8")
     return msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, Notes])
 
 
 def page_name(name: str) -> str:
-    """The file of a display's page: `LaserScan` has `laser_scan.md`."""
+    """The file name of a display's page: `laser_scan.md` for `LaserScan`."""
     return f"{snake_case(name)}.md"
 
 
@@ -91,7 +90,7 @@ def snake_case(name: str) -> str:
 
 
 def page(name: str, cls: type[Display], notes: Notes) -> str:
-    """Everything about one display."""
+    """The page of a display."""
     shown = pictures(snake_case(name))
     lines = [f"# {name}", "", *paragraphs(cls), ""]
     lines += [f"![{name}]({shown.pop('default')})", ""] if "default" in shown else []
@@ -111,7 +110,7 @@ def page(name: str, cls: type[Display], notes: Notes) -> str:
 
 
 def tools_page(types: Mapping[str, type[Tool]]) -> str:
-    """Everything about the tools."""
+    """The page of the tools."""
     lines = ["# The tools", "", "The toolbar of the page has a button for each.", ""]
     for name, cls in types.items():
         lines += [f"## {cls.title or name}", "", *paragraphs(cls), ""]
@@ -123,7 +122,7 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
 
 
 def panels_page(types: Mapping[str, type[Panel]]) -> str:
-    """Everything about the panels."""
+    """The page of the panels."""
     in_order = sorted(types.items(), key=lambda item: (item[1].place, item[0]))
     rows = [(c.title or name, next(iter(paragraphs(c)))) for name, c in in_order]
     lines = ["# The panels", "", "Each is a tab of the page.", "", *table(("tab", "shows"), rows)]
@@ -131,7 +130,7 @@ def panels_page(types: Mapping[str, type[Panel]]) -> str:
 
 
 def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
-    """The page that leads to all others."""
+    """The overview, with links to the other pages."""
     lines = ["# The displays", ""]
     rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
     lines += table(("display", "shows"), rows)
@@ -157,13 +156,13 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
 
 
 def paragraphs(cls: type[Declared]) -> list[str]:
-    """The docstring of a class, a line for each paragraph."""
+    """The docstring of a class, one line per paragraph."""
     text = "\n".join(line.strip() for line in (cls.__doc__ or "").splitlines()).strip()
     return [" ".join(part.split()) for part in text.split("\n\n")]
 
 
 def pictures(folder: str) -> dict[str, str]:
-    """Links to the pictures of a display by what they show."""
+    """Links to the pictures of a display by caption."""
     found = sorted((PICTURES / folder).rglob("*.png"))
     return {
         path.stem.replace("_", " "): f"../../{path.relative_to(ROOT).as_posix()}" for path in found
@@ -171,14 +170,14 @@ def pictures(folder: str) -> dict[str, str]:
 
 
 def gallery(shown: Mapping[str, str]) -> list[str]:
-    """Pictures, two in a row, each above what it shows."""
+    """Pictures with captions, two per row."""
     cells = [f"![{what}]({link})<br>{what}" for what, link in shown.items()]
     rows = [(*cells[i : i + 2], "")[:2] for i in range(0, len(cells), 2)]
     return table(("", ""), rows)
 
 
 def inputs_table(cls: type[Display]) -> list[str]:
-    """What a display subscribes to."""
+    """A table of the subscriptions of a display."""
     rows = []
     for name, declared in inputs_of(cls).items():
         topic = value_at(cls(), name).name or f"the first topic + `{declared.suffix}`"
@@ -188,13 +187,13 @@ def inputs_table(cls: type[Display]) -> list[str]:
 
 
 def properties_table(cls: type[Declared]) -> list[str]:
-    """All properties with what a declaration says of them."""
+    """A table of all properties."""
     rows = list(property_rows(properties_of(cls), cls()))
     return table(("property", "key", "values", "default", "what it does"), rows)
 
 
 def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[tuple[str, ...]]:
-    """A row for each property, those of nested settings after their group's."""
+    """A row for each property, including nested ones."""
     for each in found:
         if each.path in FIRST:
             continue
@@ -206,12 +205,12 @@ def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[t
         )
         note = f" Where {when}." if when else ""
         default = each.of(declared)
-        told = default.name if isinstance(default, Topic) else default
-        yield each.label, f"`{each.path}`", values(each), default_of(told), f"{each.help}{note}"
+        default = default_of(default.name if isinstance(default, Topic) else default)
+        yield each.label, f"`{each.path}`", values(each), default, f"{each.help}{note}"
 
 
 def values(each: Property | inspect.Field) -> str:
-    """What a property may be, in words."""
+    """The valid values of a property, in words."""
     if isinstance(each, Property) and is_topic(each):
         return "topic"
     if isinstance(each, Property) and each.widget == "frame":
@@ -222,7 +221,7 @@ def values(each: Property | inspect.Field) -> str:
 
 
 def is_topic(each: Property) -> bool:
-    """Whether a property is a topic, of which its own table tells the rest."""
+    """Whether a property is a topic, whose keys have their own table."""
     return isinstance(each.type, inspect.StructType) and each.type.cls is Topic
 
 
@@ -269,7 +268,7 @@ def default_of(value: Any) -> str:
 
 
 def topic_fields() -> list[inspect.Field]:
-    """What there is to choose of a topic besides its name."""
+    """The keys of a topic besides its name."""
     info = inspect.type_info(Topic)
     assert isinstance(info, inspect.StructType)
     return [field for field in info.fields if field.name != "name"]

@@ -1,7 +1,6 @@
 """Fixtures for visual tests of any package; see "Visual tests for your package" in the README.
 
-pytest imports this in every run where webviz is installed, so that everything else is imported by
-the fixtures that need it.
+pytest imports this module whenever webviz is installed, so fixtures import the rest on demand.
 """
 
 from __future__ import annotations
@@ -28,16 +27,16 @@ SIZE = (400, 300)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Tell pytest of the options."""
+    """Register the options."""
     parser.getgroup("webviz", "visual tests of robots").addoption(
         "--update-pictures",
         action="store_true",
-        help="make the reference pictures that are missing or no longer right; "
+        help="create missing reference pictures and replace outdated ones; "
         "look at each before committing",
     )
     parser.addini(
         "webviz_pictures",
-        "folder of reference pictures below the root; default: `pictures` beside each test file",
+        "folder of reference pictures below the root; default: `pictures` next to each test file",
     )
     parser.addini(
         "webviz_output",
@@ -46,7 +45,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     parser.addini(
         "webviz_each_display",
-        "whether each picture must tell if any one of its displays were left out",
+        "whether every display must be visible in each picture",
         type="bool",
         default=False,
     )
@@ -54,7 +53,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture(scope="session")
 def webviz_darkroom() -> Iterator[Darkroom]:
-    """The browser that makes all pictures; launched for the first one."""
+    """The browser of all pictures, launched for the first one."""
     from webviz.shell.testing.darkroom import Darkroom
 
     darkroom = Darkroom()
@@ -64,7 +63,7 @@ def webviz_darkroom() -> Iterator[Darkroom]:
 
 @pytest.fixture(scope="session")
 def webviz_domain() -> Iterator[int]:
-    """A ROS domain that nobody else on this machine uses, also for processes of the tests."""
+    """A ROS domain that is unused on this machine, also for processes started by tests."""
     from webviz.shell.testing.domain import isolated_domain
 
     with isolated_domain() as domain:
@@ -75,9 +74,9 @@ def webviz_domain() -> Iterator[int]:
 def webviz_stage(
     webviz_darkroom: Darkroom, request: pytest.FixtureRequest
 ) -> Iterator[Callable[..., Stage]]:
-    """Makes viewers without ROS: `webviz_stage("my.yaml")` or `webviz_stage(Grid(), Map())`.
+    """Creates viewers without ROS: `webviz_stage("my.yaml")` or `webviz_stage(Grid(), Map())`.
 
-    Arguments by name: `view`, `fixed_frame`, `size` of pictures.
+    Keyword arguments: `view`, `fixed_frame`, `size` of pictures.
     """
     with contextlib.ExitStack() as stack:
 
@@ -97,10 +96,10 @@ def webviz_stage(
 def webviz_viewer(
     webviz_darkroom: Darkroom, webviz_domain: int, request: pytest.FixtureRequest
 ) -> Iterator[Callable[..., LiveViewer]]:
-    """Makes viewers on a ROS domain of their own: `webviz_viewer("my.yaml", simulator=True)`.
+    """Creates viewers on an isolated ROS domain: `webviz_viewer("my.yaml", simulator=True)`.
 
-    Arguments by name: `view`, `fixed_frame`, `size` of pictures, `simulator`: whether a simulated
-    robot drives around, or its parameters.
+    Keyword arguments: `view`, `fixed_frame`, `size` of pictures, `simulator` (True or the
+    parameters of a simulated robot).
     """
     with contextlib.ExitStack() as stack:
 
@@ -129,7 +128,7 @@ def _set_up(
     fixed_frame: str | None = None,
     size: Size = SIZE,
 ) -> tuple[Config, RecordingScene, Photographer]:
-    """What every viewer under test stands on."""
+    """The config, scene and photographer of a viewer."""
     from webviz.shell.testing.pictures import Album, Photographer
     from webviz.shell.testing.recording import RecordingScene
 
@@ -151,7 +150,7 @@ def _set_up(
 
 
 def _config(what: tuple[str | Path | Display, ...], folder: Path) -> Config:
-    """A config from a file, which may be named relative to the tests, or from displays."""
+    """The config of a file, relative to `folder`, or of displays."""
     from webviz.files import config, opening
 
     if not what:

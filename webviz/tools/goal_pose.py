@@ -1,4 +1,4 @@
-"""Sends a robot somewhere."""
+"""The tool that sends goal poses."""
 
 from __future__ import annotations
 

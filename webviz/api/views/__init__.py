@@ -1,4 +1,4 @@
-"""How a camera looks at the scene: RViz's views, and what they show."""
+"""Views, as RViz has them, and their cameras."""
 
 from webviz.api.views.mimic import Rig, focus, mimic, rig_of
 from webviz.api.views.placement import FIELD_OF_VIEW, Camera, camera_of, view_of

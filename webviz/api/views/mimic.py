@@ -1,4 +1,4 @@
-"""Other views of what a view looks at: of another type, from another frame, of a box."""
+"""Changing a view while keeping what it shows: type, target frame, focus."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ from webviz.api.views.types import (
 from webviz.data.rotations import to_rpy
 
 NEAREST = 1e-3
-"""Of the distance that was: from nearer, no direction is left."""
+"""Minimum of the new distance relative to the former; below, the direction is lost."""
 REACH = 10.0
-"""Metres to what an FPS view looks at where that is not the ground."""
+"""Metres to the focal point of an FPS view that does not look at the ground."""
 FARTHEST = 1000.0
 MARGIN = 1.15
 SMALLEST = 0.05
-"""Radius in metres of what a camera comes close to."""
+"""Minimum radius to focus on, in metres."""
 FLATTER = math.tan(FLAT_FIELD_OF_VIEW / 2.0) / math.tan(FIELD_OF_VIEW / 2.0)
 
 
 @dataclass(frozen=True)
 class Rig:
-    """Where the coordinates of a view lie in the fixed frame: at `origin`, turned by `yaw`."""
+    """The coordinates of a view in the fixed frame: at `origin`, rotated by `yaw`."""
 
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     yaw: float = 0.0
@@ -57,11 +57,11 @@ class Rig:
 
 
 def rig_of(cls: type[View], pose: Pose | None) -> Rig:
-    """How a view of a type follows its target frame.
+    """The coordinates of a view that follows its target frame.
 
     Args:
-        cls: only a ThirdPersonFollower turns with the frame.
-        pose: of the frame in the fixed frame; None where there is none to follow.
+        cls: only a ThirdPersonFollower rotates with the frame.
+        pose: of the frame in the fixed frame; None if it is unknown.
     """
     if pose is None:
         return Rig()
@@ -72,7 +72,7 @@ def rig_of(cls: type[View], pose: Pose | None) -> Rig:
 def mimic(
     view: View, rig: Rig, cls: type[View], frame: str, new_rig: Rig, height_px: float
 ) -> View:
-    """A view of another type or target frame that shows the same as nearly as it can."""
+    """A view of another type or target frame that shows nearly the same."""
     if type(view) is cls:
         camera = camera_of(view, height_px)
         return view_of(cls, frame, new_rig.inward(rig.outward(camera)), height_px)
@@ -83,10 +83,10 @@ def mimic(
 def focus(
     view: View, rig: Rig, low: Vector, high: Vector, width_px: float, height_px: float
 ) -> View:
-    """The view from the same direction with a box in its middle, as large as fits.
+    """The view from the same direction that fits a box.
 
     Args:
-        view: what is seen now.
+        view: the current view.
         rig: of its target frame.
         low, high: corners of the box in the fixed frame, in metres.
         width_px, height_px: of the picture.
@@ -108,7 +108,7 @@ def _looking(
 
 
 def _eye(view: View, height_px: float) -> Camera:
-    """A camera with perspective that shows a view or nearly, and looks at what it is about."""
+    """A perspective camera that shows nearly the same as a view and looks at its focal point."""
     camera = camera_of(view, height_px)
     if isinstance(view, TopDownOrtho):
         distance = camera.distance * FLATTER
@@ -125,7 +125,7 @@ def _eye(view: View, height_px: float) -> Camera:
 
 
 def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
-    """The view of a type that shows what a camera with perspective shows."""
+    """The view of a type that shows the same as a perspective camera."""
     back = (eye.position - eye.look_at) / eye.distance
     if cls is TopDownOrtho:
         level = math.hypot(back[0], back[1])
@@ -138,7 +138,7 @@ def _fitted(cls: type[View], frame: str, eye: Camera, height_px: float) -> View:
     if cls is not FPS and cls is not Orbit and back[2] > 0.05 - raised:
         # Along the line of sight to where the focal point lies on the ground.
         step = (eye.look_at[2] - raised * eye.distance) / (back[2] + raised)
-        # A camera that stands on the ground would look at itself, from no direction.
+        # A camera on the ground would have no direction to its focal point.
         if NEAREST * eye.distance < eye.distance + step < FARTHEST:
             eye = Camera(eye.position, eye.look_at - step * back)
     return view_of(cls, frame, eye, height_px)

@@ -1,4 +1,4 @@
-"""Where a camera stands for a view, and which view a camera shows."""
+"""Conversion of views to cameras and back."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from webviz.api.views.types import (
 )
 
 FIELD_OF_VIEW = math.pi / 4
-"""Vertical; RViz's, which comes from Ogre."""
+"""Vertical, as in RViz (Ogre's default)."""
 FLAT_FIELD_OF_VIEW = math.radians(1.0)
-"""Of a camera far above, in whose picture without perspective the ground is as large as in its own.
+"""Of a distant camera that stands in for an orthographic one with the ground at the same scale.
 
-Whoever asks the camera for its field of view and distance then sizes and moves things correctly.
+Code that uses field of view and distance of the camera then sizes and moves things correctly.
 """
 RAISED = 0.2
-"""How far XYOrbit is moved along the camera's own up, in distances; RViz's."""
+"""Offset of XYOrbit along the camera's up vector, as a share of the distance; RViz's."""
 STEEPEST = 1.5698
-"""Pitch of a camera above its focal point, whose yaw is still known."""
+"""Maximum pitch at which the yaw is still defined."""
 EYE = 1e-3
-"""Metres from the camera of an FPS view to the point that it is turned about."""
+"""Distance from the camera of an FPS view to its centre of rotation, in metres."""
 TILT = 1e-5
-"""Radians that a camera for TopDownOrtho leans, so that its angle is known."""
+"""Tilt of a TopDownOrtho camera in radians, so that its angle is defined."""
 DIGITS = 6
 
 Vector = NDArray[np.float64]
@@ -38,19 +38,19 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Camera:
-    """A camera that stands upright, in the coordinates of a target frame."""
+    """An upright camera in the coordinates of a target frame."""
 
     position: Vector
     look_at: Vector
 
     @property
     def distance(self) -> float:
-        """From the camera to what it looks at, in metres."""
+        """From the camera to its focal point, in metres."""
         return float(np.linalg.norm(self.position - self.look_at))
 
 
 def camera_of(view: View, height_px: float) -> Camera:
-    """The camera that shows a view in a picture of that height."""
+    """The camera of a view, for a picture of that height."""
     if isinstance(view, FPS):
         position = np.array(view.position)
         return Camera(position, position - EYE * _direction(view.yaw + math.pi, view.pitch))
@@ -65,15 +65,14 @@ def camera_of(view: View, height_px: float) -> Camera:
 
 
 def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> View:
-    """The view of a type that a camera shows which was placed for that type.
+    """The view of a type that a camera shows.
 
-    The reverse of `camera_of`, rounded to six digits behind the point and kept within what a view
-    may have.
+    The inverse of `camera_of`, rounded to six decimals and clamped to the bounds of the type.
 
     Args:
         cls: type of the view.
         frame: target frame whose coordinates `camera` is in.
-        camera: as `camera_of` placed it, or as somebody moved it since.
+        camera: placed by `camera_of` for that type, and possibly moved since.
         height_px: of the picture.
     """
     offset = camera.position - camera.look_at
@@ -108,14 +107,14 @@ def view_of(cls: type[View], frame: str, camera: Camera, height_px: float) -> Vi
 
 
 def _direction(yaw: float, pitch: float) -> Vector:
-    """Unit vector to a camera from what it looks at."""
+    """Unit vector from the focal point to the camera."""
     return np.array(
         (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
     )
 
 
 def _up(yaw: float, pitch: float) -> Vector:
-    """Unit vector to the top of the picture, for a camera in that direction."""
+    """Unit vector to the top of the picture of a camera in that direction."""
     return _direction(yaw, pitch + math.pi / 2)
 
 

@@ -1,7 +1,7 @@
-"""Views: how a camera looks at the scene, as RViz has them. Lengths in metres, angles in radians.
+"""The types of views, as in RViz. Lengths in metres, angles in radians.
 
-A view is given in the coordinates of its target frame: at the frame's origin, with the axes of the
-fixed frame, or turned with the frame's yaw for a ThirdPersonFollower.
+The coordinates of a view have their origin at the target frame and the axes of the fixed frame; for
+a ThirdPersonFollower they also rotate with the yaw of the target frame.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Length = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 Angle = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
 Yaw = Annotated[Angle, Prop(help="Direction of the camera, in rad.")]
 Pitch = Annotated[float, Prop(ge=-1.5698, le=1.5698, help="In rad; positive looks down.")]
-Middle = Annotated[Length, Prop(help="In the middle of the picture, in m.")]
+Middle = Annotated[Length, Prop(help="Centre of the picture, in m.")]
 Point = tuple[Length, Length, Length]
 
 
@@ -40,19 +40,19 @@ class _AroundAPoint(_View, frozen=True, kw_only=True):
     ] = 10.0
     yaw: Yaw = 0.785398
     pitch: Pitch = 0.785398
-    focal_point: Annotated[Point, Prop(help="What the camera turns about, in m.")] = (0.0, 0.0, 0.0)
+    focal_point: Annotated[Point, Prop(help="Centre of rotation, in m.")] = (0.0, 0.0, 0.0)
 
 
 class Orbit(_AroundAPoint, frozen=True, kw_only=True, tag="Orbit"):
-    """Looks at a focal point from a distance, in the direction of yaw and pitch."""
+    """Orbits a focal point at a distance, with yaw and pitch."""
 
 
 class XYOrbit(_AroundAPoint, frozen=True, kw_only=True, tag="XYOrbit"):
-    """Orbit whose focal point stays on the ground, and somewhat below the middle of the picture."""
+    """Orbit with its focal point on the ground, slightly below the centre of the picture."""
 
 
 class ThirdPersonFollower(_AroundAPoint, frozen=True, kw_only=True, tag="ThirdPersonFollower"):
-    """XYOrbit that also turns with the yaw of its target frame."""
+    """XYOrbit that also rotates with the yaw of its target frame."""
 
 
 class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
@@ -60,14 +60,14 @@ class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
 
     yaw: Yaw = 0.0
     pitch: Pitch = 0.0
-    position: Annotated[Point, Prop(help="Of the camera, in m.")] = (5.0, 5.0, 10.0)
+    position: Annotated[Point, Prop(help="Position of the camera, in m.")] = (5.0, 5.0, 10.0)
 
 
 class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
-    """Looks straight down without perspective; `x`, `y` is in the middle, `scale` in px/m."""
+    """Looks straight down without perspective; centred on `x`, `y`, `scale` in px/m."""
 
     scale: Annotated[float, Prop(ge=1e-5, le=1e6, help="In px/m.")] = 10.0
-    angle: Annotated[Angle, Prop(help="The picture is turned by it, in rad.")] = 0.0
+    angle: Annotated[Angle, Prop(help="Rotation of the picture, in rad.")] = 0.0
     x: Middle = 0.0
     y: Middle = 0.0
 
@@ -77,11 +77,11 @@ View = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho
 VIEW_TYPES: dict[str, type[View]] = {
     cls.__name__: cls for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, TopDownOrtho)
 }
-"""By the name that RViz and config files give them."""
+"""By their names in RViz and config files."""
 
 
 def with_type(values: Any) -> Any:
-    """The values of a view as a config file has them, where Orbit need not be named."""
+    """The values of a view from a config file, where the type defaults to Orbit."""
     return {"type": "Orbit", **values} if isinstance(values, Mapping) else values
 
 
@@ -91,5 +91,5 @@ def type_of(view: View) -> str:
 
 
 def target_group(frame: str) -> str:
-    """The group of the scene whose pose the views of a target frame follow."""
+    """The group of the scene that views of a target frame follow."""
     return f"target frame/{frame}"

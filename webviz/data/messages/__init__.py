@@ -1,12 +1,11 @@
 """ROS 2 messages without ROS: definitions, decoding of received bytes, and encoding.
 
-`decode` takes the type as text and the bytes as they came from DDS or a bag. The message it
-returns has the field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays
-are read-only numpy arrays, mostly views of the bytes, also where ROS has a sequence of points or
-poses (`webviz.data.messages.geometry` says which). Some messages have typed classes here; the
-class of any other is `message_class(type_name)`. All are built as in rclpy:
-`Header(frame_id="map")`. `encode` makes the bytes of any type from such messages, or from nested
-mappings.
+`decode` takes a type name and the bytes received from DDS or a bag. The message it returns has the
+field names of ROS (`scan.header.frame_id`, `grid.info.resolution`); numeric arrays, and sequences
+of points and poses (see `webviz.data.messages.geometry`), are read-only numpy arrays, mostly views
+of the bytes. Some messages have typed classes here; that of any other is
+`message_class(type_name)`. All are built as in rclpy: `Header(frame_id="map")`. `encode` returns
+the bytes of such messages, or of nested mappings.
 """
 
 from webviz.data.messages.classes import message_class

@@ -25,7 +25,7 @@ _TIME = {order: Struct(order + "iI").unpack_from for order in "<>"}
 
 
 class CdrError(MessageError):
-    """Malformed bytes; `Reader.pos` says where."""
+    """Malformed bytes at `Reader.pos`."""
 
 
 class Reader:
@@ -44,7 +44,7 @@ class Reader:
         self.pos = 0
         self.size = len(self.data)
         if self.size < ENCAPSULATION_SIZE:
-            raise CdrError("it is too short to hold an encapsulation header")
+            raise CdrError("it is shorter than an encapsulation header")
         representation = self.data[0] << 8 | self.data[1]
         if representation not in _ORDERS:
             raise CdrError(
@@ -81,8 +81,8 @@ class Reader:
         end = start + length
         if end > self.size:
             self.pos = pos
-            raise CdrError(f"a string of {length} bytes is longer than what is left")
-        if length == 0:  # not CDR, which counts the closing NUL, but written by some
+            raise CdrError(f"a string of {length} bytes is longer than the rest of the message")
+        if length == 0:  # invalid, as CDR counts the final NUL, but some writers send it
             self.pos = end
             return ""
         if self.data[end - 1]:
@@ -96,17 +96,17 @@ class Reader:
 
         Args:
             dtype: A numeric or boolean dtype in native byte order.
-            count: How many to read; nothing is allocated before it is known that they fit.
+            count: Number of elements, checked against the size of the message before allocation.
         """
-        if count == 0:  # padding belongs to the first element, so there is none
+        if count == 0:  # an empty array has no padding
             return np.frombuffer(b"", dtype)
         itemsize = dtype.itemsize
         start = self.pos + ((ENCAPSULATION_SIZE - self.pos) & (itemsize - 1))
         end = start + count * itemsize
         if end > self.size:
-            raise CdrError(f"{count} elements of {dtype} are more than what is left")
+            raise CdrError(f"{count} elements of {dtype} are longer than the rest of the message")
         self.pos = end
-        if dtype is _BOOL:  # any other byte than 0 or 1 in a bool array is undefined behaviour
+        if dtype is _BOOL:  # bytes other than 0 and 1 in a bool array are undefined behaviour
             array = np.frombuffer(self.data, np.uint8, count, start) != 0
         elif self.order == _NATIVE:
             return np.frombuffer(self.data, dtype, count, start)

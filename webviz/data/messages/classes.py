@@ -1,4 +1,4 @@
-"""The class of each message type: written out by hand, or made from its definition."""
+"""The class of each message type: hand-written, or generated from its definition."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def message_class(type_name: str) -> type[Any]:
 
 
 def attribute(name: str) -> str:
-    """The Python attribute of a field: its name, with "_" behind if that is a keyword."""
+    """The Python attribute of a field: its name, followed by "_" if that is a keyword."""
     return f"{name}_" if keyword.iskeyword(name) else name
 
 

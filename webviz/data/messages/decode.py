@@ -1,4 +1,4 @@
-"""From received bytes to messages."""
+"""Decoding messages."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ def decode(type_name: str, cdr: Bytes) -> Any:
 
     Args:
         type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
-        cdr: The message as received, encapsulation header included. Bytes behind its end are
-            ignored (writers pad).
+        cdr: The message as received, encapsulation header included. Trailing padding is ignored.
 
     Returns:
         An object with the fields of the type, an instance of `message_class(type_name)`.
@@ -54,16 +53,16 @@ def peek_header(type_name: str, cdr: Bytes) -> tuple[str, int] | None:
 def register(type_name: str, text: str) -> None:
     """Register a message type at run time, for example from its publisher.
 
-    A definition that differs from the known one replaces it: the publisher is right.
+    A definition that differs from the known one replaces it, because publishers know best.
 
     Args:
         type_name: The type that `text` defines.
-        text: Its .msg text. Types it holds follow, each behind a line of "=" and "MSG: pkg/Type",
-            as `definition` returns them and bags store them.
+        text: Its .msg text. Nested types follow, each after a line of "=" and "MSG: pkg/Type", as
+            `definition` returns them and bags store them.
 
     Raises:
-        DefinitionError: The text cannot be read, a type in it is missing or holds itself, or it
-            contradicts a type that webviz has its own class for, such as Header.
+        DefinitionError: The text is invalid, a nested type is missing or contains itself, or it
+            contradicts a type with a class in webviz, such as Header.
     """
     typestore.add(type_name, text, fixed=WRITTEN)
     for cached in (message_class, decoder, encoder, _has_header):
@@ -82,7 +81,7 @@ def _peek(reader: Reader) -> tuple[str, int]:
 
 
 def _read(type_name: str, cdr: Bytes, read: Callable[[Reader], T]) -> T:
-    """Call `read`; errors name the place in the bytes."""
+    """Call `read`; errors name the position in the bytes."""
     pos = 0
     try:
         reader = Reader(cdr)

@@ -1,8 +1,8 @@
 """A decoder for any message type, built once from its definition.
 
 Neighbouring fields of fixed size, nested messages included, are read by a single `struct` call;
-numeric arrays become views. Where a field lies depends on the length of the strings before it
-only modulo 8, so a run of fixed fields has eight layouts at most.
+numeric arrays become views. Their padding depends on the position of the first one only
+modulo 8, so a run of fixed fields has at most eight layouts.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Step = Callable[[Reader, list[Any]], None]
 """Reads one or several fields and appends them."""
 Read = Callable[[Reader], Any]
 Build = Callable[[Iterator[Any]], Any]
-"""Takes the numbers of one field from an iterator."""
+"""Consumes the numbers of one field from an iterator."""
 
 
 @cache
@@ -48,7 +48,7 @@ def decoder(type_name: str, order: str) -> Read:
 
 
 def _codes(field: Field) -> str | None:
-    """The `struct` codes of a field whose size never varies, else None."""
+    """The `struct` codes of a field of fixed size, else None."""
     if field.size is not None:
         return None
     if not field.is_message:
@@ -78,7 +78,7 @@ def _run(run: list[Field], order: str) -> Step:
 
 
 def _layout(codes: str, order: str, start: int) -> Struct:
-    """Codes with the padding they need when the first byte lies at `start` modulo 8."""
+    """Codes with their padding if the first byte is at `start` modulo 8."""
     padded = ""
     pos = start - ENCAPSULATION_SIZE
     for code in codes:
@@ -140,6 +140,6 @@ def _reader_of_one(field: Field, order: str) -> Read:
         return Reader.string
 
     def refuse(reader: Reader) -> Any:
-        raise CdrError(f"fields of type {field.base}, as {field.name}, are not supported")
+        raise CdrError(f"fields of type {field.base}, such as {field.name}, are not supported")
 
     return refuse

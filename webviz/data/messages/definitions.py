@@ -1,4 +1,4 @@
-"""Definitions of messages that displays use and rosbags does not include.
+"""Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map
 and vision_msgs in ROS 2 Jazzy, in the order of the wire.

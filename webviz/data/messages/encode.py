@@ -1,4 +1,4 @@
-"""From values to the bytes of messages."""
+"""Encoding messages."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from webviz.data.messages.errors import EncodeError
 
 
 def encode(type_name: str, values: Any = None) -> bytes:
-    """Encode a message as ROS 2 does: plain CDR, little endian, without padding behind its end.
+    """Encode a message as ROS 2 does: plain CDR, little endian, without trailing padding.
 
     Args:
         type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
-        values: A mapping of field names to values, nested ones for messages in it; or an instance
-            of `message_class(type_name)`, or any other object with such attributes. Fields that a
-            mapping leaves out have their default. Arrays are numpy arrays, lists or other sequences
-            of numbers; those of points and quaternions may be (N, 3) and (N, 4). None is a message
-            of defaults.
+        values: A mapping of field names to values, with nested mappings for nested messages; or an
+            instance of `message_class(type_name)`, or any other object with such attributes.
+            Missing keys have their default; so have all fields for None. Arrays are numpy arrays,
+            lists or other sequences of numbers; those of points and quaternions may be (N, 3) and
+            (N, 4).
 
     Returns:
         The bytes as `decode` takes them, encapsulation header included.
 
     Raises:
-        EncodeError: A value does not fit. The text names the field and what it takes.
+        EncodeError: A value is invalid. The text names the field and what it expects.
         UnknownTypeError: No definition of the type is known.
     """
     out = bytearray(LITTLE_ENDIAN)

@@ -38,7 +38,7 @@ class Misfit(Exception):
         super().__init__(reason)
         self.reason = reason
         self.path: list[str | int] = []
-        """To the field, innermost first."""
+        """Path to the field, innermost first."""
 
     @property
     def where(self) -> str:
@@ -124,7 +124,7 @@ def _string(longest: int) -> Write:
         try:
             data = value.encode()
         except UnicodeEncodeError:
-            raise _expected("text that UTF-8 can hold", value) from None
+            raise _expected("text that UTF-8 can encode", value) from None
         if longest and len(data) > longest:
             raise _expected(f"text of at most {longest} bytes", value)
         _align(out, 4)
@@ -144,11 +144,11 @@ def _numbers(field: Field, base: str, width: int = 1) -> Write:
         if given.shape[1:] != ((width,) if width > 1 else ()):
             raise _expected(f"shape {'(N,)' if width == 1 else f'(N, {width})'}", given.shape)
         _count(out, field, len(given))
-        with np.errstate(over="ignore", invalid="ignore"):  # what does not fit is found below
+        with np.errstate(over="ignore", invalid="ignore"):  # checked below
             exact = given.astype(dtype.newbyteorder("<"))
         if given.dtype != dtype:
             _check(given, exact, base)
-        if given.size:  # padding belongs to the first element, so there is none without
+        if given.size:  # an empty array has no padding
             _align(out, dtype.itemsize)
             out += exact.tobytes()
 
@@ -168,7 +168,7 @@ def _array(value: Any, base: str) -> np.ndarray:
 
 
 def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
-    """Refuse numbers that the type of the field cannot hold; floats may be rounded."""
+    """Refuse numbers out of the range of the field's type; floats may be rounded."""
     with np.errstate(invalid="ignore"):
         if exact.dtype.kind == "f":
             lost = np.isinf(exact) & ~np.isinf(given.astype(np.float64))
@@ -182,7 +182,7 @@ def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
 
 
 def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
-    """An array of messages or strings; `many` writes those that come as an array of numbers."""
+    """An array of messages or strings; `many` writes those given as a numpy array."""
 
     def write(out: bytearray, value: Any) -> None:
         if isinstance(value, np.ndarray) and many:
@@ -211,7 +211,7 @@ def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
 
 
 def _further(poses: PoseStampedSequence) -> bytes:
-    """All but the first of poses of one frame: each ends at a multiple of 8, so all are alike."""
+    """All poses of one frame but the first; as each ends at a multiple of 8, they are alike."""
     name = poses.frame_ids[0].encode() + b"\0"
     names = ["sec", "nanosec", "length", "name", "numbers"]
     numbers = (12 + len(name) + 7) // 8 * 8
@@ -229,7 +229,7 @@ def _further(poses: PoseStampedSequence) -> bytes:
 
 
 def _stamped(transform: FrameTransform) -> dict[str, Any]:
-    """A TransformStamped as its definition has it."""
+    """A TransformStamped in the layout of its definition."""
     sec, nanosec = divmod(transform.stamp_ns, NANOSECONDS)
     return {
         "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": transform.parent},
@@ -245,7 +245,7 @@ def _components(name: str, names: list[str], values: Any) -> dict[str, Any]:
 
 
 def _count(out: bytearray, field: Field, count: int) -> None:
-    """Append the number of elements, where that can vary."""
+    """Append the number of elements, unless it is fixed."""
     if field.size and count != field.size:
         raise Misfit(f"expected {field.size} elements, got {count}")
     if field.most and count > field.most:
@@ -266,7 +266,7 @@ def _expected(what: str, value: Any) -> Misfit:
 
 
 def _range(base: str) -> str:
-    """The name of a primitive, and what fits."""
+    """The name of a primitive and its range."""
     dtype = DTYPES.get(base)
     if dtype is None or dtype.kind == "f":
         return base

@@ -1,4 +1,4 @@
-"""Errors of messages, each with one sentence as text."""
+"""Errors of messages; each text is one sentence."""
 
 
 class MessageError(ValueError):
@@ -18,4 +18,4 @@ class UnknownTypeError(MessageError):
 
 
 class DefinitionError(MessageError):
-    """A message definition cannot be read, or contradicts one that is in use."""
+    """A message definition is invalid, or contradicts one that is in use."""

@@ -1,13 +1,13 @@
-"""Messages that displays read most, as typed classes with the field names of ROS.
+"""Common messages as typed classes with the field names of ROS.
 
 Messages are frozen and every field has ROS's default (zero, empty). Arrays are read-only numpy
-arrays in native byte order, usually views of the received bytes: copy what outlives the message.
+arrays in native byte order, usually views of the received bytes.
 
 Sequences that ROS users iterate slowly are arrays here:
 
 - `Pose[]` is a `PoseSequence`, `PoseStamped[]` a `PoseStampedSequence`; both can be indexed and
   iterated like a list, and hold their numbers as (N, 3) positions and (N, 4) orientations;
-- `TransformStamped[]` is a list of `FrameTransform`, what a transform buffer takes;
+- `TransformStamped[]` is a list of `FrameTransform`, as a transform buffer takes;
 - `Point[]`, `Point32[]` and `Vector3[]` are (N, 3), `Quaternion[]` and `ColorRGBA[]` (N, 4) arrays.
 """
 

@@ -44,11 +44,11 @@ class Action(NamedTuple):
 
 
 def service(type_name: str, text: str = "") -> Service:
-    """The parts of a service type, declared if they are not yet.
+    """The parts of a service type; declares them when first used.
 
     Args:
         type_name: such as "std_srvs/srv/SetBool".
-        text: the .srv definition, of a type that webviz does not know by itself.
+        text: the .srv definition, for types unknown to webviz.
 
     Raises:
         UnknownTypeError: no definition is known.
@@ -63,11 +63,11 @@ def service(type_name: str, text: str = "") -> Service:
 
 
 def action(type_name: str, text: str = "") -> Action:
-    """The parts of an action type, declared if they are not yet.
+    """The parts of an action type; declares them when first used.
 
     Args:
         type_name: such as "nav2_msgs/action/NavigateToPose".
-        text: the .action definition, of a type that webviz does not know by itself.
+        text: the .action definition, for types unknown to webviz.
 
     Raises:
         UnknownTypeError: no definition is known.
@@ -97,7 +97,7 @@ def action(type_name: str, text: str = "") -> Action:
 
 
 def _with_event(type_name: str, parts: Service) -> Service:
-    """Declares what a service is as a whole, of which its hash is made."""
+    """Declare the service type itself, from which its hash is computed."""
     event = f"{type_name}_Event"
     if not typestore.type_exists(event):
         info = ("info", (Nodetype.NAME, "service_msgs/msg/ServiceEventInfo"))

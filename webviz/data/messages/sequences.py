@@ -28,8 +28,8 @@ _SEVEN = {order: Struct(order + "7d").unpack_from for order in "<>"}
 def read_transforms(reader: Reader) -> list[FrameTransform]:
     """Read a `geometry_msgs/TransformStamped[]`.
 
-    /tf is the busiest topic of most robots, so this loop spells out what `Reader` does, which
-    saves a third of the time (49 instead of 71 us for 50 transforms).
+    /tf is the busiest topic of most robots, so this loop inlines `Reader`, which saves a
+    third of the time (49 instead of 71 us for 50 transforms).
     """
     count = reader.count()
     data, size, pos = reader.data, reader.size, reader.pos
@@ -47,8 +47,10 @@ def read_transforms(reader: Reader) -> list[FrameTransform]:
         child_end = child_start + child_length
         pos = child_end + (4 - child_end & 7)
         if pos + _POSE_SIZE > size:
-            raise CdrError("a transform is longer than what is left")
-        if data[end - 1] or data[child_end - 1]:  # of length 0, this is a byte of that length: 0
+            raise CdrError("a transform is longer than the rest of the message")
+        if (
+            data[end - 1] or data[child_end - 1]
+        ):  # for length 0 this is the last byte of the length itself: 0
             raise CdrError("a frame id does not end in NUL")
         x, y, z, qx, qy, qz, qw = seven(data, pos)
         pos += _POSE_SIZE
@@ -92,7 +94,7 @@ def _read_evenly_spaced(reader: Reader, count: int) -> PoseStampedSequence | Non
     """Read poses whose frame ids equal the first; None if one differs.
 
     A pose ends on a multiple of 8, so from the second on all have the same padding: their headers
-    and their numbers lie at a constant stride behind the first.
+    and numbers follow the first at a constant stride.
     """
     dtype = np.dtype(reader.order + "u4")
     stamp = reader.stamp()

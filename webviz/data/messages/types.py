@@ -83,7 +83,7 @@ class LaserScan(Struct, frozen=True, eq=False):
 
 
 class PointField(Struct, frozen=True):
-    """sensor_msgs/msg/PointField: where in each point of a cloud a channel lies."""
+    """sensor_msgs/msg/PointField: the place of a channel in each point of a cloud."""
 
     INT8: ClassVar[int] = 1
     UINT8: ClassVar[int] = 2

@@ -1,7 +1,7 @@
 """The known message types and their layout.
 
-rosbags knows the ROS 2 core interfaces and reads .msg text; only its definitions are used, never
-the code it generates from them, because definitions may come from a stranger's publisher.
+rosbags knows the ROS 2 core interfaces and parses .msg text. Only its definitions are used, never
+the code that it generates from them, because definitions may come from untrusted publishers.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def full_name(type_name: str) -> str:
     full = type_name if type_name.count("/") != 1 else type_name.replace("/", "/msg/")
     if not _TYPE_NAME.fullmatch(full):
         raise UnknownTypeError(
-            f"{type_name!r} is not the name of a message type, such as sensor_msgs/msg/LaserScan."
+            f"{type_name!r} is not a valid message type, such as sensor_msgs/msg/LaserScan."
         )
     return full
 
@@ -90,7 +90,7 @@ def constants(type_name: str) -> dict[str, bool | int | float | str]:
 
 
 def definition(type_name: str) -> str:
-    """The .msg text of a type, followed by those of the types it holds, as bags store it.
+    """The .msg text of a type, followed by those of its nested types, as bags store it.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -117,14 +117,16 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
     name = full_name(type_name)
     try:
         learnt = get_types_from_msg(text, name)
-    except TypesysError as error:  # it quotes the whole definition, in the parser's own words
+    except TypesysError as error:  # its text quotes the whole definition
         raise DefinitionError(f"The definition of {name} is not valid .msg text.") from error
-    if name not in learnt:  # such as a service's, whose types would be messages
+    if name not in learnt:  # such as that of a service
         raise DefinitionError(f"The definition of {name} does not define it.")
     known = _store().fielddefs
     for key in learnt:
         if key in fixed and _fields_of(learnt[key]) != fields(key):
-            raise DefinitionError(f"The definition of {name} holds a {key} unlike ROS 2's.")
+            raise DefinitionError(
+                f"The definition of {name} contains a {key} that differs from ROS 2's."
+            )
     before = {key: known[key] for key in learnt if key in known}
     known.update(learnt)
     try:
@@ -137,7 +139,7 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
 
 
 def declare(type_name: str, described: list[Any]) -> None:
-    """Learn a type that consists of others, such as a part of an action.
+    """Register a type that consists of others, such as a part of an action.
 
     Args:
         type_name: its full name.
@@ -158,9 +160,9 @@ def described(type_name: str) -> list[Any]:
 def _check_closed(type_name: str, inside: tuple[str, ...]) -> None:
     """Raise unless all types that `type_name` contains are known and none contains itself."""
     if type_name in inside:
-        raise DefinitionError(f"{type_name} cannot hold a {type_name}.")
+        raise DefinitionError(f"{type_name} cannot contain itself.")
     if type_name not in _store().fielddefs:
-        raise DefinitionError(f"{inside[-1]} holds a {type_name}, whose definition is missing.")
+        raise DefinitionError(f"{inside[-1]} contains a {type_name}, whose definition is missing.")
     for name in {field.base for field in fields(type_name) if field.is_message}:
         _check_closed(name, (*inside, type_name))
 

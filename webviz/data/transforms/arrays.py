@@ -1,6 +1,6 @@
 """The formulas of `geometry` for many poses at once.
 
-Poses come and go as rows, float64 (7, N): x, y, z, qx, qy, qz, qw. In between they are pairs,
+Poses enter and leave as rows, float64 (7, N): x, y, z, qx, qy, qz, qw. In between they are pairs,
 complex128 (4, N): the quaternions xi + yj + zk of the translation and w + xi + yj + zk of the
 rotation, each as two complex numbers, a + bj with a = w + xi and b = y + zi (Cayley-Dickson). Then
 (a + bj)(c + dj) = (ac - bd*) + (ad + bc*)j: numpy multiplies complex numbers about as fast as
@@ -57,10 +57,10 @@ def _rows_of(pairs: C128) -> tuple[F64, ...]:
 
 
 def canonical_many(rotations: F64) -> F64:
-    """tf2's way through a matrix, as `geometry.canonical`.
+    """`geometry.canonical` for many rotations.
 
-    What comes out is the quaternion divided by its length, in the sign that makes w positive where
-    the trace of the matrix is, and elsewhere the component of its largest diagonal element.
+    The results have length one. Their sign makes w positive if the trace of the rotation matrix is,
+    else the component of its largest diagonal element.
 
     Args:
         rotations: (4, N), quaternions (x, y, z, w) of any length but zero.
@@ -82,23 +82,23 @@ def canonical_many(rotations: F64) -> F64:
 
 
 def interpolation_table(start: F64, end: F64) -> F64:
-    """What `interpolate_many` needs to know of each pair of poses.
+    """Precomputed values of each pair of poses for `interpolate_many`.
 
     Args:
         start: (7, N) poses.
         end: (7, N) poses.
 
     Returns:
-        (15, N): the start's translation and the way to the end's; both rotations, divided by the
-        sine of the angle between them, the end's on the shorter way round; and that angle in
-        quaternion space.
+        (15, N): the start's translation and the offset of the end's; both rotations, divided by
+        the sine of the angle between them, the end's in the sign of the shorter way; and that
+        angle in quaternion space.
     """
     a, b = start[3:], end[3:]
     dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
     aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3]
     bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2] + b[3] * b[3]
     theta = np.arccos(np.minimum(np.abs(dot) / np.sqrt(aa * bb), 1.0))
-    # Equal rotations: any small angle will do, as sin(r t) + sin((1 - r) t) is then sin(t).
+    # For equal rotations any small angle works: sin(r t) + sin((1 - r) t) is then sin(t).
     theta = np.maximum(theta, 1e-9)
     scale = 1.0 / np.sin(theta)
     rotations = (a * scale, b * np.copysign(scale, dot))

@@ -31,23 +31,22 @@ _SILENT = np.errstate(over="ignore", invalid="ignore")
 
 
 class TransformBuffer:
-    """Transforms of the last seconds, and the pose of any frame in any other at a time.
+    """The transforms of the last seconds, from which it computes poses at any time.
 
-    Answers as tf2's BufferCore (ROS 2 Jazzy) does, its error texts included. A stamp is an int in
+    Results and error texts are those of tf2's BufferCore (ROS 2 Jazzy). A stamp is an int in
     nanoseconds; 0 asks for the latest time common to all links of the chain.
 
-    There is no lock, by design: the frame loop alone inserts, clears and reads. Subscriptions hand
-    over raw messages; the loop decodes and inserts them at the start of a tick, so all that is
-    looked up within a tick sees one state.
+    There is deliberately no lock: only the frame loop inserts, clears and reads. It decodes and
+    inserts messages at the start of a tick, so that all lookups of a tick see one state.
 
     Args:
-        cache_time_ns: how much history each moving frame keeps (tf2's and RViz's default is 10 s).
+        cache_time_ns: history kept of each moving frame (tf2's and RViz's default is 10 s).
 
     Attributes:
-        nodes: the node behind each authority, if known, for sentences.
-        version: changes whenever something was stored or cleared.
-        structure_version: changes when frames, parents, static poses or the kind of a frame did:
-            results that depend only on the tree's shape can be cached until then.
+        nodes: the node of each authority, if known; sentences name it.
+        version: changes whenever something is stored or cleared.
+        structure_version: changes when a frame, a parent, a static pose or the kind of a frame
+            changes: results that depend only on the tree's shape can be cached until then.
     """
 
     def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
@@ -94,18 +93,18 @@ class TransformBuffer:
         length but zero. A frame that changes between static and moving loses its history.
 
         Args:
-            parent: frame that the pose is given in.
-            child: frame that it is the pose of.
-            stamp_ns: when; without meaning for a static transform.
+            parent: frame id.
+            child: frame id.
+            stamp_ns: time of the pose; ignored for a static transform.
             translation: (x, y, z) in metres; infinity is accepted, NaN is not.
             rotation: (x, y, z, w).
-            is_static: it holds at all times.
-            authority: who published it, as far as known.
-            received_ns: when it was received, for the diagnosis; 0 if not known.
+            is_static: whether it holds at all times.
+            authority: the publisher, if known.
+            received_ns: time of reception, for the diagnosis; 0 if unknown.
 
         Returns:
-            Whether it was stored (a repeated sample counts as stored); if not, `rejections` says
-            why.
+            Whether it was stored (a repeated sample counts as stored); if not, `rejections` has the
+            reason.
         """
         if parent[:1] == "/":
             parent = parent[1:]
@@ -165,11 +164,11 @@ class TransformBuffer:
         """`set_transform` for N moving transforms of one message.
 
         Args:
-            names: N times a parent and its child.
+            names: N pairs of a parent and its child.
             stamps_ns: N stamps.
             poses: float64 (N, 7), translations in metres and rotations (x, y, z, w).
-            authority: who published them.
-            received_ns: when they were received.
+            authority: their publisher.
+            received_ns: time of reception.
         """
         others = insert_expected(
             self._tree, self._publishers, names, stamps_ns, poses, authority, received_ns
@@ -186,7 +185,7 @@ class TransformBuffer:
     def lookup(self, target: str, source: str, stamp_ns: int) -> Transform:
         """The pose of `source` in `target` at a time; 0 means the latest common time.
 
-        The same frame twice gives the identity without asking whether it exists.
+        The same frame twice gives the identity, even if it does not exist.
 
         Raises:
             InvalidArgumentException: a frame id is empty or starts with a slash.
@@ -201,16 +200,11 @@ class TransformBuffer:
     def lookup_many(
         self, target: str, source: str, stamps_ns: NDArray[np.int64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """`lookup` at many times at once: a scan per beam, a trail.
-
-        Args:
-            target: frame to express the poses in.
-            source: frame whose poses are asked for.
-            stamps_ns: int64 (N,) in any order.
+        """`lookup` at many times, such as those of a scan's beams: int64 (N,) in any order.
 
         Returns:
             Translations float64 (N, 3) in metres, rotations float64 (N, 4) as (x, y, z, w), and
-            bool (N,): whether `lookup` would succeed. Where it would not, the poses are NaN.
+            bool (N,): whether `lookup` would succeed. The other poses are NaN.
         """
         return lookup_many(self._tree, target, source, stamps_ns)
 
@@ -222,8 +216,8 @@ class TransformBuffer:
 
         Args:
             target: frame to express the poses in.
-            frames: frames whose poses are asked for; by default all of `frames()`.
-            stamp_ns: one time for all; 0 means for each its latest common time with the target.
+            frames: requested frames; by default all of `frames()`.
+            stamp_ns: one time for all; 0 for the latest common time of each with the target.
         """
         names = self.frames() if frames is None else list(frames)
         if stamp_ns == 0 and len(names) >= many_frames.ARRAYS_PAY_FROM:
@@ -236,9 +230,9 @@ class TransformBuffer:
     def lookup_full(
         self, target: str, target_stamp_ns: int, source: str, source_stamp_ns: int, fixed: str
     ) -> Transform:
-        """Where `source` was at one time, seen from `target` at another; `fixed` did not move.
+        """The pose of `source` at one time in `target` at another; `fixed` does not move.
 
-        The stamp returned is the one of the target's side.
+        The returned stamp is that of the target.
 
         Raises:
             TransformException: as `lookup`, for each of the two steps.
@@ -273,7 +267,7 @@ class TransformBuffer:
         return self._tree.latest_common_time(target, source)
 
     def clear(self) -> None:
-        """Forget the samples of moving frames; as in tf2 the rest stays, static transforms too."""
+        """Forget the samples of moving frames; as in tf2 frames and static transforms stay."""
         for cache in self._tree.caches.values():
             cache.clear()
         self._rejections.clear()
@@ -287,7 +281,7 @@ class TransformBuffer:
             publishers.forget()
 
     def link(self, frame: str) -> Link | None:
-        """What places a frame in its parent; None for roots and frames without data."""
+        """The newest transform of a frame to its parent; None for roots and without data."""
         cache = self._tree.caches.get(frame)
         if cache is None or (newest := cache.newest) is None:
             return None
@@ -297,8 +291,8 @@ class TransformBuffer:
     def rigid_root(self, frame: str) -> str:
         """The uppermost frame that static transforms join with this one; itself if there is none.
 
-        Frames of one rigid root never move against each other. Stands until `structure_version`
-        changes.
+        Frames of one rigid root never move relative to each other. Valid until
+        `structure_version` changes.
         """
         return self._tree.rigid_root(frame)
 

@@ -70,7 +70,7 @@ class StaticCache:
 class TimeCache:
     """The samples of a moving frame, ascending by stamp.
 
-    Of equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
+    Among equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
     readers must not change them.
 
     Attributes:
@@ -85,9 +85,8 @@ class TimeCache:
         self.samples: list[ParentedPose] = []
         self.mixed_ns = NEVER_NS
         self._cache_time_ns = cache_time_ns
-        # The poses once more, side by side, as far as `poses` was ever asked for: to gather them
-        # anew each time takes longer than all the arithmetic on them. The pruned ones stay at its
-        # beginning until they are half of it.
+        # A contiguous copy of the poses that `poses` extends on demand: gathering them each time
+        # would take longer than the arithmetic. Pruned poses stay at its start until they are half.
         self._packed = array("d")
         self._dead = 0
 
@@ -174,30 +173,15 @@ class TimeCache:
                 self._dead = 0
 
     def at(self, stamp_ns: int) -> ParentedPose | None:
-        """The sample interpolated at a time; 0 means the newest; None if `refusal` says why not."""
-        stamps = self.stamps
-        if not stamps:
+        """The sample interpolated at a time, 0 for the newest; None if `refusal` has a reason."""
+        bracket = self.bracket(stamp_ns)
+        if bracket is None:
             return None
-        newest = stamps[-1]
-        if stamp_ns == newest or stamp_ns == 0:
-            return self.samples[-1]
-        oldest = stamps[0]
-        if stamp_ns == oldest:
-            return self.samples[0]
-        if not oldest < stamp_ns < newest:
-            return None
-        i = bisect_right(stamps, stamp_ns)
-        before = self.samples[i - 1]
-        after = self.samples[i]
-        parent = before[1]
-        if parent != after[1]:
-            return before  # no interpolation across re-parenting
-        start = stamps[i - 1]
-        ratio = float(stamp_ns - start) / float(stamps[i] - start)
-        return interpolate(before[0], after[0], ratio), parent
+        before, after, ratio, parent = bracket
+        return before if after is before else interpolate(before, after, ratio), parent
 
     def bracket(self, stamp_ns: int) -> Bracket | None:
-        """What `at` would interpolate at a time; the same pose twice where it would not."""
+        """The samples that `at` interpolates; the same pose twice if it does not."""
         stamps = self.stamps
         if not stamps:
             return None
@@ -215,12 +199,12 @@ class TimeCache:
         pose, parent = self.samples[i - 1]
         after, other = self.samples[i]
         if parent != other:
-            return pose, pose, 0.0, parent
+            return pose, pose, 0.0, parent  # no interpolation across re-parenting
         start = stamps[i - 1]
         return pose, after, float(stamp_ns - start) / float(stamps[i] - start), parent
 
     def refusal(self, stamp_ns: int) -> tuple[type[ExtrapolationException], str]:
-        """Why `at` gave nothing, as tf2's exception and the beginning of its text."""
+        """Why `at` returned None: tf2's exception and the start of its text."""
         stamps = self.stamps
         if not stamps:
             return NoDataForExtrapolationException, ""

@@ -18,10 +18,10 @@ def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
 
     Args:
         buffer: transforms inserted with the time at which they were received.
-        now_ns: the current ROS time; 0 if not known.
+        now_ns: the current ROS time; 0 if unknown.
 
     Returns:
-        A sentence; empty if all is well.
+        A sentence, "" if the clocks agree.
     """
     offsets: dict[str, int] = {}  # stamp minus time of reception
     for child, publishers in buffer.publishers.items():
@@ -34,8 +34,7 @@ def clock_problem(buffer: TransformBuffer, now_ns: int) -> str:
     wrong = {child: ns for child, ns in offsets.items() if abs(ns) > TOLERANCE_NS}
     if not now_ns or not wrong:
         return ""
-    worst = max(wrong.values(), key=abs)
-    child = max(wrong, key=lambda child: abs(wrong[child]))
+    child, worst = max(wrong.items(), key=lambda item: abs(item[1]))
     stamp_ns = buffer.tree.caches[child].newest_stamp
     if stamp_ns < YEAR_NS and now_ns > WALL_NS:
         return (

@@ -25,14 +25,14 @@ class FrameReport:
         frame: its id.
         parent: its parent now; empty if its samples were cleared.
         is_static: whether it holds at all times.
-        publishers: the recent ones, as far as known, the current one last.
+        publishers: the known recent ones, the current one last.
         rate_hz: samples per second of their stamps; 0 for a static frame or a single sample.
         newest_ns: stamp of the newest sample, 0 for a static frame.
         age_ns: now minus that; None for a static frame.
-        delay_ns: how long after its stamp the last one was received; None if not known.
-        samples: how many are kept.
+        delay_ns: from the stamp of the last one to its reception; None if unknown.
+        samples: number of samples kept.
         history_ns: time between the oldest and the newest of them.
-        problems: sentences; empty if all is well.
+        problems: sentences.
     """
 
     frame: str
@@ -84,7 +84,7 @@ def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
 
     Args:
         buffer: the transforms.
-        now_ns: the current ROS time; 0 if not known, then the newest stamp of all counts as now.
+        now_ns: the current ROS time; 0 for the newest of all stamps.
     """
     tree = buffer.tree
     now_ns = now_ns or max((cache.newest_stamp for cache in tree.caches.values()), default=0)

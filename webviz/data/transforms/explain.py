@@ -25,7 +25,7 @@ def explain(
         fixed_frame: frame in which everything is drawn.
         frame: frame of the data.
         stamp_ns: time of the data; 0 means the latest.
-        now_ns: the current ROS time, 0 if it is not known.
+        now_ns: the current ROS time; 0 if unknown.
     """
     if frame == fixed_frame and frame:
         return Explanation(Kind.AVAILABLE, "Transform OK")

@@ -33,12 +33,11 @@ class _Waiting(Generic[P]):
 class MessageFilter(Generic[P]):
     """Holds messages back until the fixed frame can be reached from their frame at their stamp.
 
-    Every message is tried at once; only those that must wait take a place in the queue. When it is
-    full the oldest is dropped. A newer message never replaces one that became ready.
-    A zero stamp asks for the latest transform.
+    Only messages that must wait enter the queue; when it is full, the oldest is dropped. A newer
+    message never replaces one that became ready. A zero stamp requests the latest transform.
 
     Args:
-        queue_size: how many may wait (RViz's Filter size).
+        queue_size: maximum number of waiting messages (RViz's Filter size).
     """
 
     def __init__(self, queue_size: int = 10) -> None:
@@ -66,14 +65,14 @@ class MessageFilter(Generic[P]):
     def add(
         self, payload: P, frame: str, stamp_ns: int, now_ns: int = 0, duration_ns: int = 0
     ) -> None:
-        """Let a message in; `ready` will try it.
+        """Add a message, which `ready` will try.
 
         Args:
             payload: returned by `ready`.
             frame: its frame id; one leading slash is stripped, as tf2's filter does.
             stamp_ns: its time; 0 means the latest.
-            now_ns: the current ROS time, 0 if it is not known.
-            duration_ns: the transform must exist up to so long after the stamp too (a scan).
+            now_ns: the current ROS time; 0 if unknown.
+            duration_ns: the transform must also exist this long after the stamp (of a scan).
         """
         frame = frame.removeprefix("/")
         self._new.append(_Waiting(payload, frame, stamp_ns, duration_ns))
@@ -108,7 +107,7 @@ class MessageFilter(Generic[P]):
     def explanation(
         self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0
     ) -> Explanation | None:
-        """Why nothing is ready: of the message that waits longest, else of the last one given up.
+        """Why nothing is ready: for the message that waits longest, else the last one given up.
 
         None if nothing waits and nothing was given up since a message last became ready.
         """
@@ -137,8 +136,8 @@ class MessageFilter(Generic[P]):
         self._given_up = message
 
     def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:
-        """Transforms do come, but later than the queue can wait."""
-        text = f"The queue of {self._queue_size} messages is full before their transforms come"
+        """Transforms arrive, but later than the queue can wait."""
+        text = f"The queue of {self._queue_size} messages is full before their transforms arrive"
         remedy = "raise the filter size"
         if len(self._queue) > 1:
             newest = self._queue[-1]
@@ -153,7 +152,7 @@ class MessageFilter(Generic[P]):
 def _why(
     buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P], now_ns: int
 ) -> Explanation:
-    """What keeps a message from its place: the first of its stamps that has none."""
+    """Why a message waits: the reason for the first of its stamps without a transform."""
     reasons = [explain(buffer, fixed_frame, message.frame, t, now_ns) for t in message.stamps()]
     return next((r for r in reasons if r.kind != Kind.AVAILABLE), reasons[0])
 
@@ -165,7 +164,7 @@ def _is_within_reach(buffer: TransformBuffer, fixed_frame: str, message: _Waitin
 
 
 def _is_too_old(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
-    """Whether no transform for it can come any more (tf2's rule)."""
+    """Whether a transform for it can no longer arrive (tf2's rule)."""
     try:
         newest = buffer.latest_common_time(fixed_frame, message.frame)
     except TransformException:

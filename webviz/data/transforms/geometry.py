@@ -2,7 +2,7 @@
 
 A pose is seven numbers `(x, y, z, qx, qy, qz, qw)`: it maps coordinates of a child frame into its
 parent. The order of the floating point operations is tf2's own: the sign that the conversion from
-matrix to quaternion gives to a rotation by 120 or 180 degrees hangs on the last bit.
+matrix to quaternion gives to a rotation by 120 or 180 degrees depends on the last bit.
 `rotate`, `compose` and `inverse` work elementwise: on floats and on the rows of a (7, N) array.
 """
 
@@ -73,14 +73,14 @@ def to_quaternion(matrix: Matrix) -> Quaternion:
 
 
 def canonical(x: float, y: float, z: float, w: float) -> Quaternion:
-    """The same rotation after tf2's way through a matrix: normalised, of defined sign.
+    """The rotation as tf2 returns it, by way of a matrix: normalised, with a defined sign.
 
-    A quaternion of length zero gives NaN, and so does one that holds NaN.
+    A quaternion of length zero or with NaN gives NaN.
     """
     square = x * x + y * y + z * z + w * w
     if square == 0.0:
         return nan, nan, nan, nan
-    # `to_quaternion(to_matrix(...))` spelt out for most rotations: every transform comes this way.
+    # `to_quaternion(to_matrix(...))` inlined for most rotations: it runs for every transform.
     s = 2.0 / square
     xs, ys, zs = x * s, y * s, z * s
     xx, yy, zz = x * xs, y * ys, z * zs

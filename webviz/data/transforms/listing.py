@@ -9,16 +9,13 @@ from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.tree import FrameTree
 
 SHORTEST_SPAN_NS = 100_000
-"""tf2 divides by no shorter history when it computes a rate, so that static frames get 10 kHz."""
+"""Lower limit of the history from which tf2 computes a rate; static frames get 10 kHz."""
 
 
 def frames_as_yaml(tree: FrameTree, publishers: Mapping[str, Publishers], now_ns: int) -> str:
     """What tf2's all_frames_as_yaml returns, and `view_frames` reads.
 
-    Args:
-        tree: the frames.
-        publishers: per child frame.
-        now_ns: for `transform_delay`, which is left out if this is 0.
+    `transform_delay` is omitted if `now_ns` is 0.
     """
     if not tree.names:
         return "[]"

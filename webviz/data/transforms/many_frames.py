@@ -76,13 +76,9 @@ class _Links:
     tops: list[int] = field(default_factory=list)
 
     def chain(self, tree: FrameTree, frame: str, stamp_ns: int, known: dict[str, int]) -> int:
-        """Number of the link that ends in a frame, with all above it; -1 if they form a loop.
+        """Add the link that ends in a frame and all above it; its number, -1 for a loop.
 
-        Args:
-            tree: where to look.
-            frame: where to begin.
-            stamp_ns: when; 0 means the newest of each link.
-            known: numbers of the links already made for this time.
+        `known` has the numbers of the links already added for this time; 0 is the newest of each.
         """
         climbed: list[tuple[str, PoseTuple, PoseTuple, float]] = []
         while (number := known.get(frame)) is None:
@@ -187,7 +183,7 @@ def poses_in(
 
 
 def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> Sequence[int | None]:
-    """The time at which each frame is to be looked up; None if it has none."""
+    """The time at which to look up each frame; None if there is none."""
     if stamp_ns != 0:
         return [stamp_ns] * len(frames)
     caches = tree.caches
@@ -213,7 +209,7 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
         climbed: list[tuple[str, int]] = []
         frame = asked
         while frame not in meets:
-            meets[frame] = None  # a root elsewhere and a loop stay so
+            meets[frame] = None  # stays None for other roots and loops
             cache = caches.get(frame)
             if cache is None or (newest := cache.newest) is None:
                 break

@@ -21,18 +21,9 @@ def insert_expected(
     authority: str,
     received_ns: int,
 ) -> list[int]:
-    """Store the transforms that change nothing but a pose.
+    """Store the transforms that change nothing but a pose; see `TransformBuffer.set_moving`.
 
     They belong to a known moving frame, with the same parent and authority and a later stamp.
-
-    Args:
-        tree: where to store them.
-        publishers: by child frame.
-        names: N times a parent and its child.
-        stamps_ns: N stamps.
-        poses: (N, 7) translations in metres and rotations (x, y, z, w) of any length.
-        authority: who published them.
-        received_ns: when they were received; 0 if not known.
 
     Returns:
         The indices of the others, to be stored one by one.

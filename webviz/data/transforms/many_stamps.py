@@ -70,7 +70,7 @@ def lookup_many(
 
 
 class _History:
-    """What a cache holds around the requested times, as arrays over its M samples there."""
+    """The samples of a cache around the requested times, as arrays over these M samples."""
 
     def __init__(self, cache: TimeCache, first_ns: int, last_ns: int) -> None:
         stamps = cache.stamps
@@ -79,7 +79,7 @@ class _History:
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
         self._known = stamps[part]
         self.stamps = np.array(self._known, np.int64)
-        # Each sample with its successor; one before a change of parent, and the last, stand still.
+        # Each sample with its successor; the last, and one before a change of parent, with itself.
         start = packed_to_rows(cache.poses(part))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
         self.parent: str | None = None
@@ -104,7 +104,7 @@ class _History:
         Returns:
             Pairs (4, n), and the parent or parents.
         """
-        # How many of the times fall to each sample: those from its stamp up to the next one's.
+        # The number of times from the stamp of each sample up to the next one.
         low = max(bisect_left(self._known, int(times[0])) - 1, 0)
         part = slice(low, bisect_right(self._known, int(times[-1]), low))
         stamps = self.stamps[part]
@@ -141,7 +141,7 @@ class _Histories:
 
 
 class _Group(NamedTuple):
-    """Requests that stand at the same frame on their way up the tree, ascending by time."""
+    """Requests at the same frame on their way up the tree, ascending by time."""
 
     frame: str
     rows: NDArray[np.intp] | slice
@@ -153,7 +153,7 @@ class _Group(NamedTuple):
 def _resolve(histories: _Histories, target: str, source: str, stamps: I64) -> C128:
     """`FrameTree.resolve` for stamps other than 0: pairs (4, N), NaN where there is no pose.
 
-    Requests climb together and part where their parents or their fates differ.
+    Requests climb in groups, which split where parents differ or data is missing.
     """
     out = np.full((4, len(stamps)), complex(np.nan, np.nan))
     tops: dict[str, int] = {}
@@ -215,7 +215,7 @@ def _part(group: _Group, keep: NDArray[np.bool_]) -> _Group:
 
 
 def _climb(histories: _Histories, group: _Group, stamps: I64) -> tuple[list[_Group], _Group | None]:
-    """The group one link higher, split by parent; and those for which there is no such link."""
+    """The group one link higher, split by parent; and the requests without such a link."""
     cache = histories.caches.get(group.frame)
     if cache is None or cache.newest is None:
         return [], group

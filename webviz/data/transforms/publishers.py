@@ -37,18 +37,18 @@ class Contest:
 
 
 class Publishers:
-    """The known publishers of one child frame, as far as they can be distinguished.
+    """The publishers of one child frame, as far as they can be distinguished.
 
-    A publisher that takes over for good is a restart, or a sensor mounted anew; one that returns
+    A publisher that replaces another for good is a restart or a remounted sensor; one that returns
     after it was replaced is a second publisher.
 
     Attributes:
         current: the authority of the last transform stored.
         claim: what it claimed.
-        contest: the last two that took turns, or None.
-        delay_ns: how long after its stamp the last transform was received; None if not known.
-        changes: how often a static transform gave way or was given way to while no contest was
-            known. Whether it was a restart shows when the publishers are asked again.
+        contest: the last two that alternated, or None.
+        delay_ns: from the stamp of the last transform to its reception; None if unknown.
+        changes: how often a static transform replaced another claim, or was replaced, without a
+            known contest. The next query of the publishers shows whether it was a restart.
     """
 
     __slots__ = ("_replaced", "changes", "claim", "contest", "current", "delay_ns")
@@ -68,7 +68,7 @@ class Publishers:
             authority: its publisher.
             claim: the claim.
             stamp_ns: of its transform.
-            horizon_ns: authorities not heard of since this stamp are forgotten.
+            horizon_ns: authorities without transforms since this stamp are forgotten.
         """
         if self.contest is None and not (isinstance(claim, str) and isinstance(self.claim, str)):
             self.changes += 1
@@ -90,11 +90,11 @@ class Publishers:
         self._replaced.clear()
 
     def contested(self, newest_ns: int, cache_time_ns: int) -> Contest | None:
-        """The contest, unless its last turn of moving transforms is long ago.
+        """The contest, unless it is between moving transforms and older than the cache time.
 
         Args:
             newest_ns: newest stamp of the frame.
-            cache_time_ns: how long is long.
+            cache_time_ns: history kept of moving frames.
         """
         contest = self.contest
         if contest is None or contest.is_static or newest_ns - contest.stamp_ns <= cache_time_ns:

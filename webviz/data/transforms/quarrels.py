@@ -17,12 +17,11 @@ from webviz.data.transforms.publishers import Contest
 RECENT = 100
 """Newest samples searched."""
 MIN_TURNS = 6
-"""Consecutive changes of pose that each return to the previous pose:
-two publishers in alternation."""
+"""Consecutive changes of pose, each back to the pose before the last, that mean two publishers."""
 LEAP = 10.0
 """How many times longer each step of a turn is than both steps together."""
 MIN_LEAP_M = 0.01
-"""Smaller changes are an encoder's last digit."""
+"""Smaller changes are noise, such as an encoder's last digit."""
 
 
 def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:

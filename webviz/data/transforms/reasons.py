@@ -47,7 +47,7 @@ class Explanation:
         sentence: the cause with numbers, then the remedy.
         lag_ns: by how much the transforms are behind the stamp, if they are.
         is_catching_up: the transforms are behind, but still arriving.
-        cause: names what is missing, equal for all frames that lack it; "" is only this frame.
+        cause: what is missing, equal for all frames that lack it; "" for this frame alone.
     """
 
     kind: Kind
@@ -69,8 +69,8 @@ def distinct(
 
     Args:
         frames: ids.
-        explain: says why one of them has no pose.
-        most: sentences.
+        explain: the reason of one frame.
+        most: maximum number of sentences.
     """
     found: dict[tuple[Kind, str], tuple[str, str]] = {}
     for frame in frames[:MOST_TRIED]:

@@ -25,7 +25,7 @@ class Transform:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """What places a frame in its parent.
+    """The newest transform of a frame to its parent.
 
     Attributes:
         parent: frame id, of the newest transform.
@@ -40,14 +40,14 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """Why the buffer last refused a transform of a child, and how many it refused.
+    """Why the buffer last refused a transform of a child, and how often.
 
     Attributes:
-        reason: tf2's word for it, such as `TF_OLD_DATA`.
+        reason: tf2's name of it, such as `TF_OLD_DATA`.
         sentence: a description.
         count: transforms of this child refused since the buffer was made or cleared.
         stamp_ns: stamp of the last one refused.
-        received_ns: when that one was received; 0 if not known.
+        received_ns: when that one was received; 0 if unknown.
     """
 
     reason: str

@@ -1,4 +1,4 @@
-"""The shape of the tree, derived once per structure: then a tick is arithmetic on arrays."""
+"""The shape of the tree, derived once per structure; a tick is then arithmetic on arrays."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from webviz.data.transforms.tree import FrameTree
 
 I64 = NDArray[np.int64]
 Jumps = list[tuple[I64, I64]]
-"""Steps from all nodes to their ends at once: in each, some nodes take over what is known of the
-node that they have come to, so that the next step is twice as long."""
+"""Steps of all nodes towards their ends (pointer jumping): in each, rows adopt the results of the
+nodes that they have reached, so that every step is twice as long as the previous one."""
 
 MAX_STAMPS = 8
 """Latest common times of one tick; each takes a pass over all links."""
@@ -38,12 +38,12 @@ _ALWAYS = np.iinfo(np.int64).max
 class Topology:
     """Frames, their ancestors, and where they meet a target frame.
 
-    Valid while the tree's structure is: no frame, parent or static pose may have changed since.
+    Valid until a frame, a parent or a static pose changes.
 
     Args:
-        tree: where to look.
+        tree: the frames.
         target: frame to express poses in.
-        frames: frames whose poses are asked for; unknown ones have none.
+        frames: requested frames; unknown ones have no pose.
     """
 
     def __init__(self, tree: FrameTree, target: str, frames: Sequence[str]) -> None:
@@ -52,7 +52,7 @@ class Topology:
         self._nodes: dict[str, int] = {}
         self._parents: list[int] = []
         self.is_usable = all(self._climb(tree, frame) for frame in (target, *frames))
-        """Whether no frame asked for is in or below a loop."""
+        """Whether no requested frame is in or below a loop."""
         if not self.is_usable:
             return
         parents = np.array(self._parents, np.int64)
@@ -149,7 +149,7 @@ class Topology:
         return np.where(common == _ALWAYS, 0, common)
 
     def _in_roots(self, time: int, newest: I64, asked: I64) -> C128 | None:
-        """Pairs (4, nodes): the poses of the nodes asked for and of the target in their roots."""
+        """Pairs (4, nodes): the poses of requested nodes and the target in their roots."""
         poses = self._links.copy()
         if time:
             is_needed = np.zeros(len(newest), np.bool_)

@@ -98,7 +98,7 @@ class FrameTree:
     def resolve(self, target: str, source: str, stamp_ns: int) -> tuple[PoseTuple, int]:
         """The pose of `source` in `target`, and the time it holds for: 0 if all links are static.
 
-        The walk from the source stops at the first link without data; it fails only if the walk
+        The walk from the source stops at the first link without data, and fails only if the walk
         from the target does not arrive there. So frames below a stale common parent still resolve.
 
         Raises:
@@ -207,7 +207,7 @@ def extrapolation(cache: Cache, target: str, source: str, stamp_ns: int) -> Exce
 
 
 def ancestors(tree: FrameTree, frame: str) -> list[str]:
-    """The frame and what is above it now, up to the root or until a loop closes."""
+    """The frame and its current ancestors, up to the root or until a loop closes."""
     chain: list[str] = []
     while frame not in chain:
         chain.append(frame)

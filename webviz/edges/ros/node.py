@@ -25,6 +25,7 @@ from webviz.edges.ros import qos
 from webviz.edges.ros.control import Control
 from webviz.edges.ros.graph import RosGraph
 from webviz.edges.ros.heap import Heap
+from webviz.edges.ros.shared_memory import remove_abandoned
 from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
 
@@ -64,6 +65,7 @@ class RosSource:
         self._heap = Heap()
         self.inbox = Inbox()
         self._context = Context()
+        remove_abandoned()
         rclpy.init(
             args=list(args),
             context=self._context,

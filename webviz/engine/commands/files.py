@@ -9,7 +9,7 @@ from webviz.engine.commands.command import Command
 
 
 class FileCommand(Command):
-    """A command that reads or writes a config; these run beside the frame loop, in order."""
+    """A command that reads or writes a config; these run in a thread, in order."""
 
 
 @dataclass(frozen=True)

@@ -18,14 +18,14 @@ class UseTool(Command):
     Args:
         tool: id of the tool, or its name.
         points, yaw, keys: of the stroke.
-        tell: called with the result from any thread; must not block.
+        report: called with the result from any thread; must not block.
     """
 
     tool: str
     points: tuple[Position, ...]
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
-    tell: Callable[[Status], None] = ignore
+    report: Callable[[Status], None] = ignore
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ class AnswersPart(Part):
     """Shows the last answer in panels.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         requests: has the answers.
     """
 

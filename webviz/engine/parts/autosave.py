@@ -27,7 +27,7 @@ class AutosavePart(Part):
     """Saves the last state to a file of its own, so the config file is never overwritten.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         files: has the state.
         path: of the file.
     """

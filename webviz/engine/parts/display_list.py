@@ -168,8 +168,8 @@ class DisplayList:
         """Change a property of a display or a group.
 
         Raises:
-            ConfigError: the value does not fit; nothing was changed.
-            AttributeError: there is no such property.
+            ConfigError: the value is invalid; nothing was changed.
+            AttributeError: the property does not exist.
         """
         entry = self.find(id)
         if entry is None or isinstance(entry.declared, Unreadable):

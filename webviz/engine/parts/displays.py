@@ -33,7 +33,7 @@ class DisplaysPart(Part):
     """All displays.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         services: for the runners.
     """
 

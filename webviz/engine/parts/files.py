@@ -35,7 +35,7 @@ class FilesPart(Part):
     """The config that is shown, and its file.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         displays: empty; filled with those of the config.
         settings: replaced by those of the config.
         views: reset when another config is opened.

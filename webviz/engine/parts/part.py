@@ -25,7 +25,7 @@ It raises a `webviz.Error` with one sentence to refuse the command.
 
 
 class Core:
-    """What the parts of a viewer share. Only the frame loop changes it.
+    """Shared by all parts of a viewer. Only the frame loop changes it.
 
     Args:
         source: where messages come from.
@@ -61,7 +61,7 @@ class Part:
     part.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
     """
 
     name: ClassVar[str] = ""

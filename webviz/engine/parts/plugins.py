@@ -15,7 +15,7 @@ class PluginsPart(Part):
     """Reloads plug-ins.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         displays: become instances of the reloaded classes.
         settings: keep the parts of entries from RViz that only saving needs.
     """

@@ -1,4 +1,4 @@
-"""Errors for values that do not fit."""
+"""Errors for invalid values of properties."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from webviz.files.config import ConfigError, explain, sentences
 def not_changed(
     error: msgspec.ValidationError, cls: type[msgspec.Struct], path: str, value: Any
 ) -> ConfigError:
-    """The error for a value that does not fit a property.
+    """The error for an invalid value of a property.
 
     Args:
         error: of validating the value.
         cls: the class with the property.
         path: of the property, dotted if it is nested.
-        value: what it was to be set to.
+        value: the invalid value.
     """
     values = functools.reduce(lambda inner, key: {key: inner}, reversed(path.split(".")), value)
     return ConfigError(f"Not changed: {sentences([explain(error, cls, values)])}")

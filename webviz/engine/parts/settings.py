@@ -36,7 +36,7 @@ class SettingsPart(Part):
         """Change a setting.
 
         Raises:
-            ConfigError: the value does not fit; nothing was changed.
+            ConfigError: the value is invalid; nothing was changed.
         """
         values = msgspec.to_builtins(self.settings) | {key: value}
         try:

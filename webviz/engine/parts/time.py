@@ -18,7 +18,7 @@ class TimePart(Part):
     """ROS time, which can be paused and can start over.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         reset: discards the received data of all parts.
     """
 

@@ -32,7 +32,7 @@ MAX_POINTS = 1000
 """Of a stroke."""
 DEPTH = 5
 """Queue depth of a publisher, RViz's."""
-Tell = Callable[[Status], None]
+Report = Callable[[Status], None]
 
 
 class ToolsPart(Part):
@@ -121,18 +121,18 @@ class ToolsPart(Part):
         ports = {name: (output, topic) for name, output, topic in outputs(tool)}
 
         def publish(name: str, payload: bytes) -> None:
-            self._publish(*ports[name], payload, command.tell)
+            self._publish(*ports[name], payload, command.report)
 
-        context = ToolContext(tool, self.core.frames, self.core.now_ns, publish, command.tell)
+        context = ToolContext(tool, self.core.frames, self.core.now_ns, publish, command.report)
         tool.done(stroke, context)
 
-    def _publish(self, output: Output, topic: Topic, payload: bytes, tell: Tell) -> None:
+    def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> None:
         outlet = self._outlet(output, topic)
         if outlet is None:
-            tell(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
+            report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
             return
         sent = self.core.source.graph.publish(outlet, payload)
-        sent.add_done_callback(lambda sent: tell(_outcome(topic.name, sent)))
+        sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
 
     def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
         """The outlet of an output; None if its topic has no valid name."""

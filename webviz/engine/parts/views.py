@@ -45,7 +45,7 @@ class ViewsPart(Part):
     """The views of all browsers.
 
     Args:
-        core: what all parts share.
+        core: shared by all parts.
         settings: has the saved views, and the one to start with.
         displays: can be focused on.
     """

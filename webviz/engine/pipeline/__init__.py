@@ -1,4 +1,4 @@
-"""From raw messages to nodes and statuses: what runs the displays."""
+"""The pipeline of a display, from raw messages to nodes and statuses."""
 
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.runner import Runner, Services

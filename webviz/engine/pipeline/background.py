@@ -1,4 +1,4 @@
-"""Slow work beside the frame loop."""
+"""Slow work in threads."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any
 
 
 class Workers:
-    """A few threads for the slow work of all displays.
+    """Threads for the slow work of all displays.
 
     Args:
-        wake: called from a worker whenever a result is there.
+        wake: called from a worker whenever a result is ready.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
@@ -36,12 +36,12 @@ class Workers:
         return future
 
     def cancel(self, future: Future[Any]) -> None:
-        """Make work that is not wanted any more end as soon as it can."""
+        """End work that is no longer needed as soon as possible."""
         if not future.cancel() and (stop := self._stops.get(future)):
             stop()
 
     def close(self) -> None:
-        """Forget what has not begun, stop what can be stopped and wait for the rest."""
+        """Cancel or stop all work, and wait until it has ended."""
         for future in tuple(self._stops):
             self.cancel(future)
         self._pool.shutdown(wait=True, cancel_futures=True)
@@ -54,14 +54,14 @@ class Workers:
 class Tasks:
     """The slow work of one display: `ctx.background`.
 
-    Work that a display no longer asks for is forgotten, so a stale result is never drawn.
+    Work that a display no longer requests is cancelled, so a stale result is never drawn.
     """
 
     def __init__(self, workers: Workers) -> None:
         self._workers = workers
         self._futures: dict[object, Future[Any]] = {}
-        self._asked: set[object] = set()
-        self._unanswered: set[object] = set()
+        self._requested: set[object] = set()
+        self._pending: set[object] = set()
 
     def __call__(
         self,
@@ -70,43 +70,43 @@ class Tasks:
         *args: Any,
         stop: Callable[[], None] | None = None,
     ) -> Any:
-        """The result of `fn(*args)`, None while it is not there.
+        """The result of `fn(*args)`, None until it is ready.
 
         Args:
-            key: names the work and what goes into it; another key is other work.
-            fn: runs in a thread; must not touch anything the frame loop changes.
+            key: identifies the work and its arguments.
+            fn: runs in a thread; must not touch the state of the frame loop.
             args: for `fn`.
-            stop: makes `fn` end early; called from any thread once nobody asks for the result.
+            stop: makes `fn` end early; called from any thread once the result is not needed.
 
         Raises:
-            Exception: what `fn` raised.
+            Exception: raised by `fn`.
         """
-        self._asked.add(key)
+        self._requested.add(key)
         if key not in self._futures:
             self._futures[key] = self._workers.submit(fn, *args, stop=stop)
         future = self._futures[key]
         if not future.done():
-            self._unanswered.add(key)
+            self._pending.add(key)
             return None
-        self._unanswered.discard(key)
+        self._pending.discard(key)
         return future.result()
 
     def has_news(self) -> bool:
-        """Whether work is done that was asked for in vain before."""
-        return any(self._futures[key].done() for key in self._unanswered)
+        """Whether a result is ready that was not when it was requested."""
+        return any(self._futures[key].done() for key in self._pending)
 
     def is_busy(self) -> bool:
-        """Whether a result that was asked for has not been drawn yet."""
-        return bool(self._unanswered)
+        """Whether a requested result is not drawn yet."""
+        return bool(self._pending)
 
-    def forget_unasked(self) -> None:
-        """Drop what was not asked for since the last call."""
-        for key in self._futures.keys() - self._asked:
+    def cancel_unrequested(self) -> None:
+        """Cancel work that was not requested since the last call."""
+        for key in self._futures.keys() - self._requested:
             self._workers.cancel(self._futures.pop(key))
-            self._unanswered.discard(key)
-        self._asked.clear()
+            self._pending.discard(key)
+        self._requested.clear()
 
     def close(self) -> None:
-        """Drop everything."""
-        self._asked.clear()
-        self.forget_unasked()
+        """Cancel everything."""
+        self._requested.clear()
+        self.cancel_unrequested()

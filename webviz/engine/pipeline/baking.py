@@ -1,9 +1,9 @@
-"""Nodes with their pose worked into their coordinates.
+"""Baking: transforming the coordinates of nodes into the fixed frame.
 
 The page takes poses and data of one websocket frame in one step (`in_step.js`), but large data
 comes in a later frame than poses, which are small (`scene/outbox.py`). A scan that turns with its
-robot would flicker between the two. So what changes data and pose together is sent in coordinates
-of the fixed frame, relative to an origin that stays while the data is near it.
+robot would flicker between the two. So nodes whose data and pose change together are sent in
+coordinates of the fixed frame, relative to an origin that stays while the data is near it.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from webviz.data.rotations import matrices, multiply_many
 Position = tuple[float, float, float]
 
 PART = 16_384
-"""Points that are moved at once."""
+"""Points per block that fits the cache."""
 REACH_M = 1000.0
-"""float32 resolves 0.06 mm so far from the origin."""
+"""float32 resolves 0.06 mm at this distance from the origin."""
 
 _UNTURNED = np.array((1.0, 0.0, 0.0, 0.0), np.float32)
 
 
 def origin_near(position: Position, former: Position) -> Position:
-    """An origin for data at a position: the former one while it is near enough."""
+    """An origin for data at a position: the former one if it is near enough."""
     if max(abs(p - f) for p, f in zip(position, former, strict=True)) <= REACH_M:
         return former
     x, y, z = (round(p / REACH_M) * REACH_M for p in position)
@@ -35,17 +35,17 @@ def origin_near(position: Position, former: Position) -> Position:
 
 
 def can_bake(node: Node) -> bool:
-    """Whether a node is made of coordinates that can be moved one by one."""
+    """Whether the coordinates of a node can be transformed one by one."""
     return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances)
 
 
 def baked(node: Node, pose: Pose, origin: Position) -> Node:
-    """A node at the identity of a frame at `origin` that looks like `node` at `pose`.
+    """The node that looks at `origin` like `node` does at `pose`.
 
     Args:
         node: one that `can_bake`.
         pose: of the node in the fixed frame.
-        origin: in the fixed frame, metres.
+        origin: position in the fixed frame, metres.
     """
     shift = np.subtract(pose.position, origin)
     if pose.wxyz == (1.0, 0.0, 0.0, 0.0) and not shift.any():
@@ -77,8 +77,8 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
 def _moved(xyz: F32, rotation: NDArray[np.float64], shift: NDArray[np.float64]) -> F32:
     """Points float32 (N, 3), turned and shifted.
 
-    Not as a matrix product: BLAS starts threads for it, which then spin on every core for longer
-    than the product takes. Parts that stay in the cache are five times faster, too.
+    Without a matrix product: BLAS starts threads for it, which spin on every core for longer than
+    the product takes. Blocks that fit the cache are also five times faster.
     """
     r, t = rotation.astype(np.float32), shift.astype(np.float32)
     moved = np.empty_like(xyz)

@@ -1,4 +1,4 @@
-"""What one display has in the scene, changed by as little as possible."""
+"""The groups of one display in the scene, updated by their differences."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Scene(Protocol):
         ...
 
     def upsert(self, group: str, key: str, node: Node, pose: Pose) -> None:
-        """Draw a node at a pose in its group, in place of the one with this key."""
+        """Draw a node at a pose in its group, replacing the node with this key."""
         ...
 
     def remove(self, group: str, key: str) -> None:
@@ -42,11 +42,11 @@ class _Drawn:
     """A group in the scene.
 
     Args:
-        group: what the display said last.
-        origin: of the coordinates that were sent, if poses were worked into them.
-        pose: of the frame that the group follows, as last seen.
-        moved_ns: when that was.
-        fixed_frame: in which that was.
+        group: as the display drew it last.
+        origin: of the coordinates that were sent, if poses were baked into them.
+        pose: last pose of the frame that the group follows.
+        moved_ns: time of that pose.
+        fixed_frame: of that pose.
         visible: None before anything was sent.
     """
 
@@ -59,7 +59,7 @@ class _Drawn:
 
 
 class Drawing:
-    """The groups that one display draws, by scope: one call of a hook fills one scope.
+    """The groups that one display draws, by scope; each call of a hook fills one scope.
 
     Args:
         scene: where to draw.
@@ -72,7 +72,7 @@ class Drawing:
         self._scopes: dict[str, dict[str, _Drawn]] = {}
 
     def replace(self, scope: str, context: Context) -> None:
-        """Make a scope exactly what a context collected."""
+        """Make the content of a scope exactly what a context collected."""
         before = self._scopes.get(scope, {})
         after: dict[str, _Drawn] = {}
         for key, group in context.groups.items():
@@ -94,7 +94,7 @@ class Drawing:
         self._scopes[scope] = after
 
     def remove(self, scope: str) -> None:
-        """Remove all that a scope drew."""
+        """Remove the content of a scope."""
         for key in self._scopes.pop(scope, {}):
             self._scene.remove_group(self._name(scope, key))
 
@@ -104,7 +104,7 @@ class Drawing:
             self.remove(scope)
 
     def followed(self) -> set[str]:
-        """The frames whose poses `move` will ask for."""
+        """The frames whose poses `move` needs."""
         return {
             drawn.group.placement.frame
             for groups in self._scopes.values()
@@ -113,14 +113,14 @@ class Drawing:
         }
 
     def move(self, frames: Frames) -> None:
-        """Bring all groups that follow a frame to where it is now."""
+        """Move all groups with the frames that they follow."""
         for scope, groups in self._scopes.items():
             for key, drawn in groups.items():
                 if drawn.group.placement.frame is not None:
                     self._follow(self._name(scope, key), drawn, frames)
 
     def is_empty(self) -> bool:
-        """Whether nothing of the display can be seen."""
+        """Whether nothing of the display is visible."""
         return not any(
             drawn.visible and any(map(has_content, drawn.group.nodes.values()))
             for groups in self._scopes.values()
@@ -128,7 +128,7 @@ class Drawing:
         )
 
     def lost(self, frames: Frames) -> list[str]:
-        """The frames that hidden groups follow in vain."""
+        """The frames without a pose that hidden groups follow."""
         placements = [
             drawn.group.placement for groups in self._scopes.values() for drawn in groups.values()
         ]

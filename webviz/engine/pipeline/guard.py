@@ -1,4 +1,4 @@
-"""Calls that may raise anything, without ending the frame loop."""
+"""Calls whose exceptions must not end the frame loop."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ log = logging.getLogger("webviz")
 T = TypeVar("T")
 
 CRASHED = object()
-"""The result of a call that raised."""
+"""The result of a call that raised an exception."""
 MAX_CHARACTERS = 500
-"""Of what an exception says."""
+"""Of the text of an exception."""
 
 
 class Guard:
-    """Calls hooks of a display or parts of the viewer; what they raise is logged once.
+    """Calls hooks of a display or parts of the viewer; each exception is logged once.
 
     Args:
-        who: fails, in sentences; "" is the scope of the call.
-        strict: let through what is raised, as tests want it.
-        name: added to the log, to tell displays of one type apart.
-        shown_s: how long a crash is told; None is until the next call of its scope succeeds.
+        who: subject of the error message; "" is the scope of the call.
+        strict: let exceptions through, for tests.
+        name: added to the log, to distinguish displays of one type.
+        shown_s: how long a crash is shown; None is until the next call of its scope succeeds.
         clock: monotonic time in seconds.
     """
 
@@ -49,12 +49,12 @@ class Guard:
 
     @property
     def crashes(self) -> Mapping[str, str]:
-        """What calls raised lately, one sentence for each scope."""
+        """Recent exceptions, one sentence per scope."""
         since = -math.inf if self._shown_s is None else self._clock() - self._shown_s
         return {scope: text for scope, (text, at) in self._crashes.items() if at >= since}
 
     def __call__(self, scope: str, call: Callable[..., Any], *args: Any) -> Any:
-        """The result of a call, or `CRASHED`; `scope` tells calls apart."""
+        """The result of a call, or `CRASHED`; `scope` distinguishes calls."""
         try:
             result = call(*args)
         except (Exception, SystemExit) as error:  # a plug-in may call sys.exit
@@ -65,7 +65,7 @@ class Guard:
         return result
 
     def note(self, scope: str, error: BaseException) -> str:
-        """Log what a call raised, if it is new, and return the sentence that stands in `crashes`.
+        """Log an exception, if it is new, and return its sentence in `crashes`.
 
         Raises:
             BaseException: the error itself, if the guard is strict.
@@ -83,7 +83,7 @@ class Guard:
         return otherwise if result is CRASHED else result
 
     def _log(self, text: str, error: BaseException) -> None:
-        """Log each line of code that raises once; what it says may change with every call."""
+        """Log once per line of code that raises; its text may change with every call."""
         *_, (frame, line) = traceback.walk_tb(error.__traceback__)
         origin = type(error), frame.f_code, line
         if origin not in self._logged:
@@ -96,6 +96,6 @@ def _in_words(error: BaseException) -> str:
     kind = type(error).__name__
     try:
         text = " ".join([str(error), *getattr(error, "__notes__", ())]).strip()
-    except Exception:  # even that is somebody else's code
+    except Exception:  # __str__ of a plug-in's exception
         text = ""
     return f"{kind}: {text[:MAX_CHARACTERS]}" if text else f"{kind}."

@@ -1,4 +1,4 @@
-"""The samples a display holds of each input, and the slot in which each is drawn."""
+"""The samples that a display holds of each input, and the slot in which each is drawn."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from webviz.api.nodes import Pose
 from webviz.api.sample import Sample
 
 MAX_SAMPLES = 10_000
-"""Of one display, whatever its properties say; nothing grows without a bound."""
+"""Per display, whatever its properties request."""
 MAX_BYTES = 256_000_000
-"""Of the messages of one display, as they came; the newest is held however large it is."""
+"""Of serialised messages per display; the newest is always held, however large."""
 
 
 @dataclass
@@ -25,9 +25,9 @@ class Held:
     Args:
         sample: the newest version of it.
         size: of its message, in bytes.
-        slot: number of its scope; free slots are used again, so that a stream of messages updates
-            nodes instead of making and removing them.
-        has_pose: whether the sample could be placed in the fixed frame of now.
+        slot: number of its scope; slots are reused, so that a stream of messages updates nodes
+            instead of adding and removing them.
+        has_pose: whether the sample has a pose in the current fixed frame.
     """
 
     sample: Sample
@@ -37,10 +37,10 @@ class Held:
 
 
 class History:
-    """Holds samples of one input in order of arrival, as many as a display wants.
+    """Holds samples of one input in order of arrival, as many as the display requests.
 
     Args:
-        inputs: how many inputs the display has; they share its limits.
+        inputs: number of inputs of the display, which share its limits.
     """
 
     def __init__(self, inputs: int = 1) -> None:
@@ -48,16 +48,16 @@ class History:
         self._max_bytes = MAX_BYTES // inputs
         self.held: list[Held] = []
         self.version = 0
-        """Another one whenever there is something else to draw."""
+        """Changes whenever the samples do."""
         self._free: list[int] = []
         self._bytes = 0
         self._missed_ns: int | None = None
-        """When the newest of those came that had to go for their size."""
+        """Arrival of the newest sample that was dropped for its size."""
         self._samples: list[Sample] | None = []
-        """What `samples` says, if that is known. Never changed in place, for others hold it."""
+        """Cache of `samples`; never changed in place, as callers hold it."""
 
     def samples(self) -> Sequence[Sample]:
-        """What can be drawn, oldest first."""
+        """The samples that can be drawn, oldest first."""
         if self._samples is None:
             self._samples = [held.sample for held in self.held if held.has_pose]
         return self._samples
@@ -65,16 +65,16 @@ class History:
     def add(self, sample: Sample, size: int, keep: Keep) -> None:
         """Hold a sample whose message has `size` bytes.
 
-        What `keep.count` then excludes goes first, so that its slot is free, and what is too large.
+        Samples beyond `keep.count` or the limit of bytes are dropped first to free their slots.
         """
-        self._let_go(len(self.held) - self._most(keep) + 1)
+        self._drop(len(self.held) - self._most(keep) + 1)
         rest, too_large = self._bytes + size, 0
         while rest > self._max_bytes and too_large < len(self.held):
             rest -= self.held[too_large].size
             too_large += 1
         if too_large:
             self._missed_ns = self.held[too_large - 1].sample.received_ns
-            self._let_go(too_large)
+            self._drop(too_large)
         slot = heapq.heappop(self._free) if self._free else len(self.held)
         self.held.append(Held(sample, size, slot))
         self._bytes += size
@@ -82,7 +82,7 @@ class History:
         self.version += 1
 
     def shortage(self, keep: Keep, now_ns: int) -> str:
-        """A sentence if samples that `keep` wants had to go for their size, else nothing."""
+        """A sentence if samples within `keep` were dropped for their size, else ""."""
         if self._missed_ns is None or not self.held or len(self.held) >= self._most(keep):
             return ""
         limit = f"limit of {self._max_bytes // 1_000_000} MB"
@@ -94,15 +94,15 @@ class History:
         return f"Keeps {span_s:.1f} of {keep.seconds:g} s: {limit}."
 
     def trim(self, keep: Keep, now_ns: int) -> None:
-        """Let go of what is too much or too old."""
-        self._let_go(len(self.held) - self._most(keep))
+        """Drop samples beyond `keep`."""
+        self._drop(len(self.held) - self._most(keep))
         if keep.seconds:
             oldest = now_ns - round(keep.seconds * 1e9)
             is_young = (held.sample.received_ns >= oldest for held in self.held)
-            self._let_go(next((i for i, young in enumerate(is_young) if young), len(self.held)))
+            self._drop(next((i for i, young in enumerate(is_young) if young), len(self.held)))
 
-    def _let_go(self, count: int) -> None:
-        """Forget the oldest samples; their slots are used again, the lowest first."""
+    def _drop(self, count: int) -> None:
+        """Drop the oldest samples; their slots are reused, the lowest first."""
         if count > 0:
             is_whole = self._samples is not None and len(self._samples) == len(self.held)
             self._samples = self._samples[count:] if self._samples and is_whole else None
@@ -115,12 +115,12 @@ class History:
     def move(self, frames: Frames, former_fixed_frame: str, timed: Callable[[str], bool]) -> None:
         """Place all samples in a new fixed frame.
 
-        Each at its own stamp; one older than the transforms goes along with the former fixed frame.
+        Each at its own stamp; samples older than the transforms move with the former fixed frame.
 
         Args:
-            frames: know the new fixed frame.
+            frames: with the new fixed frame.
             former_fixed_frame: frame id.
-            timed: False for inputs whose samples follow their frame instead.
+            timed: False for inputs whose samples follow their frame instead of their stamp.
         """
         shift = frames.latest(former_fixed_frame)
 
@@ -149,11 +149,11 @@ class History:
 
 
 Histories = dict[str, History]
-"""What a display holds of each input, by its name."""
+"""The histories of a display by input."""
 
 
 def held_samples(histories: Histories) -> Sequence[Sample]:
-    """What can be drawn of all inputs, oldest first."""
+    """The samples of all inputs that can be drawn, oldest first."""
     if len(histories) == 1:
         return next(iter(histories.values())).samples()
     every = (history.samples() for history in histories.values())

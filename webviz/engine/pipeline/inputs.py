@@ -1,4 +1,4 @@
-"""The inputs of one display: messages that can be placed, matched by stamp where it asks for it."""
+"""The inputs of one display: messages with a pose, synchronized if the display declares it."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
 from webviz.engine.sources import Offer, Raw, Subscription
 
 Set = Mapping[str, Arrival]
-"""Messages that are drawn together, by input; the first one places them. Most often just one."""
+"""Messages that are drawn together, by input, at the pose of the first; usually just one."""
 
 
 class Inputs:
-    """Lets the messages of all inputs of a display in.
+    """Filters and synchronizes the messages of all inputs of a display.
 
     Args:
-        display: its properties choose the topics.
+        display: has the topics.
         guard: for its hooks.
         resolve: the full name of a topic; raises ValueError.
     """
@@ -38,19 +38,19 @@ class Inputs:
         self._guard = guard
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """What to ask the source for, by topic."""
-        return {i.name: i.subscription() for i in self._heard().values() if i.name}
+        """The subscriptions by topic."""
+        return {i.name: i.subscription() for i in self._active().values() if i.name}
 
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""
-        return any(intake.is_waiting for intake in self._heard().values())
+        return any(intake.is_waiting for intake in self._active().values())
 
     def waits(self, name: str) -> bool:
         """Whether messages of an input wait for the transform at their stamp."""
         return self._guard("waits", self._display.waits, name) is not False
 
     def reset(self) -> None:
-        """Forget what waits."""
+        """Discard waiting messages."""
         for intake in self.intakes.values():
             intake.reset()
         self._synchronizer = self._waiting_since = None
@@ -62,15 +62,15 @@ class Inputs:
         offers: Mapping[str, Offer],
         clock: float,
     ) -> list[Set]:
-        """Let the messages of this tick in; what can be drawn now, in order of arrival."""
-        heard = self._heard()
+        """Take the messages of this turn; those that can be drawn now, in order of arrival."""
+        active = self._active()
         arrived: list[tuple[str, Arrival]] = []
-        for name, intake in heard.items():
+        for name, intake in active.items():
             raws = batches.get(intake.name, ())
             arrivals = intake.take(raws, frames, offers.get(intake.name), clock, self.waits(name))
             arrived += [(name, arrival) for arrival in arrivals]
         arrived.sort(key=lambda item: item[1].raw.received_ns)
-        synchronizer = self._synchronizer = self._renewed(heard)
+        synchronizer = self._synchronizer = self._renewed(active)
         if synchronizer is None:
             return [{name: arrival} for name, arrival in arrived]
         found: list[Set] = []
@@ -91,10 +91,10 @@ class Inputs:
         dropped: Callable[[str], int],
         clock: float,
     ) -> dict[str, Status]:
-        """What there is to say about topics, messages, transforms and stamps."""
+        """Statuses of topics, messages, transforms and stamps."""
         result: dict[str, Status] = {}
-        heard = self._heard()
-        for name, intake in heard.items():
+        active = self._active()
+        for name, intake in active.items():
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
@@ -102,22 +102,22 @@ class Inputs:
             result["Sync"] = status
         return result
 
-    def _heard(self) -> dict[str, Intake]:
+    def _active(self) -> dict[str, Intake]:
         if not overrides(self._display, "listens"):
             return self.intakes
         listens = self._display.listens
-        heard = {name: self._guard("listens", listens, name) for name in self.intakes}
-        return {name: i for name, i in self.intakes.items() if heard[name] is not False}
+        active = {name: self._guard("listens", listens, name) for name in self.intakes}
+        return {name: i for name, i in self.intakes.items() if active[name] is not False}
 
-    def _renewed(self, heard: Mapping[str, Intake]) -> Synchronizer[Arrival] | None:
-        """The synchronizer of the inputs that take part now."""
+    def _renewed(self, active: Mapping[str, Intake]) -> Synchronizer[Arrival] | None:
+        """The synchronizer of the inputs that currently take part."""
         sync = type(self._display).sync
         if sync is None:
             return None
         part = [
             name
             for name in sync.inputs
-            if name in heard and (heard[name].has_received or not heard[name].spec.optional)
+            if name in active and (active[name].has_received or not active[name].spec.optional)
         ]
         if len(part) < 2:
             return None

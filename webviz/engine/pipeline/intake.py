@@ -1,4 +1,4 @@
-"""One input of a display: from raw messages to those whose place in the fixed frame is known."""
+"""One input of a display: from raw messages to those with a pose in the fixed frame."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from webviz.data.transforms import MessageFilter
 from webviz.engine.sources import Offer, Publisher, Raw, Subscription
 
 PATIENCE_S = 1.0
-"""A message that waits for its transform so long is worth a word; TF is often 30 ms late."""
+"""A message that waits longer for its transform gets a status; TF is often 30 ms late."""
 LATE_S = 0.3
-"""A message that is drawn so long after it came, for want of its transform, is worth a warning."""
+"""A message drawn later than this because of its transform gets a warning."""
 
 
 _ASKED = itertools.count(1)
-"""Every new listener, and every one that forgot, asks for what is latched."""
+"""Every new or reset intake requests latched messages."""
 
 
 @dataclass(frozen=True)
 class Arrival:
-    """A message that can be placed: its frame has a pose at its stamp, or it needs none."""
+    """A message whose frame has a pose at its stamp, or that needs none."""
 
     raw: Raw
     frame: str
@@ -37,13 +37,13 @@ class Arrival:
 
 
 class Intake:
-    """Counts, filters and explains the messages of one input.
+    """Counts and filters the messages of one input, and explains what is missing.
 
     Args:
         spec: the input as the display declares it.
         topic: the topic the user chose.
-        name: the full name of the topic, "" if there is none.
-        problem: why there is none.
+        name: the full name of the topic, "" if it has none.
+        problem: why it has none.
     """
 
     def __init__(self, spec: Input, topic: Topic, name: str, problem: str = "") -> None:
@@ -74,18 +74,18 @@ class Intake:
         return len(self._filter) > 0 and self._newest > self._newest_placed
 
     def subscription(self) -> Subscription:
-        """What to ask the source for."""
+        """The subscription of the topic."""
         return Subscription(self.spec.type, self.topic, self.spec.latched, self._asked)
 
     def take(
         self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
     ) -> list[Arrival]:
-        """Let messages in and return those that can be placed now, oldest first.
+        """Take messages and return those that have a pose now, oldest first.
 
         Args:
-            raws: what arrived since the last call.
-            frames: the transforms of this tick.
-            offer: what is known of the topic.
+            raws: arrived since the last call.
+            frames: the transforms of this turn.
+            offer: publishers and QoS of the topic.
             clock: monotonic time in seconds.
             waits: whether messages wait for the transform at their stamp.
         """
@@ -129,15 +129,15 @@ class Intake:
 
     @property
     def duration_ns(self) -> int:
-        """How long messages go on after their stamp: the longest of the last ones."""
+        """How long messages last after their stamp: the longest of the last ones."""
         return max(self._durations, default=0)
 
     def measure(self, duration_ns: int) -> None:
-        """Note how long a message goes on; lasers alternate by a tenth and more."""
+        """Note how long a message lasts; that of lasers varies by a tenth and more."""
         self._durations.append(duration_ns)
 
     def refuse(self, reason: str) -> None:
-        """Note that the newest message cannot be shown, and why."""
+        """Note why the newest message cannot be shown."""
         self._fault = reason
 
     def accepted(self) -> None:
@@ -145,7 +145,7 @@ class Intake:
         self._fault = ""
 
     def reset(self) -> None:
-        """Forget what waits; after a jump of time its stamps mean nothing."""
+        """Discard waiting messages, such as after a jump of time."""
         self._filter.clear()
         self._times.clear()
         self._waiting_since = self._last = None
@@ -154,14 +154,14 @@ class Intake:
     def statuses(
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float
     ) -> dict[str, Status]:
-        """What there is to say about the topic, its messages and their transforms."""
+        """Statuses of the topic, its messages and their transforms."""
         result = {}
         if self._received or not self.spec.optional:
             result["Topic"] = self._topic_status(offers, frames.now_ns, clock)
         if self._fault:
             result["Message"] = Status(Level.ERROR, self._fault)
         elif dropped:
-            text = f"{dropped} messages came faster than they could be read and were dropped."
+            text = f"{dropped} messages dropped: they arrive faster than they can be read."
             result["Message"] = Status(Level.WARN, text)
         if transform := self._transform_status(frames, clock):
             result["Transform"] = transform
@@ -175,7 +175,9 @@ class Intake:
         if not self._placed_at:
             return None
         if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
-            text = f"Drawn {self._late_s:.1f} s late: the transforms come so much after the data."
+            text = (
+                f"Drawn {self._late_s:.1f} s late: the transforms arrive that long after the data."
+            )
             return Status(Level.WARN, f"{text} {waiting.sentence}" if waiting else text)
         return Status(Level.OK, "Transform OK")
 
@@ -189,32 +191,27 @@ class Intake:
             return Status(
                 Level.ERROR,
                 f"Another display reads {self.name} as {offer.type}, this one shows "
-                f"{self.spec.type}: a topic is read as one type only, change one of the two.",
+                f"{self.spec.type}. A topic has only one type: change one of the displays.",
             )
-        everybody = offer.publishers if offer else ()
-        publishers = [p for p in everybody if p.type == self.spec.type]
-        if everybody and not publishers:
+        publishers = offer.publishers if offer else ()
+        matching = [p for p in publishers if p.type == self.spec.type]
+        if publishers and not matching:
             return Status(
                 Level.ERROR,
-                f"{self.name} carries {everybody[0].type}, this display shows {self.spec.type}: "
-                "choose another topic or another display.",
+                f"{self.name} has the type {publishers[0].type}, this display shows "
+                f"{self.spec.type}. Choose another topic or another display.",
             )
         if not publishers:
-            return Status(Level.WARN, self._nobody(offers, clock))
-        if refusal := self._refusal(offer, publishers):
+            return Status(Level.WARN, self._no_publisher(offers, clock))
+        if refusal := self._refusal(offer, matching):
             return Status(Level.ERROR, refusal)
         who = ", ".join(
-            sorted(
-                {
-                    f"{p.node or 'a DDS program'} ({_words(p.reliability, p.durability)})"
-                    for p in publishers
-                }
-            )
+            sorted({f"{p.label} ({_words(p.reliability, p.durability)})" for p in matching})
         )
         if not self._received:
             return Status(Level.WARN, f"No message yet on {self.name} from {who}.")
         age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
-        # While simulated time stands still, silence is no fault.
+        # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self._last.received_ns) / 1e9) if self._last else 0.0
         if rate and silence > max(2.0, 5.0 / rate):
             return Status(
@@ -226,11 +223,11 @@ class Intake:
         count = f"{self._received} message{'s' if self._received != 1 else ''}"
         return Status(Level.OK, f"{count}{pace}, the newest {age:.1f} s ago, from {who}.")
 
-    def _nobody(self, offers: Mapping[str, Offer], clock: float) -> str:
+    def _no_publisher(self, offers: Mapping[str, Offer], clock: float) -> str:
         if self._received:
             age = clock - self._times[-1] if self._times else 0.0
             return (
-                f"No publisher on {self.name} any more; the last message arrived {age:.1f} s ago."
+                f"No publisher on {self.name} any more, last message {age:.1f} s ago. Restart it."
             )
         others = sorted(
             topic
@@ -239,14 +236,14 @@ class Intake:
         )
         if others:
             there = f"{self.spec.type} is published on {', '.join(others[:3])}"
-            return f"No publisher on {self.name}; {there}. Choose that topic, or remap it."
+            return f"No publisher on {self.name}; {there}. Choose or remap that topic."
         return (
-            f"No publisher on {self.name}. Start the node that publishes it, or choose another "
+            f"No publisher on {self.name}. Start the node that publishes it or choose another "
             "topic."
         )
 
     def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
-        """Why DDS does not connect us to anybody, though the type fits."""
+        """Why DDS matches none of the publishers, though the type fits."""
         if offer is None or offer.requested is None:
             return ""
         reliability, durability = offer.requested
@@ -258,7 +255,7 @@ class Intake:
         ours = _words(reliability, durability)
         theirs = _words(publishers[0].reliability, publishers[0].durability)
         return (
-            f"QoS does not match on {self.name}: this display asks for {ours}, "
+            f"QoS does not match on {self.name}: this display requests {ours}, "
             f"the publisher offers {theirs}. Set reliability and durability to auto."
         )
 
@@ -273,10 +270,10 @@ def _words(reliability: str, durability: str) -> str:
 
 
 def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Intake]:
-    """Intakes for all inputs of a display, by property name.
+    """The intakes of a display by input.
 
     Args:
-        display: as its properties are now.
+        display: has the topics.
         resolve: the full name of a topic; raises ValueError.
     """
     result: dict[str, Intake] = {}
@@ -286,7 +283,7 @@ def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Int
         wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
         try:
             full = resolve(wish) if wish else ""
-            problem = "" if full else "No topic is chosen."
+            problem = "" if full else "No topic. Choose one."
         except ValueError as error:
             problem = str(error)
         result[name] = Intake(spec, topic, full, problem)

@@ -1,4 +1,4 @@
-"""Brings /tf and /tf_static into the transform buffer, and notices what is wrong with them."""
+"""Stores /tf and /tf_static in the transform buffer, and reports problems with them."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ TYPE = "tf2_msgs/msg/TFMessage"
 BACK_NS = 1_000_000_000
 BACK_S = 2.0
 BACK_MESSAGES = 10
-"""Time starts over when so many messages in so many seconds, and no others, are stamped further
-back than their frame's newest transform: a bag that loops without /clock. One machine whose clock
-lags never looks so, as its stamps follow its own."""
+"""Time starts over when this many messages in this time, and no others, are stamped further back
+than the newest transform of their frame: a bag that loops without /clock. A machine whose clock
+lags does not match, as its stamps follow its own."""
 REVIEW_S = 1.0
 REFUSED_NS = 5_000_000_000
 ASK_S = 2.0
-"""Shortest time between two subscriptions to /tf_static."""
+"""Minimum time between two subscriptions to /tf_static."""
 MAX_PROBLEMS = 3
 
 log = logging.getLogger("webviz")
@@ -35,8 +35,8 @@ log = logging.getLogger("webviz")
 class TransformListener:
     """Fills a buffer from raw messages.
 
-    Static transforms are told once. When one is replaced, /tf_static is asked again, so that every
-    publisher still there repeats what it said: that tells a restart from a second publisher.
+    Static transforms are sent once. When one is replaced, this subscribes to /tf_static again, so
+    that all running publishers repeat theirs. That distinguishes a restart from a second publisher.
 
     Args:
         buffer: to fill.
@@ -58,7 +58,7 @@ class TransformListener:
         self._found: dict[str, Status] = {}
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """What to hear."""
+        """The topics of tf2."""
         return {
             topic: Subscription(TYPE, Topic(topic), is_static, self._asked if is_static else 0)
             for topic, is_static in TOPICS.items()
@@ -80,13 +80,13 @@ class TransformListener:
         )
 
     def reset(self) -> None:
-        """Forget the moving transforms; the static ones stay, and are asked for again."""
+        """Discard the moving transforms; static ones stay and are requested again."""
         self._buffer.clear()
         self._back_since = self._reviewed_at = None
         self._ask()
 
     def statuses(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:
-        """What is wrong with the transforms, by key."""
+        """Problems with the transforms, by key."""
         clock = self._clock()
         if self._reviewed_at is None or clock - self._reviewed_at > REVIEW_S:
             self._reviewed_at = clock
@@ -123,7 +123,7 @@ class TransformListener:
             )
 
     def _notice_time(self, child: str, stamp_ns: int) -> None:
-        """Note whether a message, by its first transform, is of the past."""
+        """Note whether a message is from the past, by its first transform."""
         link = self._buffer.link(child.removeprefix("/"))
         newest_ns = link.transform.stamp_ns if link else 0
         if stamp_ns >= newest_ns - BACK_NS:
@@ -134,7 +134,7 @@ class TransformListener:
             self._back_messages += 1
 
     def _watch_static(self, offers: Mapping[str, Offer]) -> None:
-        """Ask again when static transforms changed, or those who publish contested ones did."""
+        """Subscribe again when static transforms or the publishers of contested ones changed."""
         publishers = _nodes(offers, "/tf_static")
         if publishers != self._static_publishers:
             self._static_publishers = publishers
@@ -164,9 +164,9 @@ class TransformListener:
             f'{rejection.count} transforms of "{child}" were refused, the last because '
             f"{rejection.sentence}"
             + (
-                ": if a bag started again, press Reset."
+                ". If a bag was restarted, press Reset."
                 if rejection.reason == "TF_OLD_DATA"
-                else "; fix the publisher."
+                else ". Fix the publisher."
             )
             for child, rejection in buffer.rejections.items()
             if now_ns - rejection.received_ns < REFUSED_NS
@@ -184,6 +184,6 @@ def _few(sentences: list[str]) -> list[str]:
 
 
 def _nodes(offers: Mapping[str, Offer], topic: str) -> tuple[str, ...]:
-    """The nodes that publish a topic; several of one name count."""
+    """The nodes that publish a topic, with duplicates."""
     publishers = offers[topic].publishers if topic in offers else ()
-    return tuple(publisher.node or "a DDS program" for publisher in publishers)
+    return tuple(publisher.label for publisher in publishers)

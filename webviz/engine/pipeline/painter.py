@@ -1,4 +1,4 @@
-"""Calls the drawing hooks of one display and keeps the scene as they say."""
+"""Calls the drawing hooks of one display and updates the scene."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NO_STATE = object()
 
 
 class Painter:
-    """What one display draws, what it says while drawing, and the slow work that takes.
+    """The drawing of one display: its nodes, its statuses and its slow work.
 
     Args:
         id: unique name in the scene.
@@ -30,7 +30,7 @@ class Painter:
     def __init__(self, id: str, scene: Scene, workers: Workers) -> None:
         self.order = 0
         self.is_stale = True
-        """Whether all is to be drawn anew: a property changed, say."""
+        """Whether everything must be redrawn, such as after a property changed."""
         self._workers = workers
         self._drawing = Drawing(scene, id)
         self._tasks = Tasks(workers)
@@ -42,7 +42,7 @@ class Painter:
         self._depended: object = None
 
     def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
-        """Call the hooks that have something new to draw, and move what follows frames."""
+        """Call the hooks that have something new to draw, and move groups with their frames."""
         if self._state is _NO_STATE:
             self._state = guard("new_state", display.new_state)
             if self._state is CRASHED:
@@ -60,7 +60,7 @@ class Painter:
         if overrides(display, "tick"):
             self._call("tick", guard, display.tick, frames)
         if changed:
-            self._tasks.forget_unasked()
+            self._tasks.cancel_unrequested()
         self._seen = held
         self.is_stale = False
         self._drawing.move(frames)
@@ -72,7 +72,7 @@ class Painter:
         self.is_stale = True
 
     def forget(self) -> None:
-        """Begin anew, also with what the display remembers between calls."""
+        """Hide everything and discard the state of the display."""
         self.hide()
         self._state = _NO_STATE
 
@@ -82,7 +82,7 @@ class Painter:
         self._tasks.close()
 
     def replace(self, display: Display) -> None:
-        """Go on with an instance of another class, and with the picture there is."""
+        """Continue with an instance of another class, keeping what is drawn."""
         self._tasks.close()
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
@@ -95,23 +95,23 @@ class Painter:
         self.is_stale = True
 
     def is_busy(self) -> bool:
-        """Whether slow work is still to be drawn."""
+        """Whether the result of slow work is not drawn yet."""
         return self._tasks.is_busy()
 
     def followed(self) -> set[str]:
-        """The frames whose poses `draw` will ask for."""
+        """The frames whose poses `draw` needs."""
         return self._drawing.followed()
 
     def lost(self, frames: Frames) -> list[str]:
-        """The frames that hidden groups follow in vain."""
+        """The frames without a pose that hidden groups follow."""
         return self._drawing.lost(frames)
 
     def is_empty(self) -> bool:
-        """Whether nothing of the display can be seen."""
+        """Whether nothing of the display is visible."""
         return self._drawing.is_empty()
 
     def statuses(self) -> dict[str, Status]:
-        """What the hooks said when they were last called; of several with one key the worst."""
+        """The statuses of the last call of each hook; the worst per key."""
         result: dict[str, Status] = {}
         for said in self._statuses.values():
             for key, status in said.items():
@@ -133,7 +133,7 @@ class Painter:
     def _draw_samples(
         self, name: str, display: Display, guard: Guard, history: History, frames: Frames
     ) -> None:
-        """Draw what is new of one input."""
+        """Draw the new samples of one input."""
         drawn = self._drawn.get(name, {})
         samples = {held.slot: held for held in history.held if held.has_pose}
         for slot in drawn.keys() - samples.keys():
@@ -170,9 +170,9 @@ class Painter:
         placement: Placement = Placement(),
         voice: str = "",
     ) -> None:
-        """Call a hook that draws and make the scene follow; after a crash the old picture stays.
+        """Call a hook that draws and update the scene; after a crash the previous nodes stay.
 
-        Of all calls with one voice, the statuses of the last one hold.
+        Calls with one voice replace each other's statuses.
         """
         context = Context(frames, self._tasks, self._state, placement, self.order)
         if guard(scope, hook, *args, context) is CRASHED:

@@ -1,4 +1,4 @@
-"""ROS time as the frame loop sees it: not begun, standing still, or gone back."""
+"""ROS time as the frame loop sees it: unknown, paused, or gone back."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from webviz.engine.sources import Offer
 log = logging.getLogger("webviz")
 
 JUMP_NS = 100_000_000
-"""Time that goes back by less was set right, by NTP; a bag or a simulation goes back by more."""
+"""Smaller steps back are corrections by NTP; bags and simulations go back further."""
 STILL_S = 2.0
-TOLD_S = 15.0
-"""How long to tell that time went back."""
+EVENT_S = 15.0
+"""How long it is shown that time went back."""
 
 
 class RosTime:
-    """Watches the time of each tick.
+    """Checks the time of each turn.
 
     Args:
         clock: monotonic time in seconds.
@@ -33,27 +33,27 @@ class RosTime:
         self._event_at = 0.0
 
     def step(self, now_ns: int) -> bool:
-        """Take the time of a tick, 0 while it is not known; whether it went back."""
+        """Take the time of a turn, 0 while it is unknown; whether it went back."""
         back_ns = self._now_ns - now_ns
         if back_ns != 0:
             self._moved_at = self._clock()
         self._now_ns = now_ns
         if back_ns <= JUMP_NS:
             return False
-        self.tell(f"Time went back by {in_words(back_ns)}: everything was reset.")
+        self.note(f"Time went back by {in_words(back_ns)}: everything was reset.")
         return True
 
-    def tell(self, event: str) -> None:
+    def note(self, event: str) -> None:
         """Log a sentence, and show it for a while."""
         log.warning("%s", event)
         self._event, self._event_at = event, self._clock()
 
     def status(self, offers: Mapping[str, Offer]) -> Status | None:
-        """What is worth knowing of the time, if anything."""
+        """Whether time is missing, paused or went back; None if all is well."""
         publishers = offers["/clock"].publishers if "/clock" in offers else ()
-        nodes = ", ".join(publisher.node or "a DDS program" for publisher in publishers)
+        nodes = ", ".join(publisher.label for publisher in publishers)
         if not self._now_ns:
-            missing = f"{nodes} has not published it yet" if nodes else "it has no publisher"
+            missing = f"{nodes} has not published yet" if nodes else "it has no publisher"
             return Status(
                 Level.WARN,
                 f"Waiting for /clock: use_sim_time is set, but {missing}. Start the simulator, or "
@@ -61,10 +61,10 @@ class RosTime:
             )
         clock = self._clock()
         if clock - self._moved_at > STILL_S:
-            at = f"Simulated time stands still at {self._now_ns / 1e9:.1f} s"
+            at = f"Simulated time has stopped at {self._now_ns / 1e9:.1f} s"
             if nodes:
                 return Status(Level.OK, f"{at}: {nodes} is paused.")
             return Status(Level.WARN, f"{at}: /clock has no publisher any more.")
-        if self._event and clock - self._event_at < TOLD_S:
+        if self._event and clock - self._event_at < EVENT_S:
             return Status(Level.OK, self._event)
         return None

@@ -1,4 +1,4 @@
-"""Runs one display: feeds it messages, calls its hooks, draws what they say."""
+"""Runs one display: passes it messages, calls its hooks, draws the result."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ NOTHING_TO_DRAW = Status(
     Level.WARN,
     "Nothing to draw: the data is empty or the properties hide it. Check both.",
 )
-NOBODY_WATCHES = Status(Level.OK, "Nothing is drawn until a browser connects.")
+NO_BROWSER = Status(Level.OK, "Nothing is drawn until a browser connects.")
 
 
 @dataclass(frozen=True)
 class Services:
-    """What all runners share.
+    """Shared by all runners.
 
     Args:
         scene: where to draw.
         workers: for slow work.
         resolve: the full name of a topic; raises ValueError.
-        strict: raise what a display raises, as tests want it.
+        strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages.
-        tracer: notes the times of samples that somebody asks about.
+        tracer: traces samples on request.
     """
 
     scene: Scene
@@ -54,11 +54,11 @@ class Services:
 
 
 class Runner:
-    """One display at work.
+    """One running display.
 
     Args:
         id: unique name in the scene.
-        display: its properties may be changed through `set` only.
+        display: changed through `set` only.
         services: shared by all.
     """
 
@@ -66,7 +66,7 @@ class Runner:
         self.id = id
         self.display = display
         self.remarks: dict[str, Status] = {}
-        """What others have to say of the display, shown with its own statuses."""
+        """Statuses from elsewhere, shown with those of the display."""
         self._services = services
         self._painter = Painter(id, services.scene, services.workers)
         self._guard = self._new_guard()
@@ -80,11 +80,11 @@ class Runner:
     # Configuration
 
     def set(self, path: str, value: Any) -> None:
-        """Change a property; what is drawn follows without waiting for a message.
+        """Change a property; the display is redrawn without waiting for a message.
 
         Raises:
-            msgspec.ValidationError: the value does not fit; nothing was changed.
-            AttributeError: there is no such property.
+            msgspec.ValidationError: the value is invalid; nothing was changed.
+            AttributeError: the property does not exist.
         """
         topics = {name: topic for name, _, topic in inputs(self.display)}
         set_property(self.display, path, value)
@@ -96,13 +96,13 @@ class Runner:
         self._painter.is_stale = True
 
     def replace(self, display: Display) -> None:
-        """Go on as an instance of another class, with the messages and the picture there are.
+        """Continue as an instance of another class, keeping messages and what is drawn.
 
-        The messages are forgotten if the new class hears others or folds them.
+        Messages are discarded if the inputs of the new class differ or it folds them.
         """
         old, self.display = self.display, display
         self._guard = self._new_guard()
-        if _what_arrives(old) != _what_arrives(display):
+        if _sample_source(old) != _sample_source(display):
             self.reset()
             self._inputs = self._new_inputs()
         else:
@@ -120,17 +120,17 @@ class Runner:
         self._painter.order = order
 
     def hide(self) -> None:
-        """Draw nothing until `draw` is called again, and forget nothing."""
+        """Draw nothing until the next call of `draw`; messages are kept."""
         self._painter.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
-        """What the display needs to hear by topic, nothing while it is disabled."""
+        """The subscriptions by topic, none while the display is disabled."""
         if not self.display.enabled:
             return {}
         return self._inputs.subscriptions()
 
     def reset(self) -> None:
-        """Forget all messages, as after a jump of time."""
+        """Discard all messages, such as after a jump of time."""
         self._inputs.reset()
         self._histories = self._no_histories()
         self._newest.clear()
@@ -143,17 +143,17 @@ class Runner:
         self._painter.close()
         self._services.tracer.forget(self.id)
 
-    # One tick
+    # One turn
 
     def take(
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
     ) -> None:
-        """Let the messages of this tick in; cheap, also when nobody watches."""
+        """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
             self._guard("take", self._take, batches, frames, offers)
 
     def draw(self, frames: Frames) -> None:
-        """Bring the scene up to date."""
+        """Update the scene."""
         if self.display.enabled:
             self._guard("scene", self._draw, frames)
 
@@ -162,11 +162,11 @@ class Runner:
         return self.display.enabled and self._inputs.is_waiting()
 
     def is_busy(self) -> bool:
-        """Whether slow work of the display is still to be drawn."""
+        """Whether the result of slow work is not drawn yet."""
         return self.display.enabled and self._painter.is_busy()
 
     def followed(self) -> set[str]:
-        """The frames whose poses `draw` will ask for."""
+        """The frames whose poses `draw` needs."""
         return self._painter.followed() if self.display.enabled else set()
 
     def color_scale(self) -> ColorScale | None:
@@ -180,7 +180,7 @@ class Runner:
         dropped: Callable[[str], int],
         is_watched: bool,
     ) -> dict[str, Status]:
-        """Everything the display and the framework have to say, by key."""
+        """All statuses of the display, its own and the framework's, by key."""
         if not self.display.enabled:
             return {}
         result = self._guard.attempt("statuses", {}, self._statuses, offers, frames, dropped)
@@ -188,10 +188,10 @@ class Runner:
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
         if worst(result.values()) is Level.OK and self._painter.is_empty():
-            result["Display"] = NOTHING_TO_DRAW if is_watched else NOBODY_WATCHES
+            result["Display"] = NOTHING_TO_DRAW if is_watched else NO_BROWSER
         return result
 
-    # Inside
+    # Internal
 
     def _new_guard(self) -> Guard:
         who = type(self.display).__name__
@@ -215,15 +215,15 @@ class Runner:
         for found in self._inputs.take(batches, frames, offers, clock):
             name = next(iter(found))
             self._ready_s[name] = clock
-            # How long messages go on shows once one is decoded, and the next ones wait for that.
+            # The duration is known once a message is decoded; the next ones wait for that.
             is_unknown = (
                 overrides(display, "duration_ns") and not self._inputs.intakes[name].duration_ns
             )
             if every_one or is_unknown:
-                self._let_in(found, frames)
+                self._admit(found, frames)
             else:
                 self._newest[name] = found
-        self._trim(keep, frames)  # also while nobody watches
+        self._trim(keep, frames)  # also without browsers
 
     def _trim(self, keep: Keep, frames: Frames) -> None:
         for history in self._histories.values():
@@ -232,7 +232,7 @@ class Runner:
     def _draw(self, frames: Frames) -> None:
         newest, self._newest = self._newest, {}
         for found in newest.values():
-            self._let_in(found, frames)
+            self._admit(found, frames)
         if frames.fixed_frame != self._fixed_frame:
             if self._fixed_frame:
                 for history in self._histories.values():
@@ -259,8 +259,8 @@ class Runner:
         keep = self._guard("history", self.display.history)
         return keep if isinstance(keep, Keep) else Keep()
 
-    def _let_in(self, found: Set, frames: Frames) -> None:
-        """Decode the messages of a set and hold it, if the display wants it."""
+    def _admit(self, found: Set, frames: Frames) -> None:
+        """Decode the messages of a set and hold it, if the display accepts it."""
         samples: dict[str, Sample] = {}
         for name, arrival in found.items():
             if (sample := self._sample(name, arrival, frames)) is None:
@@ -278,7 +278,7 @@ class Runner:
             tracer.decoded(self.id, sample, found[name].raw, self._ready_s[name], decoded_s)
 
     def _hold(self, sample: Sample, size: int) -> bool:
-        """Fold a sample in, or hold it if the display accepts it; whether there is news."""
+        """Fold a sample, or hold it if the display accepts it; whether the history changed."""
         if overrides(self.display, "fold"):
             return self._fold(sample, size)
         history = self._histories[sample.input]
@@ -299,7 +299,7 @@ class Runner:
         else:
             pose = frames.now(arrival.frame) or Pose()
         if pose is None:
-            return None  # the buffer was cleared since; newer messages will tell
+            return None  # the buffer was cleared meanwhile
         raw = arrival.raw
         try:
             message = decode(intake.spec.type, raw.cdr)
@@ -323,6 +323,6 @@ class Runner:
         return True
 
 
-def _what_arrives(display: Display) -> tuple[object, ...]:
-    """What has to be the same for samples of one class to serve another."""
+def _sample_source(display: Display) -> tuple[object, ...]:
+    """Samples of one class serve another if this is equal."""
     return inputs(display), type(display).sync, overrides(display, "fold")

@@ -1,4 +1,4 @@
-"""Messages of several inputs that meet by stamp, as message_filters' synchronizers let them."""
+"""Synchronizes messages of several inputs by stamp, like message_filters."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ P = TypeVar("P")
 
 @dataclass(frozen=True)
 class Gap:
-    """What keeps the newest message of one input out of a set.
+    """Why the newest message of one input is in no set.
 
     Args:
         present: input that has the message.
         stamp_ns: of that message.
-        missing: input that has none to go with it.
+        missing: input without a matching message.
         off_ns: by how much the nearest message of `missing` is later, negative if it is earlier;
             None if none has arrived.
     """
@@ -30,20 +30,20 @@ class Gap:
 class Synchronizer(Generic[P]):
     """Forms sets of one message per input whose stamps differ by at most the slop.
 
-    A message that arrives completes the set in which the others are nearest to it; of sets equally
-    near, the earlier one. A set removes its messages and all with earlier stamps. Each queue is
-    bounded; the message that arrived first gives way, so stamps may start over.
+    A message completes the set whose other messages are nearest to it, the earlier one if several
+    are equally near. A set removes its messages and all with earlier stamps. Queues are bounded and
+    drop the message that arrived first, so stamps may start over.
 
     Args:
         inputs: names, at least two.
-        slop_ns: 0 is equal stamps.
-        queue_size: messages per input that may wait for the others.
+        slop_ns: 0 requires equal stamps.
+        queue_size: waiting messages per input.
     """
 
     def __init__(self, inputs: Sequence[str], slop_ns: int = 0, queue_size: int = 10) -> None:
         self.inputs = tuple(inputs)
         self.sets = 0
-        """How many sets were formed since the start."""
+        """How many sets were formed."""
         self.dropped = 0
         """How many messages were in no set."""
         self._slop_ns = slop_ns
@@ -57,7 +57,7 @@ class Synchronizer(Generic[P]):
         return any(self._queues.values())
 
     def add(self, name: str, stamp_ns: int, payload: P) -> dict[str, P] | None:
-        """Let a message in; the set that it completes, by input in their order."""
+        """Add a message; the set that it completes, by input in their order."""
         queue = self._queues[name]
         self.dropped += queue.pop(stamp_ns, None) is not None
         queue[stamp_ns] = payload
@@ -89,9 +89,9 @@ class Synchronizer(Generic[P]):
     def _nearest(self, name: str, stamp_ns: int) -> dict[str, int] | None:
         """The stamps of the set that a message completes.
 
-        Every set lies in a window of the slop that begins with its earliest stamp, and in a window
-        each input is chosen on its own. So trying each window costs little, unlike trying each
-        combination.
+        Every set lies in a window of the slop that starts at its earliest stamp. Within a window
+        each input is chosen independently, so trying all windows is cheap, unlike trying all
+        combinations.
         """
         best: tuple[int, tuple[int, ...]] | None = None
         begins = {s for queue in self._queues.values() for s in queue}
@@ -113,7 +113,7 @@ class Synchronizer(Generic[P]):
         return min(inside, key=lambda s: (abs(s - stamp_ns), s), default=None)
 
     def _take(self, queue: dict[int, P], stamp_ns: int) -> P:
-        """Remove a message and return it; older ones are in no set any more."""
+        """Remove and return a message; older ones can no longer be in a set."""
         payload = queue.pop(stamp_ns)
         for older in [s for s in queue if s < stamp_ns]:
             del queue[older]

@@ -1,4 +1,4 @@
-"""Reads /tf messages that have the same frames as one before: only stamps and numbers are read."""
+"""Reads /tf messages with the same frames as an earlier one: only stamps and numbers."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from webviz.data.messages import TFMessage
 
 MIN_TRANSFORMS = 16
-"""Of a message, from which this takes less time than to decode it."""
+"""Per message; smaller messages are decoded faster."""
 MAX_SIZES = 64
 SAME_SIZE = 4
-"""Layouts known of one size: robots of a fleet differ by a character. Others are decoded."""
+"""Layouts per message size, such as of robots of a fleet. Other messages are decoded."""
 
 _NATIVE = b"\0\1" if sys.byteorder == "little" else b"\0\0"
 
@@ -36,7 +36,7 @@ class Batch:
 
 
 class Layout:
-    """Where things are in the bytes of a message with certain frames.
+    """The byte layout of messages with certain frames.
 
     Args:
         cdr: a message.
@@ -45,7 +45,7 @@ class Layout:
 
     def __init__(self, cdr: bytes, message: TFMessage) -> None:
         self._names = [(t.parent, t.child) for t in message.transforms]
-        stamps, numbers, pos = [], [], 8  # behind the encapsulation and the count
+        stamps, numbers, pos = [], [], 8  # after the encapsulation and the count
         for parent, child in self._names:
             stamps.append(pos)
             pos = _behind(pos + 8, parent)
@@ -63,7 +63,7 @@ class Layout:
         self._head = cdr[:4]
 
     def read(self, cdr: bytes) -> Batch | None:
-        """The transforms of another message, None if it does not have just these frames."""
+        """The transforms of another message, None if its frames differ."""
         if len(cdr) != self._size or cdr[:4] != self._head or self._expected is None:
             return None
         words = _words(cdr)
@@ -76,20 +76,20 @@ class Layout:
 
 
 class Layouts:
-    """The layouts of the messages that come again and again."""
+    """The layouts of recurring messages."""
 
     def __init__(self) -> None:
         self._by_size: dict[int, list[Layout]] = {}
 
     def read(self, cdr: bytes) -> Batch | None:
-        """The transforms of a message, None if its layout is not known."""
+        """The transforms of a message, None if its layout is unknown."""
         for layout in self._by_size.get(len(cdr), ()):
             if (batch := layout.read(cdr)) is not None:
                 return batch
         return None
 
     def learn(self, cdr: bytes, message: TFMessage) -> None:
-        """Know a message's layout from now on, if that pays."""
+        """Remember the layout of a message, if that saves time."""
         if len(message.transforms) < MIN_TRANSFORMS or cdr[:2] != _NATIVE:
             return
         if len(self._by_size) >= MAX_SIZES and len(cdr) not in self._by_size:
@@ -100,7 +100,7 @@ class Layouts:
 
 
 def _behind(pos: int, text: str) -> int:
-    """Where the word begins that comes after a string at a position."""
+    """The position of the word after a string at a position."""
     return (pos + 4 + len(text.encode()) + 1 + 3) & ~3
 
 

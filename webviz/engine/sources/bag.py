@@ -10,14 +10,13 @@ from pathlib import Path
 from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagError, BagFile, Channel, Recorded
-from webviz.engine.sources.bag_time import CLOCK, BagTime
+from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
 
 NODE = "webviz"
 """The node name of private topics (~/...), as in the live viewer."""
-TF_TYPE = "tf2_msgs/msg/TFMessage"
 MOST = 500
 """Messages per call of `play`, so that no queue of the inbox overflows."""
 MOST_BYTES = 32 << 20
@@ -172,7 +171,7 @@ class BagSource:
         """Close the file."""
         self._file.close()
 
-    # Inside
+    # Internal
 
     def _channels(self) -> list[Channel]:
         """The subscribed channels that can be read."""
@@ -211,7 +210,7 @@ class BagSource:
             and (wish.latched or _weakest(channel.publishers)[1] == "transient_local")
         ]
         # Which publishers of transforms were still running is unknown, so all of them count.
-        is_tf = wish.type == TF_TYPE
+        is_tf = wish.type == TF
         depth = None if is_tf else sum(channel.depth for channel in latched)
         past = self._file.messages(latched, self._file.start_ns, self._position_ns)
         for recorded in deque(past, depth):
@@ -219,7 +218,7 @@ class BagSource:
 
     def _arrive(self, recorded: Recorded) -> None:
         if recorded.topic == "/clock" and recorded.type == CLOCK:
-            self._time.hear(recorded)
+            self._time.update(recorded)
         self._put(recorded)
 
     def _put(self, recorded: Recorded) -> None:

@@ -30,16 +30,16 @@ class BagTime:
         self.clocks: list[Channel] = [
             c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
         ]
-        """The channels of `hear`."""
+        """The channels of /clock."""
         self._clock_ns: int | None = None
         self._offset_ns = 0
         first = next(file.messages(self.clocks, file.start_ns), None)
         if first is not None:
-            self.hear(first)
+            self.update(first)
         else:
             self._follow_transforms(file)
 
-    def hear(self, recorded: Recorded) -> None:
+    def update(self, recorded: Recorded) -> None:
         """Process a message of /clock, in the order of the bag."""
         try:
             message: Clock = decode(CLOCK, recorded.cdr)

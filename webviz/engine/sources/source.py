@@ -19,7 +19,7 @@ class Subscription:
         type: the message type, such as "nav_msgs/msg/Path".
         topic: full name, and the QoS that the user chose.
         latched: transient local, whatever publishers offer.
-        asked: a higher number than before makes publishers repeat latched messages.
+        asked: increased to make publishers repeat latched messages.
     """
 
     type: str
@@ -52,6 +52,11 @@ class Publisher:
     type: str
     reliability: Reliability
     durability: Durability
+
+    @property
+    def label(self) -> str:
+        """Its node, for sentences."""
+        return self.node or "a DDS program"
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,6 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     rviz: Annotated[
         dict[str, Any], Prop(help="Unsupported parts of a .rviz file, kept for export.")
     ] = {}  # msgspec copies it
-    """Kept for writing it again."""
 
 
 @dataclass

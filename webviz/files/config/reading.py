@@ -141,14 +141,14 @@ def read_display(entry: Any, place: Location) -> Item:
 
 
 def read_tool(entry: Any, place: Location) -> ToolItem:
-    """A tool from an entry of a list in a config file, which is at `place`."""
+    """A tool from an entry at `place` of a list in a config file."""
     return _read_plugin(Tool, entry, place)
 
 
 def _read_plugin(
     base: type[P], entry: Any, place: Location, others: tuple[str, ...] = ()
 ) -> P | Unreadable:
-    """A display or tool from an entry of a list, without what is in it, which is under `others`."""
+    """A display or tool from an entry of a list; the keys `others` are not its properties."""
     kind = base.kind
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, place.says(NO_TYPE.format(kind, EXAMPLES[kind])))
@@ -160,13 +160,6 @@ def _read_plugin(
     if cls is None:
         reason = f"unknown {kind} type `{entry['type']}`, {nearest(entry['type'], types)}"
         return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
-    return _read(cls, entry, others, place)
-
-
-def _read(
-    cls: type[P], entry: Mapping[str, Any], others: tuple[str, ...], place: Location
-) -> P | Unreadable:
-    """A display or tool without what is in it, which has other keys than its properties."""
     values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
     try:
         return make(cls, values)

@@ -1,4 +1,4 @@
-"""Which of our plug-ins is the counterpart of a class of RViz."""
+"""The plug-ins for classes of RViz."""
 
 from __future__ import annotations
 

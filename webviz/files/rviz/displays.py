@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeGuard
 
 import msgspec
 
-from webviz.api.declared import Declared, make, to_values
+from webviz.api.declared import Declared, P, make, to_values
 from webviz.api.display import Display
 from webviz.api.group import Group
 from webviz.api.registry import type_name
@@ -17,7 +17,7 @@ from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.quiet import is_without_effect
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.rest import KEPT, SELECTS
+from webviz.files.rviz.rest import KEPT
 from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.files.rviz.values import Unfit
@@ -25,7 +25,7 @@ from webviz.files.rviz.values import Unfit
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
 NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
-NOT_USED = {"Selectable": SELECTS}
+NOT_USED = {"Selectable": f"selecting in the scene is not supported yet; {KEPT}"}
 """Why common properties are not used, by key."""
 
 
@@ -95,7 +95,7 @@ def note_properties(
 
 
 def _at_line(name: str, place: Location) -> str:
-    """A name with the line where there is something to put right."""
+    """A name with the line to correct."""
     return f"{name} (line {place.line})" if place.line else name
 
 
@@ -111,11 +111,16 @@ def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
     if tree.get("Class") != cls.rviz:  # ROS 1's class; some topics have other names
         plain = {key: value for key, value in plain.items() if value != {"name": ""}}
     plain |= {"name": values.text(tree.get("Name", "")), "enabled": _is_enabled(tree, reading)}
+    return made(cls, plain, {"name": plain["name"], "enabled": plain["enabled"]}, reading)
+
+
+def made(cls: type[P], plain: Tree, least: Tree, reading: Reading) -> P:
+    """A display or tool from plain values, or `least` if they break a plug-in's own rule."""
     try:
         return make(cls, plain)
-    except msgspec.ValidationError as error:  # a plug-in's own rule besides bounds
+    except msgspec.ValidationError as error:
         reading.faults.append(((), f"{error}; using the defaults"))
-        return make(cls, {"name": plain["name"], "enabled": plain["enabled"]})
+        return make(cls, least)
 
 
 def _is_enabled(tree: Tree, reading: Reading) -> bool:
@@ -138,23 +143,29 @@ def bare(display: Display) -> Tree:
     return {"Class": type(display).rviz, "Name": display.name, **switch, **struct_tree(display)}
 
 
+def is_writable(item: P | Unreadable, report: Report) -> TypeGuard[P]:
+    """Whether RViz has a display or tool; otherwise the reason is reported."""
+    if isinstance(item, Unreadable):
+        report.note(item.name, "this entry", f"skipped: {item.reason.removesuffix('.')}")
+        return False
+    if not type(item).rviz:
+        reason = f"skipped, because RViz has no such {type(item).kind}"
+        report.note(item.name, type_name(type(item)), reason)
+        return False
+    return True
+
+
 def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
     """Displays as RViz's list, None if it is empty."""
     written = []
     for item in items:
-        if isinstance(item, Unreadable):
-            if isinstance(item.values, Mapping) and "rviz" in item.values:
-                written.append(item.values["rviz"])
-            else:
-                report.note(item.name, "this entry", f"skipped: {item.reason.removesuffix('.')}")
-        elif isinstance(item, Branch):
+        if isinstance(item, Branch):
             tree = _write(item.group, kept)
             written.append(tree | {"Displays": write_items(item.displays, report, kept)})
-        elif type(item).rviz:
+        elif isinstance(item, Unreadable) and item.is_from_rviz:
+            written.append(item.values["rviz"])
+        elif is_writable(item, report):
             written.append(_write(item, kept))
-        else:
-            name = type_name(type(item))
-            report.note(item.name, name, "skipped, because RViz has no such display")
     return written or None
 
 

@@ -1,4 +1,4 @@
-"""The page on .rviz files, from those that are given to `make docs`."""
+"""The page on .rviz files, made from those given to `make docs`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from webviz.files.config import read_text
 from webviz.files.rviz.displays import NO_DISPLAY
 from webviz.files.rviz.document import read
 from webviz.files.rviz.report import Report, percent
-from webviz.files.rviz.rest import SAME_HERE, WHY_NOT
+from webviz.files.rviz.rest import SUPPORTED
 
 PAGE = Path(__file__).parents[3] / "displays/docs/config/rviz.md"
 COMMAND = '`make docs RVIZ="FILE.rviz ..."`'
@@ -39,12 +39,13 @@ WHY = """\
 ## Not carried over
 
 Unsupported displays stay in the list with a status. Properties count if they affect the scene; the
-layout of RViz's panel does not. Unsupported tools, and panels, stay in the file unchanged:
+layout of RViz's panel does not. Unsupported tools and panels stay in the file unchanged; these are
+supported: {}.
 """
 
 
 def page(paths: Iterable[Path]) -> str:
-    """The page, with what is carried over of these files."""
+    """The page, with counts of these files."""
     reports = {path.name: read(read_text(path), path.name)[1] for path in paths}
     whole = Report()
     for report in reports.values():
@@ -56,13 +57,9 @@ def page(paths: Iterable[Path]) -> str:
     lines += _table(("file", *kinds), [_counts(name, r, kinds) for name, r in reports.items()])
     lines.append(_row((*_counts("**all**", whole, kinds),)))
     lines.append(_row(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds))))
-    lines += ["", WHY]
-    here = [f"`{name}`" for names in SAME_HERE.values() for name in names]
-    reasons = [(f"`{name}`", reason.partition(";")[0]) for name, reason in WHY_NOT.items()]
-    here += [f"`{cls.rviz.partition('/')[2]}`" for cls in plugin_types(Tool).values()]
-    told = "carried over: tabs, tools and mouse actions of the page"
-    rows = [(", ".join(here), told), *reasons]
-    lines += [*_table(("tool or panel", "reason"), rows), ""]
+    classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
+    classes += [cls.rviz for cls in plugin_types(Tool).values()]
+    lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:
         rows = [(f"`{cls}`", str(count)) for cls, count in sorted(missing.items())]

@@ -16,11 +16,10 @@ from webviz.files.rviz.displays import Kept, read_items, write_items
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import note_rest
 from webviz.files.rviz.tools import NEW_TOOLS, read_tools, write_tools
-from webviz.files.rviz.tree import Tree, child, difference, parse, restored
+from webviz.files.rviz.tree import MANAGER, Tree, child, difference, parse, restored
 from webviz.files.rviz.tree import write as write_tree
 from webviz.files.rviz.values import Unfit
 
-MANAGER = "Visualization Manager"
 BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
 """RViz's defaults for missing keys."""
 
@@ -34,8 +33,7 @@ NEW_FILE: Tree = {
         "Transformation": {"Current": {"Class": "rviz_default_plugins/TF"}},
     },
 }
-"""What RViz needs besides displays in a new file: without it there is no panel
-and no tool."""
+"""What RViz needs besides displays in a new file, to have panels and tools."""
 
 
 def read(text: str, where: str) -> tuple[Config, Report]:

@@ -12,9 +12,7 @@ from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.displays import Kept, read_items
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.tree import Tree, child
-
-MANAGER = "Visualization Manager"
+from webviz.files.rviz.tree import MANAGER, Tree, child
 
 
 def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Settings, Report]:

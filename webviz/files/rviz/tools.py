@@ -1,22 +1,16 @@
-"""The toolbar of .rviz files, and what is kept of it for writing it again.
-
-The list is kept whole, so that tools without a counterpart stay in their places.
-"""
+"""The toolbar of .rviz files; the list is kept whole, so that unsupported tools stay in place."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, TypeGuard
+from typing import Any
 
-import msgspec
-
-from webviz.api.declared import make, to_values
-from webviz.api.registry import type_name
+from webviz.api.declared import to_values
 from webviz.api.tool import Tool
-from webviz.files.config import Location, ToolItem, Unreadable, all_tools
+from webviz.files.config import Location, ToolItem, all_tools
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
-from webviz.files.rviz.displays import note_properties
+from webviz.files.rviz.displays import is_writable, made, note_properties
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Tree, restored
@@ -34,11 +28,11 @@ NEW_TOOLS: list[Tree] = [
         "PublishPoint",
     )
 ]
-"""The toolbar of a file that was never RViz's."""
+"""The toolbar of a new file."""
 
 
 def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
-    """The tools of the list in a .rviz file, which is at `place`; without a list, all of them."""
+    """The tools of the list at `place` in a .rviz file; without a list, all tools."""
     if not isinstance(entries, list):
         return all_tools()
     tools: list[ToolItem] = []
@@ -52,17 +46,11 @@ def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
 
 
 def write_tools(tools: list[ToolItem], kept: Any, report: Report) -> list[Any] | None:
-    """Tools as RViz's list of them.
+    """Tools as RViz's list, None for RViz's own tools.
 
-    Args:
-        tools: of the toolbar.
-        kept: the list of the file that they come from; None if it has none.
-        report: gets what is left out.
-
-    Returns:
-        The list; None for RViz's own tools.
+    `kept` is the list of the file that they come from; `report` receives skipped tools.
     """
-    waiting = [tool for tool in tools if _is_writable(tool, report)]
+    waiting = [tool for tool in tools if is_writable(tool, report)]
     if not isinstance(kept, list):
         if list(map(_bare, waiting)) == [_bare(t) for t in all_tools() if isinstance(t, Tool)]:
             return None
@@ -85,11 +73,7 @@ def _counterpart(entry: Any) -> type[Tool] | None:
 
 def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
     """A tool from RViz's tree of its properties."""
-    try:
-        return make(cls, reading.struct(cls, tree))
-    except msgspec.ValidationError as error:  # a plug-in's own rule besides bounds
-        reading.faults.append(((), f"{error}; using the defaults"))
-        return make(cls, {})
+    return made(cls, reading.struct(cls, tree), {}, reading)
 
 
 def _bare(tool: Tool) -> Tree:
@@ -106,15 +90,5 @@ def _write(tool: Tool, kept: Tree) -> Tree:
 
 
 def _values(tool: Tool) -> dict[str, Any]:
-    """What a .rviz file can say of a tool."""
+    """The properties of a tool that a .rviz file contains."""
     return {key: value for key, value in to_values(tool).items() if key != "name"}
-
-
-def _is_writable(item: ToolItem, report: Report) -> TypeGuard[Tool]:
-    if isinstance(item, Unreadable):
-        report.note(item.name, "this tool", f"skipped: {item.reason.removesuffix('.')}")
-        return False
-    if not type(item).rviz:
-        report.note(item.name, type_name(type(item)), "skipped, because RViz has no such tool")
-        return False
-    return True

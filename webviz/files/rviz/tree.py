@@ -23,6 +23,9 @@ Tree = dict[str, Any]
 Path = tuple[str, ...]
 """Keys from the root of a tree."""
 
+MANAGER = "Visualization Manager"
+"""RViz's key for everything but panels and windows."""
+
 _NULL = "tag:yaml.org,2002:null"
 _FLOAT_MAX = float(np.finfo(np.float32).max)
 _MOST_DIGITS = 18

@@ -1,1 +1,1 @@
-"""A viewer put together and at work, and how Python programs steer it: `webviz.Viewer`."""
+"""A running viewer and its Python API, `webviz.Viewer`."""

@@ -1,4 +1,4 @@
-"""What Python programs may add: types of displays, their properties, and topics."""
+"""Checks the displays that Python programs add, and finds a display for a topic."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from webviz.files.config import mistakes, nearest, sentences
 
 
 class NoSuchProperty(Error, AttributeError):
-    """A display has no property of that name."""
+    """A display does not have this property."""
 
 
 def no_property(type: str, name: str, valid: Iterable[str]) -> str:
-    """That a display type lacks a property, and which was meant."""
+    """The error for an unknown property, with a suggestion."""
     return f"{type} has no property `{name}`, {nearest(name, valid)}"
 
 
 def check_properties(type: str, properties: Mapping[str, Any]) -> None:
-    """Refuse what a display type lacks; of a type that does not exist others tell.
+    """Refuse unknown properties of a display type; unknown types are ignored.
 
     Raises:
-        NoSuchProperty: it has not one of these; the sentences tell of all that is wrong.
+        NoSuchProperty: a property is unknown; the message lists all errors.
     """
     cls = display_types().get(type)
     fields = cls.__struct_fields__ if cls else properties
@@ -36,38 +36,38 @@ def check_properties(type: str, properties: Mapping[str, Any]) -> None:
     try:
         make(cls, dict(properties))
     except msgspec.ValidationError as error:
-        told = [
+        reasons = [
             sentences([(path, clause)])
             if path[0] in fields
             else no_property(type, str(path[0]), fields)
             for path, clause in mistakes(cls, properties, error)
         ]
-        raise NoSuchProperty(" ".join(told)) from error
+        raise NoSuchProperty(" ".join(reasons)) from error
 
 
 def by_topic(
     properties: Mapping[str, Any], topics: Mapping[str, tuple[str, ...]]
 ) -> tuple[str, dict[str, Any]]:
-    """The display type that shows a topic, and the properties with the topic where it belongs.
+    """The display type that shows a topic, and its properties with the topic in its input.
 
     Args:
         properties: with the name of the topic as `topic`.
-        topics: message types of the topics that are published.
+        topics: message types of the published topics.
 
     Raises:
-        Error: none shows it, or several do.
+        Error: no display shows the topic, or several do.
     """
     topic = properties.get("topic")
     if not isinstance(topic, str):
-        raise Error("Give the type of the display, or the name of a topic that is published.")
+        raise Error("Give the type of the display, or the name of a published topic.")
     if topic not in topics:
-        hint = nearest(topic, topics) if topics else "nothing is published."
+        hint = nearest(topic, topics) if topics else "there are no publishers."
         raise Error(f"No publisher on {topic}. Give the type of the display, or {hint}")
     fitting = picks({topic: topics[topic]}, display_types())
     if not fitting:
-        raise Error(f"No display shows {topic}, whose type is {', '.join(topics[topic])}.")
+        raise Error(f"No display shows {topic} of type {', '.join(topics[topic])}.")
     if len(fitting) > 1:
         names = ", ".join(pick.display for pick in fitting)
-        raise Error(f"Several displays show {topic}, so say which: {names}.")
+        raise Error(f"Several displays show {topic}. Give the type: {names}.")
     rest = {name: value for name, value in properties.items() if name != "topic"}
     return fitting[0].display, {fitting[0].input: topic, **rest}

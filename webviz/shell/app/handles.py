@@ -1,4 +1,4 @@
-"""A display of a viewer, for Python programs."""
+"""Handles of displays for Python programs."""
 
 from __future__ import annotations
 
@@ -8,12 +8,11 @@ from collections.abc import Iterable, Sequence
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.commands import (
-    Command,
     DuplicateDisplay,
     FocusDisplay,
     MoveDisplay,
@@ -21,56 +20,38 @@ from webviz.engine.commands import (
     SetProperty,
     TraceDisplay,
 )
-from webviz.engine.state import Row, State
+from webviz.engine.state import Row
 from webviz.engine.trace import Trace
 from webviz.shell.app.adding import NoSuchProperty, no_property
 
+if TYPE_CHECKING:
+    from webviz.shell.app.running import Running
+
 
 class NoSuchDisplay(Error, LookupError):
-    """There is no display of that name or number, or several, or it was removed."""
-
-
-class Owner(Protocol):
-    """What a handle needs of its viewer; see `webviz.Viewer`."""
-
-    @property
-    def state(self) -> State:
-        """A snapshot of the viewer."""
-        ...
-
-    def do(self, command: Command) -> str:
-        """Change something, and wait until it is done."""
-        ...
-
-    def acknowledged(self, timeout: float) -> bool:
-        """Wait until every browser has applied all that was sent so far; whether they did."""
-        ...
+    """A display does not exist, was removed, or its name is ambiguous."""
 
 
 class DisplayHandle:
-    """A display or a group, wherever it is in the list.
+    """A display or group.
 
-    Its properties are attributes, named and checked as in config files: `scan.size = 0.1`. A nested
-    one is set by a dotted path or in part: `scan.set("topic.depth", 1)`, `scan.topic = {"depth":
+    Its properties are attributes, named and checked as in config files: `scan.size = 0.1`. Set
+    nested ones by a dotted path or in part: `scan.set("topic.depth", 1)`, `scan.topic = {"depth":
     1}`.
-
-    Args:
-        viewer: that shows it.
-        id: of the display.
     """
 
     __slots__ = ("_viewer", "id")
 
     id: str
-    _viewer: Owner
+    _viewer: Running
 
-    def __init__(self, viewer: Owner, id: str) -> None:
+    def __init__(self, viewer: Running, id: str) -> None:
         object.__setattr__(self, "_viewer", viewer)
         object.__setattr__(self, "id", id)
 
     @property
     def type(self) -> str:
-        """Name of the display type; "" for an entry of a config that cannot be shown."""
+        """Name of the display type; "" for an invalid entry of a config."""
         return self._row().type
 
     @property
@@ -80,12 +61,12 @@ class DisplayHandle:
 
     @property
     def statuses(self) -> dict[str, Status]:
-        """Sentences by key, as the panel shows them."""
+        """All statuses by key, as in the panel."""
         return dict(self._row().statuses)
 
     @property
     def displays(self) -> list[DisplayHandle]:
-        """What is in a group, in order; a group in it is one of them."""
+        """The displays and groups directly in a group, in order."""
         _, behind = self._around()
         inner = []
         for row in behind[1:]:
@@ -96,39 +77,39 @@ class DisplayHandle:
         return inner
 
     def set(self, path: str, value: Any) -> None:
-        """Set a property, a nested one by a dotted path such as `topic.depth`.
+        """Set a property; `path` is dotted for a nested one, such as `topic.depth`.
 
         Raises:
-            Error: there is no such property, or the value does not fit; nothing was changed.
+            Error: the property is unknown, or the value is invalid; nothing was changed.
         """
         _check(self._row(), path.partition(".")[0])
         self._viewer.do(SetProperty(self.id, path, value))
 
     def remove(self) -> None:
-        """Remove it, a group with all that is in it."""
+        """Remove the display, or the group with its contents."""
         self._row()
         self._viewer.do(RemoveDisplay(self.id))
 
     def focus(self) -> None:
-        """Let every browser look at all that it draws, or what is in a group.
+        """Point the cameras of all browsers at the display, or at the contents of the group.
 
         Raises:
-            Error: no browser is open, or nothing of it is drawn.
+            Error: no browser is connected, or the display draws nothing.
         """
         self._row()
         self._viewer.do(FocusDisplay(self.id))
 
     def trace(self, timeout: float = 5.0) -> Trace:
-        """Wait for the next sample that it draws, and return when that was where.
+        """Wait for the next sample that the display draws, and return its timing.
 
-        A browser has to be connected, for nothing is drawn without one. Times are collected only
-        while this waits.
+        Requires a connected browser, since nothing is drawn without one. Times are recorded only
+        during this call.
 
         Args:
-            timeout: seconds, for the sample and for the browsers in turn.
+            timeout: in seconds, for the sample and for the browsers each.
 
         Raises:
-            Error: it drew no new sample in time.
+            Error: the display drew no new sample in time.
         """
         name = self._row().name
         answer: Future[Trace] = Future()
@@ -149,7 +130,7 @@ class DisplayHandle:
         return replace(trace, acknowledged_ns=trace.sent_ns + elapsed_ns)
 
     def duplicate(self) -> DisplayHandle:
-        """Add a copy right behind it, of a group with all that is in it."""
+        """Add a copy below the display; that of a group includes its contents."""
         self._row()
         made: list[str] = []
         self._viewer.do(DuplicateDisplay(self.id, made.append))
@@ -158,14 +139,14 @@ class DisplayHandle:
     def move(
         self, *, group: DisplayHandle | None = None, before: DisplayHandle | None = None
     ) -> None:
-        """Put it elsewhere in the list.
+        """Move the display in the list.
 
         Args:
-            group: where to; None is the group of `before`, or the list itself.
-            before: goes before this one; None is the end.
+            group: target group; None for the group of `before`, or the top level.
+            before: the display to insert it before; None for the end.
 
         Raises:
-            Error: there is no such place.
+            Error: the target is invalid.
         """
         self._row()
         if group is None and before is not None:
@@ -180,14 +161,14 @@ class DisplayHandle:
         self._viewer.do(MoveDisplay(self.id, *ids))
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # which people's tools try
+        if name.startswith("_"):  # looked up by notebooks, copy and pickle
             raise AttributeError(name)
         row = self._row()
         if row.display is None and name == "name":
             return row.name
         _check(row, name)
         value = getattr(row.display, name)
-        # A list that is changed in place would not be checked.
+        # Changing a list in place would bypass the checks.
         return copy.deepcopy(value) if isinstance(value, list | dict) else value
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -213,7 +194,7 @@ class DisplayHandle:
     def __repr__(self) -> str:
         row = self._find()
         if row is None:
-            return "<a display that was removed>"
+            return "<removed display>"
         status = _worst(row)
         return f"<{row.type or 'unreadable'} {row.name!r}: {status.level.name} {status.text}>"
 
@@ -221,18 +202,18 @@ class DisplayHandle:
         return next((row for row in self._viewer.state.rows if row.id == self.id), None)
 
     def _around(self) -> tuple[Sequence[Row], Sequence[Row]]:
-        """What is before it in the list, and what is from it on."""
+        """The rows before the display, and those from it on."""
         rows = self._viewer.state.rows
         for number, row in enumerate(rows):
             if row.id == self.id:
                 return rows[:number], rows[number:]
-        raise NoSuchDisplay("This display was removed: take another one.")
+        raise NoSuchDisplay("This display was removed.")
 
     def _row(self) -> Row:
         return self._around()[1][0]
 
     def _parent(self) -> DisplayHandle | None:
-        """The group it is in."""
+        """The group that contains the display."""
         before, behind = self._around()
         outer = [row for row in before if row.depth == behind[0].depth - 1]
         return DisplayHandle(self._viewer, outer[-1].id) if outer else None
@@ -247,9 +228,9 @@ def _worst(row: Row) -> Status:
 
 
 def _check(row: Row, name: str) -> None:
-    """Refuse a property that a display has not."""
+    """Refuse an unknown property."""
     if row.display is None:
         reason = " ".join(status.text for status in row.statuses.values())
-        raise NoSuchProperty(f"{row.name} cannot be shown, so it has no properties: {reason}")
+        raise NoSuchProperty(f"{row.name} is invalid and has no properties: {reason}")
     if name not in row.display.__struct_fields__:
         raise NoSuchProperty(no_property(row.type, name, row.display.__struct_fields__))

@@ -1,4 +1,4 @@
-"""A viewer put together and at work, in threads of its own."""
+"""A viewer that runs in its own threads."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ if TYPE_CHECKING:
 log = logging.getLogger("webviz")
 
 PATIENCE_S = 30.0
-"""For the frame loop to do one thing; a config of hundreds of displays takes seconds."""
+"""For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
 CLOSING_S = 1.5
-"""For one part to end."""
+"""For a part to close."""
 
 
 def read_config(path: Path | None) -> Config:
-    """The config of a file; without one, the usual displays.
+    """The config of a file, or the default one.
 
     Raises:
-        ConfigError: it cannot be read; one sentence.
+        ConfigError: the file cannot be read.
     """
     return config_file.standard() if path is None else opening.load(path)
 
@@ -75,7 +75,7 @@ class Running:
             for file in files:
                 plugin_files.load(file)
             path = Path(config) if config is not None else None
-            # viser takes a while to import; mistakes in files are told before.
+            # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
             from webviz.edges.page.pages import Pages
             from webviz.edges.scene import CannotListen, Scene, open_server
@@ -121,7 +121,7 @@ class Running:
         atexit.register(self.close)
 
     def close(self) -> None:
-        """End the viewer and its page, leaving no thread but those that hang."""
+        """Close the viewer and its page, and end all threads except those that hang."""
         atexit.unregister(self.close)
         self._stack.close()
 
@@ -130,7 +130,7 @@ class Running:
         self._pages.debug()
 
     def stop(self) -> None:
-        """Let `wait` return, from any thread or a signal handler; `close` ends the rest."""
+        """Make `wait` return, from any thread or a signal handler; `close` does the rest."""
         self._loop.stop()
 
     def wait(self) -> None:
@@ -140,23 +140,23 @@ class Running:
 
     @property
     def url(self) -> str:
-        """Where the page is, for a browser on this machine."""
+        """Address of the page for browsers on this machine."""
         host = "127.0.0.1" if self._host in ("0.0.0.0", "::") else self._host
         return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
 
     @property
     def state(self) -> State:
-        """All that the panel shows, as it was less than half a second ago: a snapshot to read."""
+        """A read-only snapshot of all that the panel shows, at most half a second old."""
         return self._state
 
     def do(self, command: Command) -> str:
-        """Do anything that a panel can ask for; see `webviz.engine.commands`.
+        """Run a command of `webviz.engine.commands` and wait for it.
 
         Returns:
-            What there is to tell of it, a sentence or "".
+            A message, or "".
 
         Raises:
-            Error: it cannot be done, one sentence says why; or the viewer has ended.
+            Error: the command failed, or the viewer is closed.
         """
         if not self._ended.done():
             answer = self._loop.enqueue(command)
@@ -165,17 +165,17 @@ class Running:
             if answer.done():
                 return answer.result()
         if self._ended.done():
-            raise Error("The viewer has ended: make a new one.") from self._ended.exception()
-        raise Error(f"The viewer is busy for more than {PATIENCE_S:g} s: try again later.")
+            raise Error("The viewer is closed. Create a new one.") from self._ended.exception()
+        raise Error(f"The viewer has been busy for {PATIENCE_S:g} s. Try again later.")
 
     def acknowledged(self, timeout: float) -> bool:
-        """Wait until every connected browser has applied all that was sent so far.
+        """Wait until every connected browser has applied everything sent so far.
 
         Args:
-            timeout: seconds.
+            timeout: in seconds.
 
         Returns:
-            False if one did not answer, or none is connected.
+            False if a browser did not answer, or none is connected.
         """
         try:
             self._scene.link.acknowledge(timeout)
@@ -190,20 +190,20 @@ class Running:
         size: tuple[int, int] = (1280, 720),
         view: View | str | Mapping[str, Any] | None = None,
     ) -> Pixels:
-        """Make a picture of the scene, as a browser that joins now shows it.
+        """Make a picture of the scene as a new browser would show it.
 
-        That takes seconds, and needs a browser on this machine and playwright.
+        Takes seconds, and requires playwright and a browser on this machine.
 
         Args:
-            path: where to write it, by its ending as PNG, JPEG or WebP; None is nowhere.
+            path: file to write (.png, .jpg, .webp), if any.
             size: width and height in pixels.
-            view: instead of the one that browsers begin with; or the name of a saved one.
+            view: a view or the name of a saved one; None for the default view.
 
         Returns:
             uint8 (height, width, 3).
 
         Raises:
-            Error: there is no browser, or the file cannot be written; one sentence.
+            Error: there is no browser, or the file cannot be written.
         """
         if path is not None:
             picture_files.check(Path(path), is_animation=False, transparent=False)
@@ -219,7 +219,7 @@ class Running:
         return pixels
 
     def save_screenshot(self) -> Path:
-        """Make a picture of the scene in a new file beside the config, named by the time."""
+        """Save a picture of the scene next to the config, named by the time."""
         stem = time.strftime("webviz_screenshot_%Y_%m_%d-%H_%M_%S")
         folder = Path(self.state.file.folder)
         path = folder / f"{stem}.png"
@@ -252,23 +252,23 @@ class Running:
 
 
 def _end(what: str, close: Callable[[], object]) -> None:
-    """Close a part of a viewer. One that hangs is reported, and does not keep the others."""
+    """Close a part of the viewer; if it hangs, report that and continue."""
     thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
     thread.start()
     thread.join(CLOSING_S)
     if thread.is_alive():
-        log.warning("%s did not end within %g s.", what, CLOSING_S)
+        log.warning("%s did not close within %g s.", what, CLOSING_S)
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:
-    """A view whose values fit.
+    """A validated view.
 
     Raises:
-        Error: one does not; a sentence.
+        Error: a value is invalid.
     """
     values = with_type(msgspec.to_builtins(view))
     try:
         return msgspec.convert(values, View)
     except msgspec.ValidationError as error:
         found = config_file.explain(error, View, values)
-        raise Error(f"Not a valid view: {config_file.sentences([found])}") from error
+        raise Error(f"Invalid view: {config_file.sentences([found])}") from error

@@ -1,51 +1,49 @@
-"""A tool of a viewer, for Python programs."""
+"""Handles of tools for Python programs."""
 
 from __future__ import annotations
 
 import contextlib
 from concurrent.futures import Future, InvalidStateError
+from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.commands import UseTool
-from webviz.shell.app.handles import Owner
+
+if TYPE_CHECKING:
+    from webviz.shell.app.running import Running
 
 PATIENCE_S = 5.0
-"""For a tool to report what came of a stroke."""
+"""For a tool to report the result of a stroke."""
 
 
 class ToolHandle:
-    """A tool of the toolbar.
+    """A tool, by its name in the toolbar."""
 
-    Args:
-        viewer: that shows it.
-        name: as in the toolbar.
-    """
-
-    def __init__(self, viewer: Owner, name: str) -> None:
+    def __init__(self, viewer: Running, name: str) -> None:
         self._viewer = viewer
         self.name = name
 
     def send(self, x: float, y: float, yaw: float = 0.0) -> str:
-        """Do what a stroke on the page does.
+        """Use the tool as with a stroke on the page.
 
         Args:
-            x, y: where, in metres in the fixed frame.
-            yaw: the heading in radians.
+            x, y: position in metres in the fixed frame.
+            yaw: heading in radians.
 
         Returns:
-            What came of it: a sentence.
+            The result, as a sentence.
 
         Raises:
-            Error: there is no such tool, or nothing was published; a sentence.
+            Error: the tool is unknown, or it could not publish.
         """
         first: Future[Status] = Future()
 
-        def tell(status: Status) -> None:
+        def report(status: Status) -> None:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
                 first.set_result(status)
 
-        self._viewer.do(UseTool(self.name, ((x, y, 0.0),), yaw, tell=tell))
+        self._viewer.do(UseTool(self.name, ((x, y, 0.0),), yaw, report=report))
         try:
             status = first.result(PATIENCE_S)
         except TimeoutError:

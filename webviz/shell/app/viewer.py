@@ -1,4 +1,4 @@
-"""A viewer in a Python program: `webviz.Viewer`."""
+"""The Python API: `webviz.Viewer`."""
 
 from __future__ import annotations
 
@@ -38,28 +38,27 @@ from webviz.shell.app.tool_handle import ToolHandle
 
 
 class Viewer(Running):
-    """A viewer at work, with its page at `url`; it ends with `close` or its `with` block.
+    """A running viewer with its page at `url`; end it with `close` or a `with` block.
 
-    Every method returns when what it asks for is done, drawn and shown on the page. All of them may
-    be called from any thread but those of displays.
+    Methods return when the change is drawn and shown on the page. They may be called from any
+    thread except those of displays.
 
     Args:
-        config: a file, YAML, or RViz's if the name ends with .rviz; None: the one that the ROS
-            parameter `config_file` names, or else the usual displays.
+        config: a YAML or .rviz file; None for the file in the ROS parameter `config_file`, or else
+            the default displays.
         port: of the page; 0 picks a free one.
-        host: address to listen on; 0.0.0.0 lets everybody watch and change it.
-        allow_hosts: names under which browsers may reach this machine, with `host`.
-        fixed_frame: instead of the config's.
-        source: where messages come from, closed with the viewer; None: the ROS graph.
+        host: address to listen on; 0.0.0.0 lets anyone on the network watch and control the viewer.
+        allow_hosts: host names that browsers may use with `host`.
+        fixed_frame: overrides that of the config.
+        source: of messages, closed with the viewer; None for the ROS graph.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
-        plugins: Python files with displays, loaded again whenever they are saved.
-        autosave: a file that follows every change.
-        config_folders: where ROS may open configs, besides the folder of `config`.
-        read: reads the config from its file; None is no file.
+        plugins: Python files with displays, reloaded whenever they are saved.
+        autosave: file to which every change is saved.
+        config_folders: from which ROS may open configs, besides the folder of `config`.
+        read: reads a config file; called with None for the default config.
 
     Raises:
-        Error: the config or a plug-in cannot be read, there is no ROS, or nobody can listen on the
-            port; one sentence.
+        Error: the config or a plug-in cannot be read, ROS is missing, or the port is not available.
     """
 
     def __enter__(self) -> Viewer:
@@ -71,35 +70,35 @@ class Viewer(Running):
     def __repr__(self) -> str:
         return f"<webviz.Viewer at {self.url}>"
 
-    # What it shows
+    # State
 
     @property
     def displays(self) -> list[DisplayHandle]:
-        """Every display and group in the order of the list."""
+        """All displays and groups, in the order of the list."""
         return [DisplayHandle(self, row.id) for row in self.state.rows]
 
     @property
     def groups(self) -> list[DisplayHandle]:
-        """The displays that hold others."""
+        """All groups."""
         return [display for display in self.displays if display.type == "Group"]
 
     def __getitem__(self, key: str | int) -> DisplayHandle:
-        """A display by name, or by its number in the list.
+        """A display by its name or its number in the list.
 
         Raises:
-            NoSuchDisplay: there is none, or several have the name.
+            NoSuchDisplay: it does not exist, or the name is ambiguous.
         """
         rows = self.state.rows
         names = [row.name for row in rows]
         if isinstance(key, int):
             if not -len(rows) <= key < len(rows):
-                raise NoSuchDisplay(f"There is no display {key}, only {len(rows)}.")
+                raise NoSuchDisplay(f"There is no display {key}; the list has {len(rows)}.")
             number = key
         elif names.count(key) > 1:
             numbers = " or ".join(str(number) for number, name in enumerate(names) if name == key)
             raise NoSuchDisplay(
-                f"{names.count(key)} displays are named {key!r}: take one by its number in the "
-                f"list, {numbers}."
+                f"{names.count(key)} displays are named {key!r}. Use the number in the list: "
+                f"{numbers}."
             )
         elif key in names:
             number = names.index(key)
@@ -125,17 +124,17 @@ class Viewer(Running):
 
     @property
     def frames(self) -> tuple[str, ...]:
-        """Every frame id known, sorted."""
+        """All known frame ids, sorted."""
         return self.state.frames
 
     @property
     def topics(self) -> dict[str, tuple[str, ...]]:
-        """The message types of every topic of the graph."""
+        """The message types of all topics."""
         return dict(self.state.topics)
 
     @property
     def statuses(self) -> dict[str, Status]:
-        """What holds for the viewer as a whole, such as "Fixed Frame"."""
+        """The statuses of the viewer as a whole, such as "Fixed Frame"."""
         return dict(self.state.statuses)
 
     # Changes
@@ -151,16 +150,16 @@ class Viewer(Running):
         group: DisplayHandle | str | None = None,
         **properties: Any,
     ) -> DisplayHandle:
-        """Add a display at the end of the list, or of a group.
+        """Add a display at the end of the list or of a group.
 
         Args:
-            type: of the display, such as "LaserScan" or "Group"; None: the one that shows the
-                messages of `topic`, which somebody has to publish.
-            group: where to.
+            type: of the display, such as "LaserScan" or "Group"; None for the one that shows the
+                published topic `topic`.
+            group: to add it to.
             properties: as in a config file.
 
         Raises:
-            Error: there is no such type or property, or a value does not fit; one sentence.
+            Error: the type or a property is unknown, or a value is invalid.
         """
         if type is None:
             type, properties = by_topic(properties, self.topics)
@@ -171,7 +170,7 @@ class Viewer(Running):
 
     @property
     def fixed_frame(self) -> str:
-        """The frame that everything is drawn in."""
+        """The frame in which everything is drawn."""
         return self.state.fixed_frame
 
     @fixed_frame.setter
@@ -180,7 +179,7 @@ class Viewer(Running):
 
     @property
     def background(self) -> Color:
-        """The colour behind the scene."""
+        """The background colour."""
         return self.state.settings.background
 
     @background.setter
@@ -189,7 +188,7 @@ class Viewer(Running):
 
     @property
     def frame_rate(self) -> float:
-        """How often in a second the scene may change."""
+        """Maximum updates of the scene per second."""
         return self.state.settings.frame_rate
 
     @frame_rate.setter
@@ -198,10 +197,10 @@ class Viewer(Running):
 
     @property
     def view(self) -> View:
-        """What browsers and pictures begin with.
+        """The default view of browsers and pictures.
 
-        Assign a view, its values as in a config file, or the name of a saved one: then every
-        browser looks so, now and when it joins.
+        Assign a view, its values as in a config file, or the name of a saved one to show it in all
+        browsers, now and when they join.
         """
         return self.state.settings.view
 
@@ -213,75 +212,72 @@ class Viewer(Running):
 
     @property
     def views(self) -> dict[str, View]:
-        """The saved views by name."""
+        """Saved views by name."""
         return dict(self.state.settings.views)
 
     def save_view(self, name: str, view: View | Mapping[str, Any] | None = None) -> None:
-        """Keep a view under a name, by default what the newest browser shows.
+        """Save a view, by default that of the newest browser.
 
         Raises:
-            Error: no browser is open, or a value of the view does not fit.
+            Error: no browser is connected, or a value of the view is invalid.
         """
         self.do(SaveView(name, view=None if view is None else checked_view(view)))
 
     def remove_view(self, name: str) -> None:
-        """Forget a saved view."""
+        """Remove a saved view."""
         self.do(RemoveView(name))
 
     def reset(self) -> None:
-        """Forget transforms and messages, as RViz's Reset does."""
+        """Discard transforms and messages, like RViz's Reset."""
         self.do(Reset())
 
     def pause(self) -> None:
-        """Let time stand still on the page; messages wait meanwhile."""
+        """Pause the page; messages wait meanwhile."""
         self.do(Pause(True))
 
     def resume(self) -> None:
-        """Let time go on."""
+        """Resume the page."""
         self.do(Pause(False))
 
     # Files
 
     @property
     def path(self) -> str:
-        """The file that the config is saved in, "" if there is none yet."""
+        """The config file, or ""."""
         return self.state.file.path
 
     @property
     def is_changed(self) -> bool:
-        """Whether it shows something else than its file says."""
+        """Whether there are unsaved changes."""
         return self.state.file.is_changed
 
     def open(self, path: str | os.PathLike[str]) -> None:
-        """Show what a config file says instead of what is shown.
+        """Open a config file.
 
         Raises:
-            Error: it cannot be read; nothing was changed.
+            Error: the file cannot be read; nothing was changed.
         """
         self.do(Open(str(Path(path).absolute())))
 
     def save(self, path: str | os.PathLike[str] = "") -> Path:
-        """Write what is shown to a file, by default the one it came from.
-
-        Returns:
-            The file.
+        """Save the config, by default to its file, and return the file.
 
         Raises:
-            Error: there is no file yet, or it cannot be written.
+            Error: the config has no file, or the file cannot be written.
         """
         self.do(Save(str(Path(path).absolute()) if path else ""))
         return Path(self.path)
 
     @property
     def config_text(self) -> str:
-        """What would be saved, as YAML."""
+        """The current config as YAML."""
         texts: list[str] = []
         self.do(Export(texts.append))
         return texts[0]
 
     @property
     def config(self) -> dict[str, Any]:
-        """What would be saved, as values; assign values or YAML to show something else."""
+        """The current config as values; assign values or YAML to replace it."""
         return config_file.document(opening.parse(self.config_text, "the config"))
 
     @config.setter

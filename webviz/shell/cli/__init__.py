@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Sequence
 
 
 def program() -> None:
     """Run `webviz` and exit. A signal before a command has begun ends the program at once."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback of the following imports
     from webviz.shell.cli.ending import finish, leave, on_signal
 
     on_signal(leave)

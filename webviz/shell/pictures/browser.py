@@ -1,4 +1,4 @@
-"""A headless browser and its tabs. It needs playwright, which nothing else of webviz does."""
+"""A headless browser and its tabs; the only module that imports playwright."""
 
 from __future__ import annotations
 
@@ -16,22 +16,23 @@ import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
-from webviz.shell.pictures.browser_scripts import COUNT_UNPACKING, HOLD, OPAQUE, SETTLE, TRANSPARENT
+from webviz.shell.pictures.browser_scripts import (
+    CANVAS,
+    COUNT_UNPACKING,
+    HOLD,
+    OPAQUE,
+    SETTLE,
+    TRANSPARENT,
+)
 
 if TYPE_CHECKING:
     import playwright.sync_api as playwright
 
 VARIABLE = "WEBVIZ_BROWSER"
 """Environment variable with the path of the browser to use."""
-NAMES = (
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-    "chrome",
-)
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 FLAGS = (
-    # WebGL in software, and none of the traffic that a fresh Chromium starts by itself.
+    # WebGL in software, and no background traffic.
     "--no-sandbox",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
@@ -42,8 +43,8 @@ FLAGS = (
     "--no-first-run",
 )
 HOW_TO_GET_ONE = (
-    "install Chromium or Google Chrome (`apt install chromium`), run `playwright install chromium`,"
-    f" or set {VARIABLE} to the path of one"
+    "Install Chromium or Google Chrome (`apt install chromium`), run `playwright install chromium`,"
+    f" or set {VARIABLE} to the path of a browser."
 )
 
 Pixels = NDArray[np.uint8]
@@ -51,18 +52,18 @@ T = TypeVar("T")
 
 
 class NoBrowser(Exception):
-    """There is none that works; one sentence that says how to get one."""
+    """No working browser was found; the message says how to get one."""
 
 
 class BrowserDied(Exception):
-    """The browser or its tab ended while it was needed; one sentence."""
+    """The browser or its tab crashed or was closed."""
 
 
 @contextmanager
 def launched() -> Iterator[playwright.Browser]:
-    """A headless Chromium or Chrome that ends with the block.
+    """A headless Chromium or Chrome, closed at the end of the block.
 
-    It belongs to the thread that launches it, in which no asyncio loop may run.
+    It must be used in the thread that launches it, which must not run an asyncio loop.
 
     Raises:
         NoBrowser: playwright or a browser is missing, or the browser does not start.
@@ -70,50 +71,48 @@ def launched() -> Iterator[playwright.Browser]:
     try:
         import playwright.sync_api as playwright
     except ImportError:
-        raise NoBrowser("Pictures need playwright: run `pip install 'webviz[pictures]'`.") from None
+        raise NoBrowser("playwright is missing. Run `pip install 'webviz[pictures]'`.") from None
     with playwright.sync_playwright() as driver:
         executable = _executable(driver)
         try:
             browser = driver.chromium.launch(executable_path=executable, args=list(FLAGS))
         except playwright.Error as error:
             reason = str(error).strip().splitlines()[0]
-            raise NoBrowser(
-                f"The browser {executable} does not start ({reason}): {HOW_TO_GET_ONE}."
-            ) from None
+            raise NoBrowser(f"{executable} does not start ({reason}). {HOW_TO_GET_ONE}") from None
         try:
             yield browser
         finally:
-            with contextlib.suppress(playwright.Error):  # it may be dead
+            with contextlib.suppress(playwright.Error):  # it may have crashed
                 browser.close()
 
 
 def _executable(driver: playwright.Playwright) -> str:
-    """The browser of this machine, or else playwright's own."""
+    """The installed browser, or else playwright's own."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         found = shutil.which(chosen)
         if found is None:
-            raise NoBrowser(f"{VARIABLE} is {chosen!r}, where no program is: correct or unset it.")
+            raise NoBrowser(f"{VARIABLE} is {chosen!r}, which is not a program. Fix or unset it.")
         return found
     own = driver.chromium.executable_path
     for name in (*NAMES, own):
         if found := shutil.which(name):
             return found
-    raise NoBrowser(f"There is no browser for pictures: {HOW_TO_GET_ONE}.")
+    raise NoBrowser(f"No browser found. {HOW_TO_GET_ONE}")
 
 
 class Page:
-    """One tab with a viewer in it, one pixel of the picture to one of the page.
+    """A tab that shows a viewer, with one device pixel per CSS pixel.
 
     Args:
-        browser: where to open it.
+        browser: in which to open it.
         url: of the viewer.
         width, height: of the whole page in pixels.
     """
 
     def __init__(self, browser: playwright.Browser, url: str, width: int, height: int) -> None:
         self.errors: list[str] = []
-        """What scripts of the page raised."""
+        """Errors of scripts in the page."""
         self._crashed = False
         self._context = self._alive(
             lambda: browser.new_context(viewport=_size(width, height), device_scale_factor=1)
@@ -126,22 +125,28 @@ class Page:
         self._alive(lambda: self.tab.wait_for_function("window.webviz?.hasView()", timeout=60_000))
 
     def close(self) -> None:
-        """Close the tab; one that is dead is no error."""
+        """Close the tab, if it has not crashed."""
         import playwright.sync_api as playwright
 
         with contextlib.suppress(playwright.Error):
             self._context.close()
 
-    def resize(self, width: int, height: int) -> None:
-        """Give the page another size in pixels."""
-        self._alive(lambda: self.tab.set_viewport_size(_size(width, height)))
+    def resize_picture(self, width: int, height: int) -> None:
+        """Resize the page so that the picture next to the panel has a size in pixels."""
+        now, (old_width, old_height) = self.tab.viewport_size, self.evaluate(CANVAS)
+        assert now is not None, "opened with a viewport"
+        size = _size(now["width"] + width - old_width, now["height"] + height - old_height)
+        self._alive(lambda: self.tab.set_viewport_size(size))
+        self.wait_for(
+            lambda: self.evaluate(CANVAS) == [width, height], f"a picture of {width} x {height}"
+        )
 
     def evaluate(self, source: str, argument: Any = None) -> Any:
         """Call a JavaScript function in the page."""
         return self._alive(lambda: self.tab.evaluate(source, argument))
 
     def wait_for(self, condition: Callable[[], T], what: str = "it", seconds: float = 30.0) -> T:
-        """Wait until a condition holds while the page runs, and return it.
+        """Wait until a condition holds, and return its value.
 
         Raises:
             TimeoutError: it does not hold within `seconds`.
@@ -154,7 +159,7 @@ class Page:
         raise TimeoutError(f"not within {seconds:g} s: {what}")
 
     def draw(self, count: int = 3) -> None:
-        """Let the page draw some frames."""
+        """Make the page draw some frames."""
         self.evaluate(
             """async (count) => {
               for (let i = 0; i < count; i++) {
@@ -166,15 +171,15 @@ class Page:
         )
 
     def hold(self) -> None:
-        """Draw nothing any more but in `pixels`.
+        """Draw only in `pixels` from now on.
 
-        A renderer in software takes most of the time of a picture, and viser's page would draw for
-        a quarter of a second after each change.
+        Software rendering takes most of the time of a picture, and viser's page would draw for a
+        quarter of a second after each change.
         """
         self.evaluate(HOLD)
 
     def settle(self, seconds: float = 60.0) -> None:
-        """Let the page work until all that it was sent is unpacked, and no frame requests another.
+        """Wait until the page has decoded everything, and no frame requests another.
 
         Raises:
             TimeoutError: the page still changes after `seconds`.
@@ -183,21 +188,20 @@ class Page:
             raise TimeoutError(f"The browser did not finish drawing within {seconds:g} s.")
 
     def pixels(self, transparent: bool = False) -> Pixels:
-        """The scene as drawn last, or after `hold` as it is now.
+        """The picture as drawn last, or drawn now after `hold`.
 
         Args:
-            transparent: leave the background out.
+            transparent: omit the background.
 
         Returns:
-            uint8 (height, width, 3), or (height, width, 4) with alpha that is not multiplied into
-            the colours.
+            uint8 (height, width, 3), or (height, width, 4) with straight alpha.
         """
         url = self.evaluate(TRANSPARENT if transparent else OPAQUE)
         png = base64.b64decode(url.split(",")[1])
         return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGBA" if transparent else "RGB"))
 
     def pixel_of(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
-        """Column and row at which a point of the fixed frame is drawn."""
+        """Column and row of a point of the fixed frame."""
         return tuple(
             self.evaluate(
                 """(point) => {
@@ -214,22 +218,21 @@ class Page:
         )
 
     def text(self) -> str:
-        """All text of the page that can be seen."""
+        """The visible text of the page."""
         return self._alive(lambda: self.tab.inner_text("body"))
 
     def _alive(self, call: Callable[[], T]) -> T:
-        """Do something with the tab, and tell apart what it says from its death."""
+        """Call a method of the tab, and distinguish its errors from a crash."""
         import playwright.sync_api as playwright
 
         try:
             return call()
         except playwright.Error as error:
-            # A tab that is closed and one that ran out of memory raise errors of the same class as
-            # a script that throws; only the texts differ.
+            # playwright has one class for closed and crashed tabs and for errors in scripts.
             if self._crashed or "closed" in error.message or "crashed" in error.message:
                 raise BrowserDied(
-                    "The browser ended while it drew: it may have run out of memory, so try again "
-                    "or make a smaller picture."
+                    "The browser crashed while drawing, perhaps for lack of memory. Try again, or "
+                    "make a smaller picture."
                 ) from None
             raise
 
@@ -243,4 +246,4 @@ if __name__ == "__main__":  # the last step of `make install`
         with launched():
             pass
     except NoBrowser as error:
-        print(f"webviz is ready, but makes no pictures yet. {error}")
+        print(f"webviz is ready, but cannot make pictures yet. {error}")

@@ -1,9 +1,12 @@
-"""What the page of a headless browser is told to do."""
+"""Scripts for the page in a headless browser."""
 
-from __future__ import annotations
+CANVAS = """() => {
+  const {canvas} = window.__viserMutable;
+  return [canvas.width, canvas.height];
+}"""
 
-# three.js decodes every texture, also those within GLB files, from an object URL that it revokes
-# when the texture is there.
+# three.js decodes every texture, including those in GLB files, from an object URL, which it revokes
+# when the texture is ready.
 COUNT_UNPACKING = """
 (() => {
   const under_way = (window.webvizUnpacking = new Set());
@@ -20,7 +23,7 @@ COUNT_UNPACKING = """
 })();
 """
 
-# All of a frame but the drawing: others read where nodes are, or change what is about to be drawn.
+# Everything in a frame except the rendering, since callbacks read and change nodes.
 HOLD = """
 () => {
   const {canvas, messageQueue, scene} = window.__viserMutable;
@@ -36,9 +39,9 @@ HOLD = """
 }
 """
 
-# What is unpacked makes React render, which makes effects, which may unpack more: so several quiet
-# frames in a row, each with a task of its own for React. A frame that requests another is not
-# quiet: viser draws new letters of labels for at most 5 ms a frame.
+# Decoded data makes React render, whose effects may decode more. Hence wait for some quiet frames
+# in a row, each with a separate task for React. A frame that requests another one is not quiet, as
+# viser renders new glyphs of labels for at most 5 ms per frame.
 SETTLE = """
 async (milliseconds) => {
   const page = window.__viserMutable;

@@ -1,4 +1,4 @@
-"""Pictures of what a config shows, by a headless browser: `webviz.capture`."""
+"""Pictures of a config by a headless browser: `webviz.capture`."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ TIMEOUT_S = 20.0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What one view shows at one moment.
+    """A picture of one view at one time.
 
     Args:
-        pixels: uint8 (height, width, 3), or (height, width, 4) if the background is transparent,
-            with alpha that is not multiplied into the colours.
-        view: name of the view, "" for the config's own.
-        at_s: seconds from the start of the bag, None for a picture of the ROS graph.
-        shown: how well the displays are shown.
+        pixels: uint8 (height, width, 3), or (height, width, 4) with straight alpha if the
+            background is transparent.
+        view: name of the view, "" for the default view.
+        at_s: seconds from the start of the bag, None for live topics.
+        shown: statuses of the displays.
     """
 
     pixels: Pixels
@@ -56,29 +56,29 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Capture:
-    """The pictures of one run: of every time each view, in order."""
+    """The pictures of one run, ordered by time and view."""
 
     pictures: tuple[Picture, ...]
 
     @property
     def pixels(self) -> Pixels:
-        """Of the last picture."""
+        """The pixels of the last picture."""
         return self.pictures[-1].pixels
 
     @property
     def statuses(self) -> dict[str, Status]:
-        """The worst status of each enabled display at the end, by its name."""
+        """The worst status of each enabled display in the last picture, by its name."""
         return self.pictures[-1].statuses
 
     @property
     def is_ok(self) -> bool:
-        """Whether all displays that were waited for are OK in every picture."""
+        """Whether all awaited displays are OK in every picture."""
         return all(picture.shown.is_ok for picture in self.pictures)
 
 
 @dataclass(frozen=True)
 class Order:
-    """What pictures to make; see `capture`."""
+    """The pictures to make; see `capture`."""
 
     config: Config
     source: Source
@@ -92,7 +92,7 @@ class Order:
     timeout: float = TIMEOUT_S
 
     def positions(self) -> Sequence[int | None]:
-        """When: times of recording, in order; None is now.
+        """Times of recording in ns, sorted; None for now.
 
         Raises:
             Error: a time is outside of the bag.
@@ -102,12 +102,24 @@ class Order:
         return sorted({position_ns(at, self.source, self.name) for at in self.at})
 
     def looks(self) -> list[tuple[str, View]]:
-        """From where: views with their names.
+        """Views with their names.
 
         Raises:
-            Error: the config has no view of a name.
+            Error: the name of a view is unknown.
         """
-        return _looks(self.config, self.views)
+        if not self.views:
+            return [("", self.config.settings.view)]
+        named = self.config.settings.views
+        looks = []
+        for number, view in enumerate(self.views):
+            if not isinstance(view, str):
+                looks.append((str(number), view))
+            elif view in named:
+                looks.append((view, named[view]))
+            else:
+                hint = nearest(view, named) if named else "it has no saved views."
+                raise Error(f"The config has no view {view!r}: {hint}")
+        return looks
 
 
 def capture(
@@ -127,30 +139,29 @@ def capture(
     ros_args: Sequence[str] = (),
     studio: Studio | None = None,
 ) -> Capture:
-    """Make pictures of what a config shows, of a bag or of the ROS graph.
+    """Make pictures of a config, live or from a bag.
 
-    A display that is not OK is no error: look at `is_ok` and `statuses`.
+    A display that is not OK does not raise an error: check `is_ok` and `statuses`.
 
     Args:
-        config: a file (YAML, or RViz's if its name ends with .rviz), the text of one in YAML if
-            there is a line break in it, or a config.
-        bag: an mcap file, a db3 file or a rosbag2 folder; None for the live ROS graph.
-        at: times of the bag, each a picture of every view: seconds from its start (above 1e9:
-            since 1970), "start" or "end".
+        config: a YAML or .rviz file, YAML text with at least one line break, or a config.
+        bag: an MCAP or db3 file, or a rosbag2 folder; None for live topics.
+        at: times of the bag: seconds from its start (Unix times if above 1e9), "start" or "end".
+            Each view is drawn at each time.
         size: width and height of the pictures in pixels.
-        views: names of the config's views, or views; none for its current one.
-        transparent: leave the background out.
-        wait_for: names of displays that have to be OK; None for all that are enabled.
-        timeout: seconds for each time, to play the bag there and to wait for the displays.
+        views: views or names of saved ones; none for the default view.
+        transparent: omit the background.
+        wait_for: names of displays that must be OK; None for all enabled ones.
+        timeout: seconds per time, to play the bag and to wait for the displays.
         focus: frame to look at, instead of the focal points of the views.
-        fixed_frame: instead of the config's.
+        fixed_frame: overrides that of the config.
         plugin: Python files with displays.
-        extras: messages that the bag lacks, see `webviz.engine.sources.bag_extras`.
+        extras: messages to add to the bag, see `webviz.engine.sources.bag_extras`.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`.
-        studio: of a browser that runs already, for many pictures; else one is launched.
+        studio: to reuse for many pictures; by default a browser is launched.
 
     Raises:
-        Error: there is no picture; one sentence.
+        Error: no picture can be made.
     """
 
     def run() -> Capture:
@@ -177,18 +188,18 @@ def capture(
                 return Capture(tuple(pictures(order, studio)))
 
     if studio is None and _is_in_event_loop():
-        # A notebook, say: playwright needs a thread without a loop.
+        # For example in a notebook: playwright needs a thread without a loop.
         with ThreadPoolExecutor(1) as thread:
             return thread.submit(run).result()
     return run()
 
 
 def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
-    """The pictures of an order one by one; time goes on from each to the next.
+    """Makes the pictures of an order one by one, in order of time.
 
     Args:
         order: what to make.
-        studio: of a browser that runs already; else one is launched and ends with the iterator.
+        studio: to reuse; by default a browser is launched, and closed with the iterator.
     """
     check_size(order.size)
     positions, looks = order.positions(), order.looks()
@@ -203,7 +214,7 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
         stack.callback(viewer.close)
         awaited = viewer.names() if order.wait_for is None else order.wait_for
         if not viewer.names():
-            raise Error("The config shows nothing. Add a display to it, or enable one.")
+            raise Error("The config has no enabled display. Add or enable one.")
         for position in positions:
             deadline = time.monotonic() + order.timeout
             at_s = None
@@ -223,12 +234,12 @@ def opened(
     """A bag, or the ROS graph.
 
     Raises:
-        Error: the bag cannot be read, or there is no ROS.
+        Error: the bag cannot be read, or ROS is missing.
     """
     if bag is not None:
         source: Source = BagSource(Path(bag), extras, _remappings(ros_args))
     elif extras:
-        raise Error("Maps and transforms can be added to a bag only. Give a bag.")
+        raise Error("Maps and transforms can only be added to a bag. Give a bag.")
     else:
         source = ros_source(ros_args)
     with contextlib.closing(source):
@@ -237,7 +248,7 @@ def opened(
 
 @contextlib.contextmanager
 def one_sentence() -> Iterator[None]:
-    """Make the kind of error that people can put right of what browsers raise."""
+    """Turn exceptions of browser and server into `Error`."""
     try:
         yield
     except (BrowserDied, CannotListen, NoBrowser, TimeoutError) as error:
@@ -252,24 +263,8 @@ def _read(config: Config | str | Path) -> Config:
     return load(Path(config))
 
 
-def _looks(config: Config, views: Sequence[str | View]) -> list[tuple[str, View]]:
-    if not views:
-        return [("", config.settings.view)]
-    named = config.settings.views
-    looks = []
-    for number, view in enumerate(views):
-        if isinstance(view, str):
-            if view not in named:
-                hint = nearest(view, named) if named else "it has no saved views."
-                raise Error(f"The config has no view {view!r}: {hint}")
-            looks.append((view, named[view]))
-        else:
-            looks.append((str(number), view))
-    return looks
-
-
 def _remappings(ros_args: Sequence[str]) -> dict[str, str]:
-    """Topics by the names that displays use; the only ROS arguments a bag has a use for."""
+    """Topics by the names that displays use; other ROS arguments make no sense for a bag."""
     result = {}
     rest = [a for a in ros_args if a not in ("--ros-args", "--", "-r", "--remap")]
     for argument in rest:

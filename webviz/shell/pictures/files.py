@@ -1,4 +1,4 @@
-"""Pictures as files: one, a contact sheet of many, or an animation; never half of one."""
+"""Writes pictures, contact sheets and animations, atomically."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ STILLS = (".png", ".webp", ".jpg", ".jpeg", ".gif")
 ANIMATIONS = (".gif", ".webp")
 WITH_ALPHA = (".png", ".webp")
 CAPTION = 22
-"""Height of the line below each picture of a contact sheet, in pixels."""
+"""Height of the captions of a contact sheet in pixels."""
 GAP = 4
 MAX_EDGE = 16_000
-"""Of a contact sheet in pixels; WebP ends there, and so do most programs."""
+"""Maximum edge of a contact sheet in pixels; the limit of WebP and of most programs."""
 PAPER, INK = (24, 24, 24), (210, 210, 210)
 
 
 class OutputError(Error):
-    """A picture cannot be written; one sentence."""
+    """A picture cannot be written."""
 
 
 def check(path: Path, *, is_animation: bool, transparent: bool) -> None:
-    """Refuse a name that no picture can be written to, before any work is done.
+    """Check the name of a file, and whether it can be written, before any work is done.
 
     Raises:
-        OutputError: one sentence.
+        OutputError: it cannot be used.
     """
     suffix = path.suffix.lower()
     if suffix not in STILLS:
         raise OutputError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
     if is_animation and suffix not in ANIMATIONS:
-        raise OutputError(f"An animation ends with {' or '.join(ANIMATIONS)}, not {suffix}.")
+        raise OutputError(f"{suffix} does not support animation. Use {' or '.join(ANIMATIONS)}.")
     if transparent and suffix not in WITH_ALPHA:
         raise OutputError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
     if not path.exists():
@@ -61,7 +61,7 @@ def save(image: PIL.Image.Image, path: Path) -> None:
 
 
 def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) -> None:
-    """Write an animation that repeats; pictures are taken one by one.
+    """Write an endless animation; pictures are taken one by one.
 
     Raises:
         OutputError: it cannot be written.
@@ -80,11 +80,11 @@ def save_animation(images: Iterable[PIL.Image.Image], path: Path, fps: float) ->
 
 
 def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int) -> PIL.Image.Image:
-    """All pictures in rows, each above its caption.
+    """All pictures in rows with captions.
 
     Args:
         pictures: captions and pictures of one size.
-        columns: pictures in a row.
+        columns: pictures per row.
 
     Raises:
         OutputError: it would be too large.
@@ -104,7 +104,7 @@ def contact_sheet(pictures: Sequence[tuple[str, PIL.Image.Image]], columns: int)
 
 
 def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, int]:
-    """Width and height of a contact sheet of some pictures of a size.
+    """Width and height of a contact sheet.
 
     Raises:
         OutputError: it would be too large.
@@ -120,7 +120,7 @@ def sheet_size(size: tuple[int, int], count: int, columns: int) -> tuple[int, in
 
 
 def numbered(path: Path, view: str, index: int | None, count: int) -> Path:
-    """The name of one of several pictures: out-Front-03.png."""
+    """The name of one of several pictures, such as out-Front-03.png."""
     parts = [path.stem, re.sub(r"[^\w.-]+", "_", view)]
     if index is not None:
         parts.append(str(index).zfill(len(str(count - 1))))
@@ -129,12 +129,12 @@ def numbered(path: Path, view: str, index: int | None, count: int) -> Path:
 
 @contextlib.contextmanager
 def writing(path: Path) -> Iterator[IO[bytes]]:
-    """A file that gets its name only once it is whole; after a failure the old one is there.
+    """A file that replaces the one at `path` at the end of the block, if there is no error.
 
     Raises:
         OutputError: it cannot be written.
     """
-    # What is no file, such as /dev/stdout, has to stay what it is.
+    # Devices, such as /dev/stdout, must not be replaced.
     is_device = path.exists() and not path.is_file()
     part = path if is_device else path.with_name(f".{path.name}.{os.getpid()}.part")
     try:

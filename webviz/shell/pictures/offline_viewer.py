@@ -1,4 +1,4 @@
-"""A viewer in a studio: brings a config to a moment, and says how well it is shown."""
+"""A viewer without a thread: plays a bag to a time, and reports the statuses of displays."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ from webviz.shell.pictures.times import seconds_from_start
 
 LOOK_S = 0.05
 LOADING = "Loading"
-"""Status of a display that waits for slow work."""
+"""Status of a display that is loading."""
 
 
 @dataclass(frozen=True)
 class Readiness:
-    """How well a config is shown at one moment.
+    """The statuses of a config at one time.
 
     Args:
-        statuses: of the enabled displays by name, each the worst of its statuses.
-        general: what holds for the viewer as a whole, such as "Fixed Frame".
-        awaited: names of the displays that were to be OK.
+        statuses: the worst status of each enabled display by name.
+        general: statuses of the viewer as a whole, such as "Fixed Frame".
+        awaited: names of the displays that must be OK.
     """
 
     statuses: Mapping[str, Status]
@@ -49,18 +49,12 @@ class Readiness:
 
     @property
     def is_ok(self) -> bool:
-        """Whether all that was awaited is there."""
+        """Whether all awaited displays are OK."""
         return all(self.statuses[name].level is Level.OK for name in self.awaited)
 
 
 class OfflineViewer:
-    """One config at work, without a thread of its own.
-
-    Args:
-        config: what to show.
-        source: where messages come from.
-        studio: where to draw.
-    """
+    """A viewer that draws in a studio, without a thread of its own."""
 
     def __init__(self, config: Config, source: Source, studio: Studio) -> None:
         self._source = source
@@ -69,20 +63,20 @@ class OfflineViewer:
         self._viewer.turn()
 
     def close(self) -> None:
-        """End slow work, and leave the studio empty."""
+        """Stop the displays and clear the studio."""
         self._viewer.close()
         self._studio.clear()
 
     def play(self, source: BagSource, until_ns: int, deadline: float) -> None:
-        """Let a bag run to a time of recording, drawing nothing on the way.
+        """Play a bag to a time of recording without drawing.
 
         Args:
             source: the bag.
             until_ns: the time of recording.
-            deadline: when to give up, in seconds of `time.monotonic`.
+            deadline: in seconds of `time.monotonic`.
 
         Raises:
-            Error: the bag did not get there by the deadline.
+            Error: the deadline passed before.
         """
         with self._unwatched():
             while source.position_ns < until_ns:
@@ -92,30 +86,28 @@ class OfflineViewer:
                         for at_ns in (source.position_ns, until_ns)
                     )
                     raise Error(
-                        f"The bag was played to {max(reached, 0.0):.1f} s of {wanted:.1f} s when "
-                        "the time-out passed. Choose a longer time-out or an earlier time."
+                        f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
+                        "the bag. Choose a longer time-out or an earlier time."
                     )
                 source.play_step(until_ns)
                 self._viewer.turn()
 
     def wait(self, names: Collection[str], deadline: float) -> Readiness:
-        """Draw until nothing is loaded any more and the named displays are OK.
+        """Draw until nothing is loading and the named displays are OK, or the deadline passes.
+
+        In a bag time stands still, so this waits for loading only.
 
         Args:
             names: of displays.
-            deadline: when to give up, in seconds of `time.monotonic`. In a bag time stands still,
-                so only what loads is waited for.
-
-        Returns:
-            How far it came.
+            deadline: in seconds of `time.monotonic`.
 
         Raises:
-            Error: no enabled display has such a name; one sentence.
+            Error: no enabled display has such a name.
         """
         while True:
             self._source.inbox.arrived.clear()
             self._viewer.turn()
-            state = self._state()
+            state = self._viewer.state()
             shown = Readiness(self._statuses(state), state.statuses, tuple(names))
             is_loading = any(LOADING in row.statuses for row in state.rows)
             is_final = shown.is_ok or isinstance(self._source, BagSource)
@@ -124,24 +116,22 @@ class OfflineViewer:
             self._source.inbox.arrived.wait(LOOK_S)
 
     def names(self) -> list[str]:
-        """Of the displays that are enabled, unsupported ones too, without groups.
-
-        Several of one name are numbered.
-        """
-        return list(self._statuses(self._state()))
+        """Names of all enabled displays except groups; duplicate names are numbered."""
+        return list(self._statuses(self._viewer.state()))
 
     def focused(self, view: View, frame: str) -> View:
-        """A view that looks at a frame, where that is now, from the same side and distance.
+        """A view of the current position of a frame, from the same direction and distance.
 
         Raises:
-            Error: the frame is not known, or the view looks at no point; one sentence.
+            Error: the frame is unknown, or the view has no focal point.
         """
-        frames = self._frames()
+        viewer = self._viewer
+        frames = Frames(viewer.buffer, viewer.settings.fixed_frame, self._source.now_ns())
         pose = frames.latest(frame.removeprefix("/"))
         if pose is None:
             raise Error(frames.why_not(frame.removeprefix("/")))
         if isinstance(view, FPS):
-            raise Error("A view of type FPS looks at no point: focus another view.")
+            raise Error("A view of type FPS has no focal point. Focus another view.")
         x, y, _ = pose.position
         place = (
             {"x": x, "y": y} if isinstance(view, TopDownOrtho) else {"focal_point": pose.position}
@@ -157,15 +147,8 @@ class OfflineViewer:
             result[name] = summary(row.statuses)
         return result
 
-    def _state(self) -> State:
-        return self._viewer.state()
-
-    def _frames(self) -> Frames:
-        viewer = self._viewer
-        return Frames(viewer.buffer, viewer.settings.fixed_frame, self._source.now_ns())
-
     def _clock(self) -> float:
-        """Seconds for ages and rates: a bag's are the same in every run."""
+        """Seconds for ages and rates, which are reproducible for a bag."""
         if isinstance(self._source, BagSource):
             return self._source.position_ns / 1e9
         return time.monotonic()
@@ -180,7 +163,7 @@ class OfflineViewer:
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:
-    """The worst of some statuses, with what all that are as bad say, a line each."""
+    """The worst level, with the texts of all statuses of that level."""
     level = max((status.level for status in statuses.values()), default=Level.OK)
     texts = [status.text for status in statuses.values() if status.level is level]
     return Status(level, "\n".join(texts))

@@ -1,20 +1,21 @@
-"""How large a picture may be."""
+"""Limits for the size of pictures."""
 
 from __future__ import annotations
 
 from webviz.api.errors import Error
 
 SMALLEST, LARGEST = 16, 8192
-"""Edges of a picture in pixels; more a browser without a GPU cannot draw."""
+"""Edges of a picture in pixels; browsers without a GPU cannot draw larger ones."""
 
 
 def check_size(size: tuple[int, int]) -> None:
-    """Refuse what is no size of a picture.
+    """Check the size of a picture.
 
     Raises:
-        Error: one sentence.
+        Error: it is too small or too large.
     """
     if not all(SMALLEST <= edge <= LARGEST for edge in size):
         raise Error(
-            f"A picture has {SMALLEST} to {LARGEST} pixels a side, not {size[0]} x {size[1]}."
+            f"A picture must have {SMALLEST} to {LARGEST} pixels per side, not {size[0]} x "
+            f"{size[1]}."
         )

@@ -1,4 +1,4 @@
-"""Pictures of a viewer at work, by a headless browser that joins its page for a moment."""
+"""Pictures of a running viewer, by a headless browser that opens its page."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ PATIENCE_S = 60.0
 
 
 class Snapshots:
-    """Takes pictures one at a time, each by a browser of its own.
+    """Takes pictures one at a time, each with a new browser.
 
     Args:
         scene: of the viewer.
-        draw: brings the scene up to date, once the browser looks, and tells of it; from any thread.
-        look: puts the camera of a browser where a view says; from any thread.
+        draw: updates the scene and returns the state; thread-safe.
+        look: shows a view in a browser; thread-safe.
     """
 
     def __init__(
@@ -33,36 +33,36 @@ class Snapshots:
         self._scene = scene
         self._draw = draw
         self._look = look
-        # playwright needs a thread without an event loop, which a notebook has in its own.
+        # playwright needs a thread without an event loop, unlike that of a notebook.
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
 
     def take(self, url: str, size: tuple[int, int], view: View | None = None) -> Pixels:
-        """What a browser that joins now shows.
+        """The picture of a new browser.
 
         Args:
             url: of the page.
             size: width and height in pixels.
-            view: instead of the one that browsers begin with.
+            view: overrides the default view.
 
         Returns:
             uint8 (height, width, 3).
 
         Raises:
-            Error: there is no browser, or it does not come to an end; one sentence.
+            Error: there is no browser, or it does not finish.
         """
         return self._pool.submit(self._take, url, size, view).result()
 
     def close(self) -> None:
-        """End what is under way."""
+        """Cancel pictures that have not started, and wait for the current one."""
         self._pool.shutdown(cancel_futures=True)
 
     def _take(self, url: str, size: tuple[int, int], view: View | None) -> Pixels:
         check_size(size)
         try:
             with launched() as browser, contextlib.closing(Page(browser, url, *size)) as page:
-                self._fit(page, size)
-                page.pixels()  # the first picture of a tab has another smoothing
-                client = page.evaluate(_BROWSER)
+                page.resize_picture(*size)
+                page.pixels()  # the first picture of a tab is smoothed differently
+                client = page.evaluate("() => window.webviz.browser")
                 if view is not None:
                     self._look(view, client)
                 page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
@@ -73,21 +73,5 @@ class Snapshots:
             raise Error(str(error)) from error
 
     def _is_loaded(self) -> bool:
-        """Whether all is drawn; the meshes of a robot are read when somebody looks."""
+        """Whether no display is loading; meshes are only read once a browser is connected."""
         return not any(LOADING in row.statuses for row in self._draw().rows)
-
-    def _fit(self, page: Page, size: tuple[int, int]) -> None:
-        """Make the page so large that the picture beside the panel has the size."""
-        canvas = page.evaluate(_CANVAS)
-        outer = [2 * wanted - now for wanted, now in zip(size, canvas, strict=True)]
-        page.resize(*outer)
-        page.wait_for(lambda: page.evaluate(_CANVAS) == list(size), f"a picture of {size} pixels")
-
-
-_CANVAS = """() => {
-  const {canvas} = window.__viserMutable;
-  return [canvas.width, canvas.height];
-}"""
-
-# By which id the scene knows the browser; a page that has a view is connected.
-_BROWSER = "() => window.webviz.browser"

@@ -1,4 +1,4 @@
-"""A scene, a server and a tab of a headless browser that draws it."""
+"""A scene that a headless browser draws."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from webviz.api.nodes import Rgb
 from webviz.api.views import View
-from webviz.edges.scene import Scene, open_server, set_background
+from webviz.edges.scene import Scene, open_server
 from webviz.edges.scene.server import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
 
@@ -18,26 +18,26 @@ PATIENCE_S = 60.0
 
 
 class StudioScene(Scene):
-    """A scene that is only kept up to date while a picture is wanted."""
+    """A scene that is updated only while a picture is wanted."""
 
     is_watched = True
-    """Whether the page counts as a watcher; without one, viewers draw nothing."""
+    """Whether the page counts as a browser; without one, viewers draw nothing."""
 
     def has_watchers(self) -> bool:
-        """Whether anybody looks."""
+        """Whether the scene has to be updated."""
         return self.is_watched and super().has_watchers()
 
 
 class Studio:
-    """Draws `scene`, which anybody may fill, as a browser shows it to people.
+    """Makes pictures of `scene`, which may be filled by any code.
 
-    It opens in seconds, so use one for many pictures. All methods belong to the thread that
+    Opening takes seconds, so reuse it for many pictures. All methods belong to the thread that
     launched the browser.
 
     Args:
         browser: from `webviz.shell.pictures.browser.launched`.
         width, height: of pictures in pixels.
-        background: what lies behind the scene.
+        background: colour of the background.
     """
 
     def __init__(
@@ -47,11 +47,11 @@ class Studio:
         self._page: Page | None = None
         try:
             self.scene = StudioScene(self.server)
-            self.set_background(background)
+            self.scene.set_background(background)
             self._page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             self._page.wait_for(self.server.get_clients, "the page is connected")
             self._page.hold()
-            self.capture()  # the first picture of a tab has another smoothing
+            self.capture()  # the first picture of a tab is smoothed differently
         except BaseException:
             self.close()
             raise
@@ -59,7 +59,7 @@ class Studio:
     @property
     def page(self) -> Page:
         """The tab."""
-        assert self._page is not None, "the studio is being opened"
+        assert self._page is not None, "the studio is not open yet"
         return self._page
 
     def close(self) -> None:
@@ -69,27 +69,13 @@ class Studio:
         self.server.stop()
 
     def look(self, view: View) -> None:
-        """Put the camera where a view says."""
-        self.scene.cameras.start_with(view)  # for a page that connects again
+        """Show a view."""
+        self.scene.cameras.start_with(view)  # in case the page reconnects
         self.scene.cameras.show(view)
 
-    def set_background(self, rgb: Rgb) -> None:
-        """Change what lies behind the scene."""
-        set_background(self.server, rgb)
-
     def resize(self, width: int, height: int) -> None:
-        """Make pictures of another size in pixels."""
-        self.page.resize(width, height)
-        self.page.wait_for(
-            lambda: self.page.evaluate(
-                """([width, height]) => {
-                  const {canvas} = window.__viserMutable;
-                  return canvas.width === width && canvas.height === height;
-                }""",
-                [width, height],
-            ),
-            f"the picture has {width} x {height} pixels",
-        )
+        """Change the size of pictures, in pixels."""
+        self.page.resize_picture(width, height)
 
     def clear(self) -> None:
         """Remove everything from the scene."""
@@ -97,28 +83,26 @@ class Studio:
         self.scene.flush()
 
     def settle(self) -> None:
-        """Wait until the browser has applied, unpacked and drawn all that was flushed.
+        """Wait until the browser has applied, decoded and drawn everything that was flushed.
 
         Raises:
             TimeoutError: it takes longer than a minute.
-            BrowserDied: it never will.
+            BrowserDied: the browser crashed.
         """
         self.scene.acknowledge(PATIENCE_S)
         self.page.settle(PATIENCE_S)
 
     def capture(self, transparent: bool = False) -> Pixels:
-        """What the browser draws once it has everything that was flushed.
+        """The picture of everything that was flushed.
 
         Args:
-            transparent: leave the background out.
+            transparent: omit the background.
 
         Returns:
-            uint8 (height, width, 3), or (height, width, 4) if transparent, with alpha that is not
-            multiplied into the colours.
+            uint8 (height, width, 3), or (height, width, 4) with straight alpha if transparent.
 
         Raises:
-            TimeoutError: it takes longer than a minute.
-            BrowserDied: the browser ended.
+            TimeoutError, BrowserDied: as `settle`.
         """
         self.settle()
         return self.page.pixels(transparent)

@@ -1,4 +1,4 @@
-"""Times of a bag as people write them: seconds from its start, stamps, `start`, `end`."""
+"""Times of a bag in the forms that users write: seconds, Unix times, `start` and `end`."""
 
 from __future__ import annotations
 
@@ -9,34 +9,34 @@ from typing import Protocol
 from webviz.api.errors import Error
 
 At = float | str
-"""Seconds from the start of a bag; above 1e9 seconds since 1970; "start" or "end"."""
+"""Seconds from the start of a bag, a Unix time (above 1e9), "start" or "end"."""
 ABSOLUTE_S = 1e9
 MAX_TIMES = 2000
 
 
 class TimeError(Error):
-    """A time cannot be used; one sentence."""
+    """A time is invalid or outside of the bag."""
 
 
 class Span(Protocol):
-    """What has a first and a last message, in nanoseconds."""
+    """A recording."""
 
     @property
     def start_ns(self) -> int:
-        """Stamp of the first one."""
+        """Time of the first message in ns."""
         ...
 
     @property
     def end_ns(self) -> int:
-        """Stamp of the last one."""
+        """Time of the last message in ns."""
         ...
 
 
 def read_at(text: str) -> At:
-    """A time as it is written on a command line.
+    """Parse a time of the command line.
 
     Raises:
-        TimeError: it is none.
+        TimeError: it is invalid.
     """
     if text in ("start", "end"):
         return text
@@ -50,15 +50,15 @@ def read_at(text: str) -> At:
 
 
 def position_ns(at: At, span: Span, name: str) -> int:
-    """Where in a bag a time is, in nanoseconds since 1970.
+    """A time of a bag in nanoseconds since 1970.
 
     Args:
         at: the time.
         span: of the bag.
-        name: of the bag.
+        name: of the bag, for errors.
 
     Raises:
-        TimeError: it is outside; the sentence tells the range.
+        TimeError: it is outside of the bag.
     """
     if isinstance(at, str):
         at = read_at(at)
@@ -69,28 +69,28 @@ def position_ns(at: At, span: Span, name: str) -> int:
     assert not isinstance(at, str)
     offset_ns = span.start_ns if at < ABSOLUTE_S else 0
     wanted_ns = offset_ns + round(at * 1e9)
-    # Stamps in seconds are floats, which are exact to some hundred nanoseconds only.
+    # Unix times as floats are accurate to some hundred nanoseconds only.
     slack_ns = 1_000
     if not span.start_ns - slack_ns <= wanted_ns <= span.end_ns + slack_ns:
         duration_s = seconds_from_start(span.end_ns, span)
         raise TimeError(
             f"{at:g} s is outside of {name}. Give 0 to {math.floor(duration_s * 1e3) / 1e3:g} s "
-            f"from its start, or a stamp from {span.start_ns / 1e9:.3f} to "
+            f"from its start, or a Unix time from {span.start_ns / 1e9:.3f} to "
             f"{span.end_ns / 1e9:.3f}."
         )
     return min(max(wanted_ns, span.start_ns), span.end_ns)
 
 
 def seconds_from_start(position_ns: int, span: Span) -> float:
-    """The reverse of `position_ns`."""
+    """The inverse of `position_ns`."""
     return (position_ns - span.start_ns) / 1e9
 
 
 def every(first: At, last: At, step_s: float, span: Span, name: str) -> Sequence[float]:
-    """Times at equal distances, in seconds from the start of a bag; the last one included.
+    """Times in equal steps, in seconds from the start of a bag, including `last`.
 
     Raises:
-        TimeError: a time is outside, or there are too many or none.
+        TimeError: a time is outside of the bag, or there are none or too many.
     """
     begin, end = (seconds_from_start(position_ns(at, span, name), span) for at in (first, last))
     if begin > end:

@@ -1,4 +1,4 @@
-"""One browser for the pictures of all tests, in a thread of its own."""
+"""One browser for the pictures of all tests, in its own thread."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ T = TypeVar("T")
 class Darkroom:
     """Makes pictures of scenes; the browser is launched for the first one.
 
-    Playwright wants every call from one thread, in which no asyncio loop runs, and other plug-ins
-    of pytest run theirs in the thread of the tests.
+    playwright must be called from one thread without an asyncio loop, and other plug-ins of pytest
+    may run a loop in the thread of the tests.
     """
 
     def __init__(self) -> None:
@@ -33,7 +33,7 @@ class Darkroom:
         self._look: tuple[View, Size] | None = None
 
     def close(self) -> None:
-        """End the browser; the next picture would launch another."""
+        """Close the browser; another picture would launch a new one."""
         if self._thread is not None:
             self._call(self._forget)
             self._thread.shutdown()
@@ -42,20 +42,20 @@ class Darkroom:
     def capture(
         self, scene: RecordingScene, view: View, size: Size, transparent: bool = False
     ) -> Pixels:
-        """What a browser shows of a scene once it has everything.
+        """The picture of a scene.
 
         Args:
-            scene: what to draw; others are no longer shown.
-            view: where the camera is.
+            scene: to draw, instead of the previous one.
+            view: of the camera.
             size: width and height in pixels.
-            transparent: leave the background out.
+            transparent: omit the background.
 
         Returns:
             uint8 (height, width, 3), or (height, width, 4) if transparent.
 
         Raises:
-            NoBrowser: there is none; it says how to get one.
-            BrowserDied: it ended; the next picture launches another.
+            NoBrowser: no browser was found.
+            BrowserDied: the browser crashed; the next picture launches a new one.
         """
 
         def capture() -> Pixels:
@@ -70,12 +70,7 @@ class Darkroom:
         return self._call(capture)
 
     def capture_without(self, scene: RecordingScene, view: View, size: Size, prefix: str) -> Pixels:
-        """What a browser would show if some groups of the scene were not there.
-
-        Args:
-            scene, view, size: as for `capture`.
-            prefix: of the names of the groups.
-        """
+        """The picture of a scene without the groups whose names start with `prefix`."""
 
         def capture() -> Pixels:
             studio = self._show(scene, view, size)
@@ -85,7 +80,7 @@ class Darkroom:
         return self._call(capture)
 
     def forget(self, scene: RecordingScene) -> None:
-        """Show a scene no longer."""
+        """Stop showing a scene."""
         if self._shown is scene:
             self._call(self._leave)
 
@@ -124,7 +119,7 @@ class Darkroom:
 
     @contextlib.contextmanager
     def _hidden(self, studio: Studio, scene: RecordingScene, prefix: str) -> Iterator[None]:
-        with scene.lock:  # what moves stands still meanwhile
+        with scene.lock:  # nothing moves meanwhile
             groups = [g for g in scene.groups if g.startswith(prefix) and g not in scene.hidden]
             try:
                 for group in groups:

@@ -1,4 +1,4 @@
-"""A ROS domain that nobody else on this machine uses."""
+"""Finds a ROS domain that is unused on this machine."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 DOMAINS = range(1, 100)
-"""Above 101 their ports are among those that Linux gives to any program."""
+"""The ports of domains above 101 are in Linux's ephemeral range."""
 FIRST_PORT, PORTS = 7400, 250
-"""Of DDS: domain d has UDP ports from 7400 + 250 d on."""
+"""In DDS, domain d has the UDP ports from 7400 + 250 d."""
 PARTICIPANT = 10
-"""Offset of the port of the first participant of a domain on this machine."""
+"""Offset of the port of the first participant on a machine."""
 UNUSED = 249
-"""Offset of a port that only the 120th participant would take; ours, as a lock."""
+"""Offset of a port that only the 120th participant would use; bound as a lock."""
 
 
 @contextmanager
 def isolated_domain() -> Iterator[int]:
-    """A domain of one's own, also for processes that are started meanwhile.
+    """An unused domain, also for processes that are started during the block.
 
     Raises:
-        RuntimeError: all are in use.
+        RuntimeError: all domains are in use.
     """
     lock, domain = _take()
     ours = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
@@ -51,11 +51,11 @@ def _take() -> tuple[socket.socket, int]:
             probe.close()
             return lock, domain
         lock.close()
-    raise RuntimeError("All ROS domains of this machine are in use: end some ROS programs.")
+    raise RuntimeError("All ROS domains of this machine are in use. Stop some ROS programs.")
 
 
 def _bound(port: int) -> socket.socket | None:
-    """A UDP socket at a port, None if it is taken."""
+    """A UDP socket bound to a port, or None if the port is in use."""
     candidate = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     try:
         candidate.bind(("", port))

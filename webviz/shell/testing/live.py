@@ -1,4 +1,4 @@
-"""A viewer on a ROS domain of its own, as `webviz` runs it."""
+"""A viewer on an isolated ROS domain, as `webviz` runs it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from webviz.engine.sources import Inbox, Raw, Subscription
+from webviz.engine.sources import Inbox, Raw
 from webviz.files.config import Config
 from webviz.shell.testing.pictures import Photographer
 from webviz.shell.testing.recording import RecordingScene
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 PATIENCE_S = 10.0
-"""For what takes DDS and the frame loop well below a second on an idle machine."""
+"""Far more than DDS and the frame loop need on an idle machine."""
 LOADING_S = 60.0
-"""A robot's meshes may be large."""
+"""For the meshes of large robots."""
 
 
 class _WatchedInbox(Inbox):
-    """An inbox that knows whether a message has come."""
+    """An inbox that knows which expected messages have not arrived."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,7 +48,7 @@ class _WatchedInbox(Inbox):
             expected.remove(raw.cdr)
 
     def missing(self) -> list[str]:
-        """The topics on which not all that was expected has come."""
+        """The topics with expected messages that have not arrived."""
         return [topic for topic, expected in self._expected.items() if expected]
 
 
@@ -56,10 +56,11 @@ class LiveViewer(Shown):
     """A viewer whose frame loop runs in a thread, on real ROS.
 
     Args:
-        config: what to show.
-        photographer: of its scene.
+        config: to show.
+        scene: to draw in.
+        photographer: of the scene.
         domain: ROS domain.
-        simulator: parameters of a simulated robot, None for none.
+        simulator: parameters of a simulated robot; None for no robot.
     """
 
     def __init__(
@@ -92,29 +93,30 @@ class LiveViewer(Shown):
             self._close = stack.pop_all().close
 
     def close(self) -> None:
-        """End everything, without a thread or a process left."""
+        """End all threads and processes."""
         self._close()
 
     def publish_bytes(
         self, topic: str, type_name: str, cdr: bytes, *, latched: bool | None = None
     ) -> None:
-        """Publish a message as it is in a bag.
+        """Publish a serialised message.
 
-        If a display wants the topic, it is waited until the viewer hears this node, for what is
-        said before nobody hears.
+        If a display subscribes to the topic, this waits for the connection first, so that the
+        message is not lost.
 
         Args:
             topic: full name.
             type_name: such as "sensor_msgs/msg/LaserScan".
-            cdr: serialised message with its encapsulation header.
-            latched: transient local, also for nodes that come later; None: as /tf_static is.
+            cdr: serialised message with encapsulation header.
+            latched: publish with transient local durability; None for /tf_static only.
         """
         is_latched = topic == "/tf_static" if latched is None else latched
         publisher = self._talker.open(topic, type_name, is_latched)
-        if self._is_wanted(topic, type_name):
+        wish = self.viewer.wanted().get(topic)
+        if wish is not None and wish.type == type_name:
             self.wait_for(
-                lambda: self._is_heard(topic, type_name) and publisher.get_subscription_count(),
-                lambda: f"The viewer does not hear {topic}: {self._offer_text(topic)}",
+                lambda: self._is_connected(topic, type_name) and publisher.get_subscription_count(),
+                lambda: f"The viewer does not receive {topic}: {self._offer_text(topic)}",
             )
             self._inbox.expect(topic, cdr)
         publisher.publish(cdr)
@@ -129,12 +131,12 @@ class LiveViewer(Shown):
         what: str | Callable[[], str] = "it",
         seconds: float = PATIENCE_S,
     ) -> T:
-        """Wait until a condition holds after a turn of the frame loop, and return it.
+        """Wait until a condition holds after a turn of the frame loop, and return its value.
 
         Args:
-            condition: looked at after each turn.
-            what: said if it does not hold in time.
-            seconds: to wait.
+            condition: checked after each turn.
+            what: message of the error.
+            seconds: to wait at most.
 
         Raises:
             AssertionError: it did not hold in time.
@@ -148,17 +150,17 @@ class LiveViewer(Shown):
         return result
 
     def wait_until_drawn(self, display: str, seconds: float = PATIENCE_S) -> None:
-        """Wait until all that was published has come, and a display has drawn the newest of it.
+        """Wait until all published messages have arrived and a display has drawn the newest one.
 
         Raises:
-            AssertionError: it did not come about in time; the statuses of the display say why.
+            AssertionError: it takes too long; the message has the status of the display.
         """
         row = self._row(display)
 
         def is_drawn() -> bool:
             if self._inbox.missing():
                 return False
-            self._catch_up()  # what has come may not have been looked at
+            self._catch_up()  # messages that arrived may not have been handled
             return (
                 not self.viewer.is_waiting(row.id)
                 and not self.viewer.is_busy()
@@ -166,28 +168,27 @@ class LiveViewer(Shown):
             )
 
         def why_not() -> str:
-            if missing := self._inbox.missing():
-                return f"What was published on {', '.join(missing)} has not come."
-            return f"{display} has not drawn it. {self.status(display).text}"
+            return self._missing() or f"{display} has not drawn it. {self.status(display).text}"
 
         self.wait_for(is_drawn, why_not, seconds)
 
     def settle(self) -> None:
-        """Let all that was published be drawn, and slow work of displays finish."""
-        self.wait_for(
-            lambda: not self._inbox.missing(),
-            lambda: f"What was published on {', '.join(self._inbox.missing())} has not come.",
-        )
+        """Wait until all published messages are drawn, and all displays have loaded."""
+        self.wait_for(lambda: not self._inbox.missing(), self._missing)
         self._catch_up()
-        self.wait_for(lambda: not self.viewer.is_busy(), "A display still loads.", LOADING_S)
+        self.wait_for(lambda: not self.viewer.is_busy(), "A display is still loading.", LOADING_S)
+
+    def _missing(self) -> str:
+        missing = ", ".join(self._inbox.missing())
+        return f"Messages published on {missing} have not arrived." if missing else ""
 
     def _catch_up(self) -> None:
-        """Wait for a turn that begins after now; the one that runs may have missed what came."""
+        """Wait for a turn that starts after this call; the current one may have missed messages."""
         for _ in range(2):
             self._turn()
 
     def _turn(self) -> None:
-        """Wait until a turn ends."""
+        """Wait for the end of a turn."""
         with self.viewer.turned:
             turns = self.viewer.turns
             self._inbox.arrived.set()
@@ -205,18 +206,11 @@ class LiveViewer(Shown):
                 self._crash = crash
                 self.viewer.turned.notify_all()
 
-    def _is_wanted(self, topic: str, type_name: str) -> bool:
-        wish = self._wish(topic)
-        return wish is not None and wish.type == type_name
-
-    def _wish(self, topic: str) -> Subscription | None:
-        return self.viewer.wanted().get(topic)
-
-    def _is_heard(self, topic: str, type_name: str) -> bool:
-        """Whether the subscription is made for the publishers there are, and we are one."""
+    def _is_connected(self, topic: str, type_name: str) -> bool:
+        """Whether the subscription is up to date with its publishers, including the test's."""
         from webviz.edges.ros.qos import adapt
 
-        wish, offer = self._wish(topic), self.source.offers().get(topic)
+        wish, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)
         if wish is None or offer is None:
             return False
         names = [publisher.node for publisher in offer.publishers if publisher.type == type_name]
@@ -224,12 +218,12 @@ class LiveViewer(Shown):
 
     def _offer_text(self, topic: str) -> str:
         offer = self.source.offers().get(topic)
-        return offer.problem or f"it knows {offer}." if offer else "it does not know the topic."
+        return offer.problem or f"{offer}." if offer else "unknown topic."
 
 
 @contextlib.contextmanager
 def _simulator(parameters: Mapping[str, Any], domain: int) -> Iterator[None]:
-    """A simulated robot in a process of its own."""
+    """A simulated robot in its own process."""
     command = [sys.executable, "-m", "webviz_sim", "--ros-args"]
     for name, value in parameters.items():
         text = str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,9 +1,10 @@
-"""Parts of messages, for tests that write them as nested mappings."""
+"""Parts of messages for tests."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from webviz.data.rotations import Quaternion, from_rpy, w_last
 from webviz.shell.testing.source import SECOND
 
 
@@ -11,3 +12,8 @@ def header(frame: str, stamp_ns: int) -> dict[str, Any]:
     """A std_msgs/Header as nested mappings."""
     sec, nanosec = divmod(stamp_ns, SECOND)
     return {"frame_id": frame, "stamp": {"sec": sec, "nanosec": nanosec}}
+
+
+def turned(roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Quaternion:
+    """A quaternion (x, y, z, w) of rotations about the fixed axes x, y, z in order, in radians."""
+    return w_last(from_rpy(roll, pitch, yaw))

@@ -1,4 +1,4 @@
-"""Pictures of scenes compared with pictures that a person has looked at."""
+"""Compares pictures of scenes with reference pictures."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ UPDATE = "--update-pictures"
 
 @dataclass(frozen=True)
 class Album:
-    """Where the reference pictures of one test are, and what to do with them.
+    """The reference pictures of a test.
 
     Args:
         folder: of the reference pictures.
-        output: where to put pictures that differ.
-        root: of all tests; messages name files relative to it.
-        update: make reference pictures instead of comparing.
-        each_display: whether each display must be seen in each picture.
+        output: folder for pictures that differ.
+        root: of all tests; messages have paths relative to it.
+        update: replace reference pictures that differ.
+        each_display: whether every display must be visible in each picture.
         size: width and height in pixels.
     """
 
@@ -46,19 +46,19 @@ class Album:
     size: Size = (400, 300)
 
     def shown(self, path: Path) -> str:
-        """A path as a person in the root would write it."""
+        """A path relative to the root, if it is inside."""
         return str(path.relative_to(self.root) if path.is_relative_to(self.root) else path)
 
 
 @dataclass
 class Photographer:
-    """Makes and checks the pictures of one scene.
+    """Makes and checks the pictures of a scene.
 
     Args:
-        scene: what is drawn.
-        darkroom: where pictures are made.
-        album: with which they are compared.
-        view: where the camera is.
+        scene: to draw.
+        darkroom: makes the pictures.
+        album: has the reference pictures.
+        view: of the camera.
     """
 
     scene: RecordingScene
@@ -67,7 +67,7 @@ class Photographer:
     view: View
 
     def capture(self, transparent: bool = False) -> Pixels:
-        """What a browser shows."""
+        """A picture of the scene."""
         return self.darkroom.capture(self.scene, self.view, self.album.size, transparent)
 
     def check(
@@ -77,23 +77,23 @@ class Photographer:
         mask: Sequence[PixelBox] = (),
         tolerance: float = TOLERANCE,
     ) -> None:
-        """Compare with a reference picture, or make that.
+        """Compare the scene with a reference picture, or update that.
 
         Args:
             name: of the picture in the album, without suffix.
-            displays: prefix of groups and name of each display that must be seen in it.
-            mask: what does not matter.
+            displays: that must be visible: their names by the prefix of their groups.
+            mask: boxes to ignore.
             tolerance: share of pixels that may differ.
 
         Raises:
-            AssertionError: a person would see the difference; the text tells where to look.
+            AssertionError: there is a visible difference; the message names the files.
         """
         album = self.album
         path = album.folder / f"{name}.png"
         if not path.exists() and not album.update:
             raise AssertionError(
-                f"There is no {album.shown(path)}: run pytest with {UPDATE}, look at the picture, "
-                "and commit it."
+                f"{album.shown(path)} is missing. Run pytest with {UPDATE}, check the picture, and "
+                "commit it."
             )
         actual = masked(self.capture(), mask)
         expected = load(path) if path.exists() else None
@@ -102,7 +102,7 @@ class Photographer:
         share = 1.0
         if expected is not None and expected.shape == actual.shape:
             share = share_of_difference(actual, expected)
-        # What still passes stays as it is: every version of a picture weighs on a clone.
+        # Keep pictures that pass, since every version adds to the size of a clone.
         if expected is None or (album.update and share > tolerance):
             store(actual, path, few_colors=True)
             expected = actual
@@ -118,7 +118,7 @@ class Photographer:
         tolerance: float,
         whole: Pixels,
     ) -> None:
-        """Raise if a display could be left out without anybody noticing."""
+        """Raise AssertionError if a display makes no visible difference."""
         unseen: list[str] = []
         for prefix, display in displays.items():
             rest = self.darkroom.capture_without(self.scene, self.view, self.album.size, prefix)
@@ -126,8 +126,8 @@ class Photographer:
                 unseen.append(display)
         if unseen:
             raise AssertionError(
-                f"The picture {name} would be the same without {' and without '.join(unseen)}: "
-                "move the camera, or leave out of the scene what it is not about."
+                f"The picture {name} would be the same without {' and without '.join(unseen)}. "
+                "Move the camera, or remove them from the scene."
             )
 
     def _complaint(
@@ -136,16 +136,16 @@ class Photographer:
         output = self.album.output / f"{name}.png"
         store(actual, output)
         shown, reference = self.album.shown(output), self.album.shown(path)
-        remedy = f"If that is right, run with {UPDATE} and look again."
+        remedy = f"If it is correct, run pytest with {UPDATE} and check the picture."
         if actual.shape != expected.shape:
             sizes = [f"{p.shape[1]} x {p.shape[0]}" for p in (actual, expected)]
             return (
-                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}: look at {shown}. "
+                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}. See {shown}. "
                 f"{remedy}"
             )
         marked = output.with_suffix(".difference.png")
         store(difference_image(actual, expected), marked)
         return (
-            f"{100 * share:.2f} % of the picture differ from {reference}: look at {shown} and "
+            f"{100 * share:.2f} % of the picture differ from {reference}. See {shown} and "
             f"{self.album.shown(marked)}. {remedy}"
         )

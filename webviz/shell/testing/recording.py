@@ -1,4 +1,4 @@
-"""A scene that remembers what is drawn, and passes it on to a browser when there is one."""
+"""A scene that records what is drawn, and forwards it to a browser if one is attached."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from webviz.engine.scene import Cameras, NoCameras, Scene
 
 
 class Target(Scene, Protocol):
-    """Where to pass everything on to; see `webviz.edges.scene.Scene`."""
+    """A scene to forward everything to; see `webviz.edges.scene.Scene`."""
 
     def clear(self) -> None:
         """Remove everything."""
@@ -24,10 +24,10 @@ class Target(Scene, Protocol):
 
 @dataclass
 class RecordingScene:
-    """Groups of nodes as a browser would have them.
+    """Groups of nodes as in a browser.
 
-    Whoever looks from another thread than the one that draws holds `lock`, and so does that one
-    from one flush to the next.
+    Hold `lock` to read it in another thread than the one that draws. That thread holds it from one
+    flush to the next.
     """
 
     groups: dict[str, dict[str, tuple[Node, Pose]]] = field(default_factory=dict)
@@ -38,12 +38,13 @@ class RecordingScene:
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
-    _target: Target | None = None
+    _targets: list[Target] = field(default_factory=list)
+    """The attached scene, if any."""
 
     def attach(self, target: Target) -> None:
-        """Draw everything there as well, now and from now on."""
+        """Draw everything in another scene as well, from now on."""
         with self.lock:
-            self._target = target
+            self._targets = [target]
             if self.background:
                 target.set_background(self.background)
             for group, nodes in self.groups.items():
@@ -56,15 +57,15 @@ class RecordingScene:
             target.flush()
 
     def detach(self) -> None:
-        """Remove everything there, and draw there no more."""
+        """Clear the attached scene, and stop drawing there."""
         with self.lock:
-            if self._target is not None:
-                self._target.clear()
-                self._target.flush()
-            self._target = None
+            for target in self._targets:
+                target.clear()
+                target.flush()
+            self._targets = []
 
     def bounds(self, prefix: str) -> Box | None:
-        """The box around all that is visible of the groups of a prefix."""
+        """The bounding box of all visible groups with a prefix."""
         return union(
             box.moved(pose).moved(self.poses.get(name, Pose()))
             for name, nodes in self.groups.items()
@@ -74,60 +75,60 @@ class RecordingScene:
         )
 
     def set_background(self, rgb: Rgb) -> None:
-        """Fill what lies behind everything with one colour."""
+        """Set the background to one colour."""
         self.background = rgb
-        if self._target is not None:
-            self._target.set_background(rgb)
+        for target in self._targets:
+            target.set_background(rgb)
 
     def set_pose(self, group: str, pose: Pose) -> None:
         """Place a group in the fixed frame."""
         self.poses[group] = pose
-        if self._target is not None:
-            self._target.set_pose(group, pose)
+        for target in self._targets:
+            target.set_pose(group, pose)
 
     def set_visible(self, group: str, visible: bool) -> None:
         """Show or hide a group."""
         (self.hidden.discard if visible else self.hidden.add)(group)
-        if self._target is not None:
-            self._target.set_visible(group, visible)
+        for target in self._targets:
+            target.set_visible(group, visible)
 
     def upsert(self, group: str, key: str, node: Node, pose: Pose) -> None:
-        """Draw a node at a pose in its group, in place of the one with this key."""
+        """Draw a node at a pose in a group, in place of the one with the same key."""
         self.groups.setdefault(group, {})[key] = (node, pose)
         self.upserts += 1
-        if self._target is not None:
-            self._target.upsert(group, key, node, pose)
+        for target in self._targets:
+            target.upsert(group, key, node, pose)
 
     def remove(self, group: str, key: str) -> None:
         """Remove a node."""
         self.groups.get(group, {}).pop(key, None)
-        if self._target is not None:
-            self._target.remove(group, key)
+        for target in self._targets:
+            target.remove(group, key)
 
     def remove_group(self, group: str) -> None:
-        """Remove a group with all its nodes."""
+        """Remove a group with its nodes."""
         self.groups.pop(group, None)
         self.poses.pop(group, None)
         self.hidden.discard(group)
-        if self._target is not None:
-            self._target.remove_group(group)
+        for target in self._targets:
+            target.remove_group(group)
 
     def flush(self) -> None:
-        """Pass on what was changed."""
-        if self._target is not None:
-            self._target.flush()
+        """Send the changes."""
+        for target in self._targets:
+            target.flush()
 
     def has_watchers(self) -> bool:
-        """A test watches."""
+        """Whether viewers draw."""
         return self.watched
 
     def visible(self, prefix: str = "") -> Iterator[tuple[str, Pose, Node]]:
-        """Key, pose in the fixed frame and node of all that can be seen.
+        """Key, pose in the fixed frame and node of all visible nodes.
 
-        A key that is used in several groups gets a number.
+        Duplicate keys of several groups are numbered.
 
         Args:
-            prefix: of group names.
+            prefix: of the names of groups.
         """
         numbers: dict[str, Iterator[int]] = {}
         for group, nodes in self.groups.items():

@@ -1,4 +1,4 @@
-"""What can be seen of a viewer under test: nodes in the fixed frame, and statuses."""
+"""The visible nodes and the statuses of a viewer under test."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ Vector = tuple[float, float, float]
 
 
 class Seen:
-    """What a viewer shows, display by display.
+    """The content of a viewer by display.
 
-    Displays are called by their names in the list; None is the first one. Positions are in metres
-    in the fixed frame.
+    Displays are given by name; None is the first in the list. Positions are in metres in the fixed
+    frame.
 
     Args:
-        viewer: draws into `scene`.
-        scene: what is drawn.
+        viewer: draws in `scene`.
+        scene: of the viewer.
     """
 
     def __init__(self, viewer: WatchedViewer, scene: RecordingScene) -> None:
@@ -54,23 +54,23 @@ class Seen:
     # Statuses
 
     def state(self) -> State:
-        """What a panel would show."""
+        """The state for panels."""
         return self.viewer.snapshot()
 
     def statuses(self, display: str | None = None) -> Mapping[str, Status]:
-        """Level and sentence by key of a display, the first one if it is not named."""
+        """All statuses of a display by key."""
         return self._row(display).statuses
 
     def status(self, display: str | None = None) -> Status:
-        """The worst level of a display, and the sentences of that level."""
+        """The worst level of a display, with the texts of all statuses of that level."""
         row = self._row(display)
         texts = [f"{key}: {s.text}" for key, s in row.statuses.items() if s.level is row.level]
         return Status(row.level, "\n".join(texts))
 
-    # What can be seen
+    # Nodes
 
     def nodes(self, display: str | None = None) -> dict[str, tuple[Pose, Node]]:
-        """Everything of a display that can be seen: pose in the fixed frame and node, by key."""
+        """All visible nodes of a display with their poses in the fixed frame, by key."""
         with self.scene.lock:
             seen = self.scene.visible(self._prefix(display))
             return {key: (pose, node) for key, pose, node in seen}
@@ -80,11 +80,11 @@ class Seen:
         return self._joined((0, 3), self._moved(display, Points))
 
     def lines(self, display: str | None = None) -> F64:
-        """Both ends of each line of a display: (N, 2, 3)."""
+        """End points (N, 2, 3) of the lines of a display."""
         return self._joined((0, 2, 3), self._moved(display, Lines))
 
     def arrows(self, display: str | None = None) -> F64:
-        """Tail and tip of each arrow of a display that is drawn as one: (N, 2, 3)."""
+        """Tails and tips (N, 2, 3) of the arrows of a display that are drawn as `Arrows`."""
         return self._joined((0, 2, 3), self._moved(display, Arrows))
 
     def axes(self, display: str | None = None) -> F64:
@@ -92,15 +92,15 @@ class Seen:
         return self._joined((0, 3), self._moved(display, Axes))
 
     def solids(self, display: str | None = None) -> F64:
-        """Middles (N, 3) of the boxes, spheres, cylinders and cones of a display."""
+        """Centres (N, 3) of the boxes, spheres, cylinders and cones of a display."""
         return self._joined((0, 3), self._moved(display, Instances))
 
     def meshes(self, display: str | None = None) -> list[F64]:
-        """The vertices (N, 3) of each mesh of a display; not of those with textures."""
+        """The vertices (N, 3) of each mesh of a display, except those with textures."""
         return list(self._moved(display, Mesh))
 
     def labels(self, display: str | None = None) -> dict[str, Vector]:
-        """Where each text of a display is."""
+        """The positions of the labels of a display by text."""
         return {
             text: tuple(position)
             for pose, node in self._of(display, Labels)
@@ -110,15 +110,15 @@ class Seen:
         }
 
     def images(self, display: str | None = None) -> list[tuple[Pose, Image]]:
-        """The flat pictures of a display, such as the tiles of a map."""
+        """The images of a display, such as a map, with their poses."""
         return self._of(display, Image)
 
     def poses(self, display: str | None = None) -> dict[str, Pose]:
-        """Where each node of a display is, by key: the links of a robot, say."""
+        """The poses of the nodes of a display by key, such as the links of a robot."""
         return {key: pose for key, (pose, _) in self.nodes(display).items()}
 
     def is_drawn(self, display: str | None = None) -> bool:
-        """Whether anything can be seen of a display."""
+        """Whether a display draws anything visible."""
         prefix = self._prefix(display)
         with self.scene.lock:
             return self._has_content(prefix)
@@ -126,7 +126,7 @@ class Seen:
     # Inside
 
     def _drawn(self) -> dict[str, str]:
-        """Prefix of groups and name of every display that draws something."""
+        """Names of the displays that draw something, by the prefix of their groups."""
         with self.scene.lock:
             return {
                 prefix: _name(row)
@@ -147,7 +147,7 @@ class Seen:
             raise LookupError(f"No display is named `{display}`, {hint}")
         if len(found) > 1:
             raise LookupError(
-                f"{len(found)} displays are named `{display}`: give each a name of its own."
+                f"{len(found)} displays are named `{display}`. Give them different names."
             )
         return found[0]
 
@@ -160,7 +160,7 @@ class Seen:
 
     def _moved(self, display: str | None, kind: type[N]) -> Iterator[F64]:
         for pose, node in self._of(display, kind):
-            # The first field of a node holds its coordinates.
+            # The first field of a node has its coordinates.
             yield _moved(pose, getattr(node, fields(node)[0].name))  # pyright: ignore[reportArgumentType]
 
     @staticmethod
@@ -169,11 +169,11 @@ class Seen:
 
 
 def _name(row: Row) -> str:
-    """What the list of displays calls it."""
+    """The name in the list of displays."""
     return row.name or row.type
 
 
 def _moved(pose: Pose, xyz: NDArray[np.floating[Any]]) -> F64:
-    """Coordinates (..., 3) of a node, in those that its pose is given in."""
+    """Coordinates (..., 3) of a node, transformed by its pose."""
     turned = np.asarray(xyz, np.float64).reshape(-1, 3) @ matrices(pose.wxyz).T
     return (turned + pose.position).reshape(xyz.shape)

@@ -1,4 +1,4 @@
-"""A viewer under test: what is published to it, what it is told, and its pictures."""
+"""A viewer under test: publish messages, change properties, check pictures."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ Quaternion = tuple[float, float, float, float]
 
 
 class Shown(Seen, ABC):
-    """A viewer under test: what it shows can be changed, read, and compared with pictures.
+    """A viewer under test, whose content can be changed, read and compared with pictures.
 
     Args:
-        viewer: draws into `scene`.
-        scene: what is drawn.
-        photographer: of that scene.
+        viewer: draws in `scene`.
+        scene: of the viewer.
+        photographer: of the scene.
     """
 
     def __init__(
@@ -38,11 +38,11 @@ class Shown(Seen, ABC):
         super().__init__(viewer, scene)
         self._photographer = photographer
 
-    # Change what is shown
+    # Changes
 
     @abstractmethod
     def publish_bytes(self, topic: str, type_name: str, cdr: bytes) -> None:
-        """Publish a message as it is in a bag."""
+        """Publish a serialised message."""
 
     @abstractmethod
     def now_ns(self) -> int:
@@ -65,13 +65,11 @@ class Shown(Seen, ABC):
         Args:
             topic: full name.
             message: a ROS message, or the name of a type such as "sensor_msgs/msg/LaserScan".
-            values: of a type that is named: nested mappings; fields left out are zero or empty.
-            frame: gives such a message a header with this frame id and the time that it is now.
+            values: nested mappings for a named type; missing fields are zero or empty.
+            frame: adds a header with this frame id and the current time to `values`.
         """
         if not isinstance(message, str):
-            from webviz.edges.ros.talker import (
-                serialize,  # only those who have rclpy make such messages
-            )
+            from webviz.edges.ros.talker import serialize  # requires rclpy
 
             self.publish_bytes(topic, *serialize(message))
             return
@@ -89,7 +87,7 @@ class Shown(Seen, ABC):
         *,
         stamp_ns: int | None = None,
     ) -> None:
-        """Publish a transform: static, unless it has a stamp."""
+        """Publish a transform, static unless it has a stamp."""
         stamped = {
             "header": header(parent, stamp_ns or 0),
             "child_frame_id": child,
@@ -105,39 +103,39 @@ class Shown(Seen, ABC):
         """Change a property.
 
         Args:
-            path: of the property; nested ones have dots, such as `topic.name`.
-            value: what its config would say.
-            display: name; None is the first in the list.
+            path: of the property; dotted for nested ones, such as `topic.name`.
+            value: as in a config file.
+            display: name; None for the first in the list.
         """
         done = self.viewer.enqueue(SetProperty(self._row(display).id, path, value))
         self._catch_up()
         done.result(0)
 
     def set_fixed_frame(self, frame: str) -> None:
-        """Draw in another frame."""
+        """Change the fixed frame."""
         self.viewer.enqueue(SetFixedFrame(frame))
         self._catch_up()
 
     def look(self, view: View) -> None:
-        """Move the camera of pictures."""
+        """Change the view of pictures."""
         self._photographer.view = view
 
     def resize(self, width: int, height: int) -> None:
-        """Make pictures of another size in pixels."""
+        """Change the size of pictures, in pixels."""
         album = self._photographer.album
         self._photographer.album = replace(album, size=(width, height))
 
     @abstractmethod
     def settle(self) -> None:
-        """Let all that was published be drawn, and slow work of displays finish."""
+        """Wait until all published messages are drawn, and all displays have loaded."""
 
     # Pictures
 
     def picture(self, transparent: bool = False) -> Pixels:
-        """What a browser shows.
+        """A picture of the scene.
 
         Args:
-            transparent: leave the background out.
+            transparent: omit the background.
 
         Returns:
             uint8 (height, width, 3), or (height, width, 4) if transparent.
@@ -153,17 +151,17 @@ class Shown(Seen, ABC):
         tolerance: float = TOLERANCE,
         each_display: bool | None = None,
     ) -> None:
-        """Compare what a browser shows with a reference picture, or make that.
+        """Compare the scene with a reference picture, or update that.
 
         Args:
             name: of the file, without suffix; may have folders.
-            mask: boxes (left, top, right, bottom) in pixels that do not matter.
+            mask: boxes (left, top, right, bottom) in pixels to ignore.
             tolerance: share of pixels that may differ.
-            each_display: whether the picture must tell if any one of the displays were left out;
-                None is as the ini option says.
+            each_display: whether every display must be visible in the picture; None for the ini
+                option.
 
         Raises:
-            AssertionError: a person would see the difference; the text tells where to look.
+            AssertionError: there is a visible difference; the message names the files.
         """
         self.settle()
         if each_display is None:

@@ -1,4 +1,4 @@
-"""A source without ROS, whose messages, publishers and time a test sets."""
+"""A source without ROS, for tests that set its messages, publishers and time."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from webviz.engine.sources import Graph, Inbox, Offer, Publisher, Raw, ReadOnly,
 
 SECOND = 1_000_000_000
 LIMIT = 1000
-"""Messages of a topic between two turns."""
+"""Messages per topic between two turns."""
 
 
 @dataclass
 class HandFedSource:
-    """What a viewer hears, as a test says."""
+    """A source that a test feeds."""
 
     inbox: Inbox = field(default_factory=Inbox)
     graph: Graph = field(default_factory=lambda: ReadOnly("This source can only be read."))
@@ -27,14 +27,14 @@ class HandFedSource:
     _told: dict[str, Offer] = field(default_factory=dict)
 
     def put(self, topic: str, type_name: str, cdr: bytes) -> None:
-        """Let a message arrive now, from a reliable publisher."""
+        """Receive a message now, from a reliable publisher."""
         if topic not in self.known:
             publisher = Publisher("/test", type_name, "reliable", "volatile")
             self.known[topic] = Offer((publisher,), ("reliable", "volatile"))
         self.inbox.put(topic, Raw(cdr, self.now))
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
-        """Make the subscriptions exactly these."""
+        """Replace all subscriptions."""
         for topic in self.wanted.keys() - subscriptions.keys():
             self.inbox.close(topic)
         for topic in subscriptions.keys() - self.wanted.keys():
@@ -42,13 +42,13 @@ class HandFedSource:
         self.wanted = dict(subscriptions)
 
     def offers(self) -> Mapping[str, Offer]:
-        """What is known of every topic."""
+        """All topics; the same mapping until something changes."""
         if self._told != self.known:
             self._told = dict(self.known)
         return self._told
 
     def now_ns(self) -> int:
-        """ROS time, which is `now`."""
+        """ROS time."""
         return self.now
 
     def clock_messages(self) -> int | None:
@@ -62,4 +62,4 @@ class HandFedSource:
         return f"/{topic.removeprefix('/')}"
 
     def close(self) -> None:
-        """Nothing to stop."""
+        """Do nothing."""

@@ -1,4 +1,4 @@
-"""A viewer without ROS, for tests in which every message and every instant is said."""
+"""A viewer without ROS, for tests that control every message and the time."""
 
 from __future__ import annotations
 
@@ -14,31 +14,32 @@ from webviz.shell.testing.watched import WatchedViewer
 __tracebackhide__ = True  # failures are shown where the test calls
 
 LOADING_S = 60.0
-"""A robot's meshes may be large."""
+"""For the meshes of large robots."""
 
 
 class Stage(Shown):
-    """A viewer that does nothing by itself: `turn` is one turn of its frame loop.
+    """A viewer that only runs in `turn`, one turn of its frame loop.
 
     Args:
-        config: what to show.
-        photographer: of its scene.
+        config: to show.
+        scene: to draw in.
+        photographer: of the scene.
     """
 
     def __init__(self, config: Config, scene: RecordingScene, photographer: Photographer) -> None:
         self.source = HandFedSource()
         self.clock = 1000.0
-        """Seconds, for the ages of messages."""
+        """Monotonic time in seconds, for the ages of messages."""
         viewer = WatchedViewer(config, self.source, scene, clock=lambda: self.clock)
         super().__init__(viewer, scene, photographer)
         self.turn()
 
     def close(self) -> None:
-        """End slow work."""
+        """Stop the displays."""
         self.viewer.close()
 
     def publish_bytes(self, topic: str, type_name: str, cdr: bytes) -> None:
-        """Publish a message as it is in a bag; it is drawn in the next turn."""
+        """Publish a serialised message; it is drawn in the next turn."""
         self.source.put(topic, type_name, cdr)
 
     def now_ns(self) -> int:
@@ -50,19 +51,19 @@ class Stage(Shown):
         self.viewer.turn()
 
     def settle(self) -> None:
-        """Turn until slow work of the displays is done."""
+        """Turn until all displays have loaded."""
         deadline = time.monotonic() + LOADING_S
         self.turn()
         while self.viewer.is_busy():
-            assert time.monotonic() < deadline, "A display still loads."
+            assert time.monotonic() < deadline, "A display is still loading."
             time.sleep(0.02)
             self.turn()
 
     def wait_until_drawn(self, display: str) -> None:
-        """Turn until a display has drawn what it was sent.
+        """Turn until a display has drawn its messages.
 
         Raises:
-            AssertionError: nothing can be seen of it; its statuses say why.
+            AssertionError: it draws nothing; the message has its status.
         """
         self.settle()
         if not self.is_drawn(display):

@@ -1,4 +1,4 @@
-"""A viewer that a test looks into between turns of its frame loop."""
+"""A viewer that tests can read between turns of its frame loop."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from webviz.shell.testing.recording import RecordingScene
 
 
 class WatchedViewer(FrameLoop):
-    """A viewer whose displays raise what is wrong with them.
+    """A viewer whose displays raise their errors.
 
     Args:
-        config: what to show.
-        source: where messages come from.
-        scene: where to draw; its lock is held during each turn.
+        config: to show.
+        source: of messages.
+        scene: to draw in; its lock is held during each turn.
         options: for `FrameLoop`.
     """
 
@@ -45,7 +45,7 @@ class WatchedViewer(FrameLoop):
             return self.state()
 
     def wanted(self) -> Mapping[str, Subscription]:
-        """All that is subscribed to, by topic."""
+        """All subscriptions by topic."""
         with self._lock:
             return self._parts.subscriptions()
 
@@ -57,6 +57,6 @@ class WatchedViewer(FrameLoop):
             )
 
     def is_busy(self) -> bool:
-        """Whether slow work of any display is still to be drawn."""
+        """Whether a display is loading."""
         with self._lock:
             return any(runner.is_busy() for runner in self._displays.list.active())
