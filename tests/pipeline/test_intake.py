@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
+from webviz.api.status import Remedy
 from webviz.engine.sources import Offer, Publisher, Raw
 
 SECOND = 1_000_000_000
@@ -43,12 +44,11 @@ def test_nobody_publishes(bench: Callable[..., Any]) -> None:
 
 def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
-    b.source.known["/goal_pose"] = offer()
-    text = (
-        "No publisher on /pose; geometry_msgs/msg/PoseStamped is published on /goal_pose. "
-        "Choose or remap that topic."
-    )
+    b.source.known = {"/another": offer(), "/goal_pose": offer()}
+    text = "No publisher on /pose. The nearest topic of its type is /goal_pose."
     assert b.statuses()["Topic"] == ("WARN", text)
+    remedy = b.states[-1].rows[0].statuses["Topic"].remedy
+    assert remedy == Remedy("topic.name", "/goal_pose")
 
 
 def test_another_type_names_both(bench: Callable[..., Any]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 
 class Level(enum.IntEnum):
@@ -16,11 +17,31 @@ class Level(enum.IntEnum):
 
 
 @dataclass(frozen=True)
+class Remedy:
+    """A property of the display that would help with another value.
+
+    Args:
+        path: dotted, such as `topic.name`.
+        value: to give it.
+    """
+
+    path: str
+    value: Any
+
+
+@dataclass(frozen=True)
 class Status:
-    """A status: its level, and a sentence with the cause and a remedy."""
+    """A status: its level, and a sentence with the cause and a remedy.
+
+    Args:
+        level: its severity.
+        text: a sentence.
+        remedy: a change of a property that would help, None if none would.
+    """
 
     level: Level
     text: str
+    remedy: Remedy | None = None
 
 
 def worst(statuses: Iterable[Status]) -> Level:

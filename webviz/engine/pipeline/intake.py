@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import functools
 import itertools
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,7 +13,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
 from webviz.api.ports import Input
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, Remedy, Status
 from webviz.data.messages import MessageError, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.engine.sources import Offer, Publisher, Raw, Subscription
@@ -40,13 +42,15 @@ class Intake:
     """Counts and filters the messages of one input, and explains what is missing.
 
     Args:
+        path: of the input among the properties of the display.
         spec: the input as the display declares it.
         topic: the topic the user chose.
         name: the full name of the topic, "" if it has none.
         problem: why it has none.
     """
 
-    def __init__(self, spec: Input, topic: Topic, name: str, problem: str = "") -> None:
+    def __init__(self, path: str, spec: Input, topic: Topic, name: str, problem: str = "") -> None:
+        self.path = path
         self.spec = spec
         self.topic = topic
         self.name = name
@@ -62,6 +66,7 @@ class Intake:
         self._waiting_since: float | None = None
         self._asked = next(_ASKED)
         self._newest = self._newest_placed = -1
+        self._others: tuple[Mapping[str, Offer], str] = {}, ""
 
     @property
     def has_received(self) -> bool:
@@ -202,7 +207,7 @@ class Intake:
                 f"{self.spec.type}. Choose another topic or another display.",
             )
         if not publishers:
-            return Status(Level.WARN, self._no_publisher(offers, clock))
+            return self._no_publisher(offers, clock)
         if refusal := self._refusal(offer, matching):
             return Status(Level.ERROR, refusal)
         who = ", ".join(
@@ -223,24 +228,36 @@ class Intake:
         count = f"{self._received} message{'s' if self._received != 1 else ''}"
         return Status(Level.OK, f"{count}{pace}, the newest {age:.1f} s ago, from {who}.")
 
-    def _no_publisher(self, offers: Mapping[str, Offer], clock: float) -> str:
+    def _no_publisher(self, offers: Mapping[str, Offer], clock: float) -> Status:
         if self._received:
             age = clock - self._times[-1] if self._times else 0.0
-            return (
+            text = (
                 f"No publisher on {self.name} any more, last message {age:.1f} s ago. Restart it."
             )
-        others = sorted(
-            topic
-            for topic, offer in offers.items()
-            if any(p.type == self.spec.type for p in offer.publishers)
-        )
-        if others:
-            there = f"{self.spec.type} is published on {', '.join(others[:3])}"
-            return f"No publisher on {self.name}; {there}. Choose or remap that topic."
-        return (
+            return Status(Level.WARN, text)
+        if other := self._nearest(offers):
+            text = f"No publisher on {self.name}. The nearest topic of its type is {other}."
+            return Status(Level.WARN, text, Remedy(f"{self.path}.name", other))
+        text = (
             f"No publisher on {self.name}. Start the node that publishes it or choose another "
             "topic."
         )
+        return Status(Level.WARN, text)
+
+    def _nearest(self, offers: Mapping[str, Offer]) -> str:
+        """The topic of this type whose name is most like this one's, "" if nobody publishes any."""
+        if offers is not self._others[0]:  # else nothing has changed
+            others = (
+                topic
+                for topic, offer in offers.items()
+                if any(p.type == self.spec.type for p in offer.publishers)
+            )
+            alike = difflib.SequenceMatcher(b=self.name)
+            self._others = (
+                offers,
+                max(sorted(others), key=functools.partial(_ratio, alike), default=""),
+            )
+        return self._others[1]
 
     def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
         """Why DDS matches none of the publishers, though the type fits."""
@@ -286,5 +303,10 @@ def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Int
             problem = "" if full else "No topic. Choose one."
         except ValueError as error:
             problem = str(error)
-        result[name] = Intake(spec, topic, full, problem)
+        result[name] = Intake(name, spec, topic, full, problem)
     return result
+
+
+def _ratio(alike: difflib.SequenceMatcher[str], other: str) -> float:
+    alike.set_seq1(other)
+    return alike.ratio()

@@ -13,11 +13,12 @@ from typing import Any
 from webviz.edges.page.content.clock import clock
 from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
-from webviz.edges.page.content.properties import properties
+from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.types import addable, types
 from webviz.edges.page.content.viewer import file, frames, graph, settings, view_type
+from webviz.edges.page.content.views import view, views
 from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
@@ -37,5 +38,9 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "message": message,
     "topics": topics,
     "traffic": traffic,
+    "statuses": statuses,
+    "topics_of": topics_of,
+    "view": view,
+    "views": views,
     "watchers": watchers,
 }

@@ -6,21 +6,31 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.views import type_of
-from webviz.edges.page.content.displays import level_name
+from webviz.edges.page.content.forms import form, values_of
+from webviz.edges.page.content.properties import lines
 from webviz.engine.state import State
+from webviz.files.config import Settings
+
+NO_CONTROL = ("version", "view", "views", "rviz")
+"""Settings that have another place on the page, or none."""
 
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
 
 
 def settings(state: State, _: str) -> Mapping[str, Any]:
-    """Fixed frame, background, frame rate, saved views, and statuses."""
+    """Fixed frame, background, frame rate, saved views, and statuses.
+
+    "declared" is what the page needs to know of the first three, which are among the values too.
+    """
     settings = state.settings
     return {
+        "declared": form(Settings, NO_CONTROL),
+        **values_of(settings, NO_CONTROL),
         "fixed_frame": settings.fixed_frame,
         "background": settings.background,
         "frame_rate": settings.frame_rate,
         "views": list(settings.views),
-        "statuses": [[key, level_name(s.level), s.text] for key, s in state.statuses.items()],
+        **lines(state.statuses),
     }
 
 

@@ -17,14 +17,15 @@ channel.onOpen(() => waiting.clear());
 /**
  * Sends a command of `webviz.commands` with its fields. Resolves with `{level, text, display}`: "ok"
  * or "error", a sentence or "", and the id of the display that it made. What there is to say is shown
- * as a toast, unless `quiet`; errors always are.
+ * as a toast, unless `quiet`; errors always are, unless the "caller" shows them itself.
  */
-export function act(command, fields = {}, { quiet = false } = {}) {
+export function act(command, fields = {}, { quiet = false, errors = "toast" } = {}) {
   count += 1;
   channel.send({ type: "Do", number: count, command, arguments: fields });
   const answer = new Promise((resolve) => waiting.set(count, resolve));
   answer.then(({ level, text }) => {
-    if (text && (level === "error" || !quiet)) toast(text, { level });
+    const isShown = level === "error" ? errors === "toast" : !quiet;
+    if (text && isShown) toast(text, { level });
   });
   return answer;
 }

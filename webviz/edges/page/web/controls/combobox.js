@@ -11,11 +11,13 @@ import { sync } from "./sync.js";
  * Options are `{value, note, label, level}`: `note` stands quietly at the right, `label` is shown in
  * place of the value, `level` colours the note. `change` may return the promise of `act`: what it
  * refuses stays in the field for correction, `refused(text)` is told why. Unless `free`, only options
- * are taken. Returns `{element, input, update({value, options})}`.
+ * are taken. `opened()` is called when the list opens, and what it returns when it closes. Returns
+ * `{element, input, update({value, options})}`.
  */
 export function combobox({
-  label, value, options, change, refused, free = true, placeholder = "",
+  label, value, options, change, refused, free = true, placeholder = "", opened = () => {},
 }) {
+  let closed = null;
   let current = value;
   let isTyped = false; // since the list was opened or the last choice
 
@@ -51,15 +53,18 @@ export function combobox({
     set(input, { title: text.length > 24 ? text.slice(0, 1000) : null });
   }
 
-  function open() {
-    if (list.isOpen()) return;
-    list.open(options, current);
-    input.select();
+  function open(text) {
+    const wasOpen = list.isOpen();
+    if (wasOpen && text === undefined) return;
+    list.open(options, text === undefined ? current : null, text);
+    if (!wasOpen) closed = opened();
   }
 
   function close() {
     list.close();
     isTyped = false;
+    closed?.();
+    closed = null;
   }
 
   function choose(chosen) {
@@ -88,11 +93,14 @@ export function combobox({
   }
 
   input.addEventListener("focus", () => input.select());
-  input.addEventListener("click", open);
+  input.addEventListener("click", () => {
+    if (!list.isOpen()) input.select();
+    open();
+  });
   input.addEventListener("input", () => {
     isTyped = true;
     state.hold();
-    list.open(options, null, input.value);
+    open(input.value);
   });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Escape") {

@@ -1,0 +1,409 @@
+"""Statuses and properties of a display."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Tab
+from webviz.api.declared import make
+from webviz.api.registry import display_types
+from webviz.api.status import Level, Remedy, Status
+from webviz.edges.page.content.forms import values_of
+from webviz.edges.page.content.properties import IN_THE_TREE
+from webviz.engine.commands import SetProperty
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Row, Traffic
+
+MakeRow = Callable[..., Row]
+MOUNT = """async (id) => {
+  const { properties } = await import("/webviz/panels/displays/properties.js");
+  const bench = document.createElement("div");
+  bench.id = "bench";
+  bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
+  document.querySelector("#webviz").append(bench);
+  window.ended = properties(bench, id);
+}"""
+
+
+class Pane:
+    """The properties of the display "a"."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        self.page = tab.page
+        self.keyboard = tab.page.keyboard
+        self.element = tab.page.locator("#bench")
+
+    def mount(self, id_: str = "a") -> Pane:
+        self.page.evaluate(MOUNT, id_)
+        self.tab.wait_for(lambda: self.element.locator(".wv-row").count() > 0)
+        return self
+
+    def row(self, path: str) -> playwright.Locator:
+        return self.element.locator(f"[data-path='{path}']")
+
+    def field(self, path: str) -> playwright.Locator:
+        return self.row(path).locator("input, select, textarea").first
+
+    def enter(self, path: str, text: str, key: str = "Enter") -> None:
+        self.field(path).fill(text)
+        self.keyboard.press(key)
+
+    def wait_for_set(self, path: str, value: Any) -> None:
+        self.tab.wait_for_command(SetProperty("a", path, value))
+
+    def wait_for_value(self, path: str, text: str) -> None:
+        self.tab.wait_for(lambda: self.field(path).input_value() == text)
+
+    def labels(self) -> list[str]:
+        return self.element.locator(".wv-row-label:visible").all_inner_texts()
+
+    def text(self) -> str:
+        return self.element.inner_text()
+
+
+@pytest.fixture
+def pane(tab: Tab, make_row: MakeRow) -> Iterator[Pane]:
+    tab.loop.show(make_row("a"))
+    tab.page.evaluate("localStorage.clear()")
+    pane = Pane(tab).mount()
+    yield pane
+    tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_each_kind_of_property_has_its_control(pane: Pane) -> None:
+    pane.field("topic.name").fill("/front")
+    pane.keyboard.press("Enter")
+    pane.wait_for_set("topic.name", "/front")
+    pane.enter("frame", "base_link")
+    pane.wait_for_set("frame", "base_link")
+    pane.enter("size", "0.25")
+    pane.wait_for_set("size", 0.25)
+    pane.enter("count", "12")
+    pane.wait_for_set("count", 12)
+    pane.field("style").select_option("Boxes")
+    pane.wait_for_set("style", "Boxes")
+    pane.field("filled").uncheck()
+    pane.wait_for_set("filled", False)
+    pane.enter("channel", "ring")
+    pane.wait_for_set("channel", "ring")
+    pane.enter("offset", "2")
+    pane.wait_for_set("offset", [2, 0.5, 0])
+    pane.enter("prefixes", "front\nrear left", "Tab")
+    pane.wait_for_set("prefixes", ["front", "rear left"])
+    pane.enter("shown", "base_link: true\na:b: false", "Control+Enter")
+    pane.wait_for_set("shown", {"base_link": True, "a:b": False})
+    pane.enter("arrow.length", "1")
+    pane.wait_for_set("arrow.length", 1)
+    pane.field("alpha").focus()
+    pane.keyboard.press("ArrowLeft")
+    pane.wait_for_set("alpha", 0.99)
+
+
+def test_what_the_viewer_has_is_shown(pane: Pane, make_row: MakeRow) -> None:
+    values: dict[str, Any] = {
+        "frame": "odom",
+        "size": 0.125,
+        "style": "Boxes",
+        "color": (1, 2, 3),
+        "offset": (1.5, 0.0, -2.0),
+        "prefixes": ["a", "b"],
+        "shown": {"base_link": False},
+    }
+    pane.tab.loop.show(make_row("a", **values))
+    pane.wait_for_value("size", "0.125")
+    assert pane.field("frame").input_value() == "odom"
+    assert pane.row("style").locator("option:checked").inner_text() == "Boxes"
+    assert pane.field("color").input_value() == "#010203"
+    assert pane.row("color").locator("[type=text]").input_value() == "1, 2, 3"
+    inputs = pane.row("offset").locator("input").all()
+    assert [each.input_value() for each in inputs] == ["1.5", "0", "-2"]
+    assert pane.field("prefixes").input_value() == "a\nb"
+    assert pane.field("shown").input_value() == "base_link: false"
+
+
+def test_what_differs_from_the_default_is_marked_and_can_be_reset(pane: Pane) -> None:
+    reset = pane.row("count").get_by_role("button", name="Reset Count")
+    assert not reset.is_visible()
+    pane.enter("count", "7")
+    pane.tab.wait_for(reset.is_visible)
+    assert pane.row("count").get_attribute("data-changed") is not None
+    reset.click()
+    pane.wait_for_set("count", 3)
+    pane.wait_for_value("count", "3")
+    pane.tab.wait_for(lambda: not reset.is_visible())
+
+
+def test_what_does_not_apply_is_hidden(pane: Pane) -> None:
+    assert "Edge" not in pane.labels()
+    pane.field("style").select_option("Boxes")
+    pane.tab.wait_for(lambda: "Edge" in pane.labels())
+
+
+def test_units_ranges_and_help_can_be_read(pane: Pane) -> None:
+    assert pane.row("size").locator(".wv-number-unit").inner_text() == "m"
+    assert pane.field("size").get_attribute("title") == (
+        "Edge of each point.\nRange: > 0 m.\nDefault: 0.01 m."
+    )
+    assert "Range: 0 to 1." in (pane.field("alpha").get_attribute("title") or "")
+
+
+def test_what_is_refused_says_why_below_the_field_and_stays(pane: Pane) -> None:
+    pane.enter("size", "-1")
+    refusal = pane.row("size").get_by_role("alert")
+    pane.tab.wait_for(refusal.is_visible)
+    assert "> 0" in refusal.inner_text()
+    assert pane.field("size").input_value() == "-1"
+    pane.tab.page.wait_for_timeout(700)
+    pane.tab.turn()
+    assert pane.field("size").input_value() == "-1"
+    pane.keyboard.press("Escape")
+    assert not refusal.is_visible()
+    assert pane.field("size").input_value() == "0.01"
+    pane.enter("size", "0.5")
+    pane.wait_for_set("size", 0.5)
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "reason"),
+    [
+        ("size", "much", "“much” is not a number"),
+        ("size", "5 kg", "“kg” is no unit here; use km, m"),
+        ("size", "1e999", "too large"),
+        ("size", "NaN", "not a number"),
+        ("count", "2.5", "a whole number"),
+        ("count", "5 m", "has no unit"),
+        ("color", "red", "from 0 to 255"),
+        ("color", "0, 0, 256", "from 0 to 255"),
+        ("shown", "base_link: yes", "is not valid"),
+        ("shown", "base_link", "is not valid"),
+    ],
+)
+def test_what_means_nothing_is_not_sent(pane: Pane, path: str, text: str, reason: str) -> None:
+    field = pane.row(path).locator("input:not([type=color]), textarea").first
+    field.fill(text)
+    field.blur()
+    assert reason in pane.row(path).get_by_role("alert").inner_text()
+    pane.tab.turn()
+    assert pane.tab.loop.commands == []
+
+
+def test_a_text_without_end_is_refused(pane: Pane) -> None:
+    pane.field("channel").evaluate("(field) => { field.value = 'x'.repeat(10_000_000) }")
+    pane.field("channel").press("End")
+    pane.keyboard.type("x")
+    pane.keyboard.press("Enter")
+    assert "at most 100,000 characters" in pane.row("channel").get_by_role("alert").inner_text()
+    pane.keyboard.press("Escape")
+    assert pane.field("channel").input_value() == "intensity"
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "value"),
+    [
+        ("size", "5 cm", 0.05),
+        ("size", "20mm", 0.02),
+        ("size", " 3 m ", 3),
+        ("size", ".5", 0.5),
+        ("size", "1e-3", 0.001),
+        ("size", "2 in", 0.0508),
+    ],
+)
+def test_a_number_can_be_typed_with_its_unit(
+    pane: Pane, path: str, text: str, value: float
+) -> None:
+    pane.enter(path, text)
+    pane.wait_for_set(path, value)
+
+
+def test_numbers_go_by_steps_that_suit_their_size(pane: Pane) -> None:
+    pane.field("size").click()
+    pane.keyboard.press("ArrowUp")
+    pane.wait_for_set("size", 0.011)
+    pane.keyboard.press("Shift+ArrowUp")
+    pane.wait_for_set("size", 0.021)
+    pane.field("count").click()
+    for _ in range(4):
+        pane.keyboard.press("ArrowDown")
+    pane.wait_for_set("count", 1)  # not below its bound
+
+
+def test_a_number_can_be_dragged_sideways(pane: Pane) -> None:
+    box = pane.field("count").bounding_box()
+    assert box
+    mouse = pane.page.mouse
+    mouse.move(box["x"] + 40, box["y"] + 10)
+    mouse.down()
+    mouse.move(box["x"] + 60, box["y"] + 10, steps=4)
+    mouse.move(box["x"] + 80, box["y"] + 10, steps=4)
+    pane.wait_for_set("count", 13)
+    mouse.move(box["x"] - 200, box["y"] + 10, steps=4)
+    pane.wait_for_set("count", 1)
+    mouse.up()
+    pane.wait_for_value("count", "1")
+
+
+def test_a_slider_sends_while_it_is_dragged(pane: Pane) -> None:
+    box = pane.field("alpha").bounding_box()
+    assert box
+    mouse = pane.page.mouse
+    mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    mouse.down()
+    pane.wait_for_set("alpha", 0.5)
+    mouse.move(box["x"] + 1, box["y"] + box["height"] / 2, steps=5)
+    pane.wait_for_set("alpha", 0)
+    mouse.up()
+    number = pane.row("alpha").get_by_role("spinbutton")
+    pane.tab.wait_for(lambda: number.input_value() == "0")
+
+
+def test_a_colour_is_picked_or_typed_as_rviz_writes_it(pane: Pane) -> None:
+    pane.field("color").fill("#0080ff")
+    pane.wait_for_set("color", [0, 128, 255])
+    text = pane.row("color").locator("[type=text]")
+    text.fill("1; 2; 3")
+    text.press("Enter")
+    pane.wait_for_set("color", [1, 2, 3])
+
+
+def test_what_comes_from_elsewhere_waits_while_somebody_types(
+    pane: Pane, make_row: MakeRow
+) -> None:
+    pane.field("channel").fill("half")
+    pane.tab.loop.show(make_row("a", channel="other", count=9))
+    pane.wait_for_value("count", "9")
+    assert pane.field("channel").input_value() == "half"
+    pane.keyboard.press("Escape")
+    pane.wait_for_value("channel", "other")
+
+
+def test_a_field_ends_with_what_the_viewer_made_of_it(pane: Pane, make_row: MakeRow) -> None:
+    pane.enter("count", "5")
+    pane.wait_for_set("count", 5)
+    pane.tab.loop.show(make_row("a", count=6))
+    pane.wait_for_value("count", "6")
+
+
+def test_sections_fold_and_this_browser_remembers_it(pane: Pane) -> None:
+    assert "Length" in pane.labels()
+    pane.element.get_by_role("button", name="Arrow", exact=True).click()
+    assert "Length" not in pane.labels()
+    pane.page.evaluate("ended()")
+    pane.page.evaluate("document.querySelector('#bench').remove()")
+    pane.mount()
+    assert "Length" not in pane.labels()
+
+
+def offered(*nodes: str, problem: str = "") -> Offer:
+    type_ = "sensor_msgs/msg/LaserScan"
+    publishers = tuple(Publisher(node, type_, "best_effort", "volatile") for node in nodes)
+    return Offer(publishers, ("best_effort", "volatile"), problem)
+
+
+def test_the_topics_of_the_type_are_offered_with_what_is_known_of_them(pane: Pane) -> None:
+    other = Offer((Publisher("/nav", "nav_msgs/msg/Path", "reliable", "volatile"),))
+    offers = {
+        "/scan": offered("/driver"),
+        "/rear": offered("/driver", "/bag"),
+        "/bad": offered("/x", problem="The types differ."),
+        "/plan": other,
+    }
+    pane.tab.loop.show(
+        *pane.tab.loop.state.rows, offers=offers, traffic={"/scan": Traffic(39.84, 1e5)}
+    )
+    pane.tab.wait_for(lambda: "40 Hz" in pane.text())
+    assert "auto (best effort)" in pane.text()
+    pane.field("topic.name").click()
+    options = pane.row("topic.name").get_by_role("option")
+    pane.tab.wait_for(lambda: options.count() == 3)
+    assert options.all_inner_texts() == [
+        "/bad\nThe types differ.",
+        "/rear\n2 publishers",
+        "/scan\n40 Hz · 1 publisher · shown by a",
+    ]
+    options.nth(1).click()
+    pane.wait_for_set("topic.name", "/rear")
+
+
+def test_the_qos_is_folded_under_one_line(pane: Pane) -> None:
+    assert "Reliability" not in pane.labels()
+    pane.element.get_by_role("button", name="QoS").click()
+    pane.field("topic.reliability").select_option("reliable")
+    pane.wait_for_set("topic.reliability", "reliable")
+    pane.enter("topic.depth", "20")
+    pane.wait_for_set("topic.depth", 20)
+    pane.tab.wait_for(lambda: "reliable, depth 20" in pane.text())
+
+
+def test_frames_are_offered(pane: Pane) -> None:
+    pane.tab.loop.show(*pane.tab.loop.state.rows, frames=("base_link", "map"))
+    pane.field("frame").click()
+    options = pane.row("frame").get_by_role("option")
+    pane.tab.wait_for(lambda: options.all_inner_texts() == ["<Fixed Frame>", "base_link", "map"])
+    options.last.click()
+    pane.wait_for_set("frame", "map")
+
+
+def test_statuses_are_folded_while_all_is_well(pane: Pane, make_row: MakeRow) -> None:
+    well = {"Topic": Status(Level.OK, "5 messages"), "Transform": Status(Level.OK, "fine")}
+    pane.tab.loop.show(make_row("a", statuses=well))
+    pane.tab.wait_for(lambda: "OK" in pane.text())
+    assert "5 messages" not in pane.text()
+    pane.element.get_by_role("button", name="Status").click()
+    pane.tab.wait_for(lambda: "Topic: 5 messages" in pane.text())
+    pane.element.get_by_role("button", name="Status").click()
+    bad = {**well, "Message": Status(Level.ERROR, "<b>It</b> is broken.")}
+    pane.tab.loop.show(make_row("a", statuses=bad))
+    pane.tab.wait_for(lambda: "Message: <b>It</b> is broken." in pane.text())
+
+
+def test_a_status_offers_what_a_click_can_do_about_it(pane: Pane, make_row: MakeRow) -> None:
+    remedy = Remedy("topic.name", "/front/scan")
+    status = Status(Level.WARN, "No publisher on /scan.", remedy)
+    pane.tab.loop.show(make_row("a", statuses={"Topic": status}))
+    link = pane.element.get_by_role("button", name="Use it")
+    pane.tab.wait_for(link.is_visible)
+    link.click()
+    pane.wait_for_set("topic.name", "/front/scan")
+
+
+def test_nothing_on_the_page_changes_while_nothing_changes(pane: Pane) -> None:
+    pane.page.evaluate("""() => {
+      window.changes = 0;
+      const observer = new MutationObserver((records) => { changes += records.length });
+      const all = { subtree: true, childList: true, attributes: true, characterData: true };
+      observer.observe(document.querySelector("#bench"), all);
+    }""")
+    for _ in range(30):
+        pane.tab.turn()
+    assert pane.page.evaluate("changes") == 0
+
+
+@pytest.mark.parametrize("name", sorted(display_types()))
+def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> None:
+    display = make(display_types()[name], {})
+    tab.loop.show(Row("b", name, display, name, {}))
+    tab.page.evaluate("localStorage.clear()")
+    tab.page.evaluate(MOUNT, "b")
+    values = values_of(display, IN_THE_TREE)
+    rows = tab.page.locator("#bench .wv-row")
+    tab.wait_for(lambda: rows.count() == len(values))
+    paths = rows.evaluate_all("(rows) => rows.map((row) => row.dataset.path)")
+    assert {f"value.{path}" for path in paths} == values.keys()
+    assert tab.page.locator("#bench [data-changed], #bench [aria-invalid]").count() == 0
+    tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_names_of_strangers_are_text(pane: Pane, make_row: MakeRow) -> None:
+    name = "<img src=x onerror=alert(1)>\u202e" + "x" * 10_000
+    status = Status(Level.ERROR, name)
+    row = make_row("a", channel=name, frame=name, shown={name: True}, statuses={name: status})
+    pane.tab.loop.show(row, offers={name: offered("/x")})
+    pane.wait_for_value("channel", name)
+    pane.field("topic.name").click()
+    pane.tab.wait_for(lambda: pane.row("topic.name").get_by_role("option").count() == 1)
+    assert pane.element.evaluate("(element) => element.scrollWidth <= element.clientWidth")

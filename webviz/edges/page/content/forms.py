@@ -1,0 +1,126 @@
+"""Properties for the page: what it needs to know to build their controls, and their values."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import msgspec
+import msgspec.inspect as inspect
+
+from webviz.api.properties import Property, properties_of
+
+MAX_TEXT = 100_000
+"""Characters of a value that is shown."""
+
+
+@functools.lru_cache(maxsize=128)
+def form(cls: type[msgspec.Struct], without: tuple[str, ...] = ()) -> msgspec.Raw:
+    """The declared properties of a class as JSON; groups have theirs in "children".
+
+    Each has a "path", a "label" without its unit, a "kind", and its "default"; and, where there is
+    any, "help", "unit", "bounds" in words and as "low" and "high" ("above" and "below" if they are
+    excluded), "choices", "when", the message "type" of a topic, the "items" of a list.
+    """
+    defaults = cls()
+    declared = [
+        _declared(each, defaults) for each in properties_of(cls) if each.path not in without
+    ]
+    return msgspec.Raw(msgspec.json.encode(declared))
+
+
+def values_of(declared: msgspec.Struct, without: tuple[str, ...] = ()) -> dict[str, Any]:
+    """All values, each with "value." and the path of its property as key."""
+    properties = (each for each in properties_of(type(declared)) if each.path not in without)
+    return {f"value.{leaf.path}": sendable(leaf.of(declared)) for leaf in leaves(properties)}
+
+
+def leaves(properties: Iterator[Property] | tuple[Property, ...]) -> Iterator[Property]:
+    """The properties that have a value of their own."""
+    for each in properties:
+        if each.children:
+            yield from leaves(each.children)
+        else:
+            yield each
+
+
+def sendable(value: Any) -> Any:
+    """A value that JSON can hold: without halves of letters, and no endless texts."""
+    if isinstance(value, str):
+        short = value if len(value) <= MAX_TEXT else value[: MAX_TEXT - 1] + "…"
+        return short.encode(errors="replace").decode()
+    if isinstance(value, Mapping):
+        return {str(sendable(str(key))): sendable(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [sendable(item) for item in value]
+    return sendable(msgspec.to_builtins(value)) if isinstance(value, msgspec.Struct) else value
+
+
+def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
+    label = each.label.removesuffix(f" ({each.unit})").rpartition("/")[2]
+    known: dict[str, Any] = {"path": each.path, "label": label, "kind": _kind(each)}
+    if each.children:
+        known["children"] = [_declared(child, defaults) for child in each.children]
+    else:
+        known["default"] = sendable(each.of(defaults))
+    more = {
+        "help": each.help,
+        "unit": each.unit,
+        "choices": each.choices,
+        "when": each.when,
+        "type": each.port.type if each.port else "",
+        "items": _items(each.type),
+        **_bounds(each.type),
+    }
+    return known | {key: value for key, value in more.items() if value or value == 0.0}
+
+
+def _kind(each: Property) -> str:
+    if each.port:
+        return "topic"
+    if each.children:
+        return "group"
+    if each.widget == "frame":
+        return "frame"
+    if each.choices:
+        return "choice"
+    match each.type:
+        case inspect.BoolType():
+            return "bool"
+        case inspect.IntType():
+            return "int"
+        case inspect.FloatType():
+            return "float"
+        case inspect.StrType():
+            return "text"
+        case inspect.DictType():
+            return "dict"
+        case inspect.TupleType(item_types=items) if len(items) in (2, 3):
+            if all(isinstance(item, inspect.FloatType) or _is_float(item) for item in items):
+                return "vector"
+            if len(items) == 3 and all(
+                isinstance(i, inspect.IntType) and i.le == 255 for i in items
+            ):
+                return "color"
+    return "list"
+
+
+def _is_float(item: inspect.Type) -> bool:
+    """Whether it is a number with more to say about it."""
+    return isinstance(item, inspect.Metadata) and isinstance(item.type, inspect.FloatType)
+
+
+def _items(type_: inspect.Type) -> str:
+    """What is in a list or a dictionary: "text", or "json" for all else."""
+    items = getattr(type_, "value_type", None) or getattr(type_, "item_type", None)
+    if items is None and not isinstance(type_, inspect.TupleType):
+        return ""
+    return "text" if isinstance(items, inspect.StrType) else "json"
+
+
+def _bounds(type_: inspect.Type) -> dict[str, Any]:
+    if not isinstance(type_, inspect.IntType | inspect.FloatType):
+        return {}
+    bounds = {"low": type_.ge, "above": type_.gt, "high": type_.le, "below": type_.lt}
+    return {key: bound for key, bound in bounds.items() if bound is not None}

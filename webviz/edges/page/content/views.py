@@ -1,0 +1,43 @@
+"""What one browser looks at, and the views that are saved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.api.views import VIEW_TYPES, type_of
+from webviz.edges.page.content.forms import form, sendable, values_of
+from webviz.engine.state import State
+
+DIGITS = 3
+"""Decimals that are shown; a view that somebody moves has more."""
+
+
+def view(state: State, browser: str) -> Mapping[str, Any]:
+    """What the browser with this id looks at: "type", "declared", and its values, rounded."""
+    shown = state.views.get(int(browser)) if browser.isdecimal() else None
+    if shown is None:
+        return {}
+    values = {key: _rounded(value) for key, value in values_of(shown).items()}
+    return {"type": type_of(shown), "declared": form(type(shown)), **values}
+
+
+def views(state: State, _: str) -> Mapping[str, Any]:
+    """The "types" of views; "saved": name and type of each, and whether browsers begin with it."""
+    settings = state.settings
+    saved = [
+        {"name": sendable(name), "type": type_of(view), "is_start": view == settings.view}
+        for name, view in settings.views.items()
+    ]
+    return {"types": list(VIEW_TYPES), "saved": saved}
+
+
+def _rounded(value: Any) -> Any:
+    """Numbers as they are shown; small ones keep digits that count."""
+    if isinstance(value, list):
+        return [_rounded(part) for part in value]
+    if not isinstance(value, float):
+        return value
+    least = -math.floor(math.log10(abs(value))) if value else 0
+    return round(value, max(DIGITS, min(least + 1, 6)))

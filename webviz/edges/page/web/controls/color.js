@@ -1,0 +1,52 @@
+// A colour: a swatch that opens the browser's own picker, and red, green and blue as text.
+
+import { el, set } from "../dom.js";
+import { entry } from "./entry.js";
+
+/** A colour of three bytes; see `control.js`. */
+export function color(_, options) {
+  const { label } = options;
+  const text = el("input", { class: "wv-field", type: "text", "aria-label": `${label}, as text` });
+  const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
+  const field = entry(text, {
+    ...options,
+    encode: (rgb) => rgb.join(", "),
+    decode: parse,
+    after: () => {
+      const shown = attempt(text.value);
+      if (shown && swatch.value !== shown) swatch.value = shown;
+    },
+  });
+  swatch.addEventListener("input", () => {
+    text.value = parse(swatch.value).join(", ");
+    field.edit(parse(swatch.value));
+  });
+  return {
+    ...field,
+    element: el("div", { class: "wv-color" }, swatch, text),
+    describe(help) {
+      set(text, { title: help });
+      set(swatch, { title: help });
+    },
+  };
+}
+
+/** "255, 0, 10", RViz's "255; 0; 10" or "#ff000a" as numbers; throws a sentence. */
+export function parse(text) {
+  const hex = /^#?([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text.trim());
+  if (hex) return hex.slice(1).map((byte) => parseInt(byte, 16));
+  const parts = text.trim().replace(/^rgb\(|\)$/g, "").split(/[\s,;]+/).map(Number);
+  const isColor = parts.length === 3 && parts.every((n) => Number.isInteger(n) && n >= 0 && n <= 255);
+  if (!isColor) {
+    throw new Error("Not changed: expected red, green and blue from 0 to 255, such as 255, 128, 0.");
+  }
+  return parts;
+}
+
+function attempt(text) {
+  try {
+    return `#${parse(text).map((byte) => byte.toString(16).padStart(2, "0")).join("")}`;
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,28 @@
+// Which control suits which kind of property.
+//
+// A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
+// it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
+// that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
+// when nobody edits it; `describe(text)` is its tooltip; `focus()`.
+
+import { checkbox, choice, text } from "./simple.js";
+import { color } from "./color.js";
+import { frame } from "./frame.js";
+import { lines } from "./lines.js";
+import { number } from "./number.js";
+import { slider } from "./slider.js";
+import { topic } from "./topic.js";
+import { vector } from "./vector.js";
+
+const MAKERS = {
+  bool: checkbox, choice, color, dict: lines, float: number, frame, int: number, list: lines, text, topic,
+  vector,
+};
+
+/** The control for a property. */
+export function control(property, options) {
+  const { kind, low, high } = property;
+  const isBounded = low !== undefined && high !== undefined;
+  const isSlider = (kind === "float" || kind === "int") && isBounded;
+  return (isSlider ? slider : MAKERS[kind] ?? text)(property, options);
+}

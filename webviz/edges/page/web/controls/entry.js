@@ -1,0 +1,87 @@
+// What is typed into a field counts on Enter, or when the field is left; Escape goes back.
+
+import { set } from "../dom.js";
+import { sync } from "./sync.js";
+
+const MAX_TEXT = 100_000;
+
+/**
+ * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
+ * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
+ * when the text has changed.
+ */
+export function entry(field, { change, refused, encode, decode, after = () => {} }) {
+  const isLong = field instanceof HTMLTextAreaElement;
+  let current;
+  let isTyped = false;
+
+  set(field, { autocomplete: "off", spellcheck: "false" });
+  const state = sync({
+    show(value) {
+      current = value;
+      write();
+    },
+    send: change,
+    refused(text) {
+      set(field, { "aria-invalid": text ? "true" : null });
+      refused(text);
+    },
+  });
+
+  function write() {
+    const text = encode(current);
+    if (field.value !== text) field.value = text;
+    after();
+  }
+
+  function take() {
+    isTyped = false;
+    // Half a letter, as some programs leave on the clipboard, cannot be sent.
+    const text = field.value.toWellFormed?.() ?? field.value;
+    if (text === encode(current) && !field.getAttribute("aria-invalid")) return state.release();
+    try {
+      if (text.length > MAX_TEXT) {
+        const [most, got] = [MAX_TEXT, text.length].map((n) => n.toLocaleString("en"));
+        throw new Error(`Not changed: expected at most ${most} characters, got ${got}.`);
+      }
+      const value = decode(text);
+      current = value;
+      state.release();
+      state.edit(value);
+    } catch (error) {
+      state.refuse(error.message);
+    }
+  }
+
+  field.addEventListener("input", () => {
+    isTyped = true;
+    state.hold();
+    after();
+  });
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && (!isLong || event.ctrlKey || event.metaKey)) {
+      take();
+    } else if (event.key === "Escape") {
+      if (!isTyped && !field.getAttribute("aria-invalid")) return;
+      isTyped = false;
+      state.cancel();
+      write();
+    } else {
+      return;
+    }
+    if (!isLong) field.select();
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  field.addEventListener("blur", () => {
+    if (isTyped) take();
+  });
+
+  return {
+    element: field,
+    focus: () => field.focus(),
+    describe: (text) => set(field, { title: text }),
+    update: state.show,
+    edit: state.edit,
+  };
+}

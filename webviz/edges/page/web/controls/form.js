@@ -1,0 +1,110 @@
+// The properties of something, one below the other, with those that belong together in sections.
+
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { recall, remember } from "../remember.js";
+import { row } from "./row.js";
+
+/**
+ * Rows for properties as `content/forms.py` declares them.
+ *
+ * `send(path, value)` tells the viewer what was entered and returns the promise of `act`. `name` is
+ * what this browser remembers by which sections are folded. Returns `{element, update(values,
+ * changed)}`: values of a store with "value." and "topic." before the paths, and which are new.
+ */
+export function form(declared, { send, name }) {
+  const rows = new Map();
+  const parts = []; // what is hidden while it does not apply
+  const lives = new Map();
+  let depth = 0;
+
+  function deeper(make) {
+    depth += 1;
+    const made = make();
+    depth -= 1;
+    return made;
+  }
+
+  function add(property) {
+    const element = build(property);
+    element.style.setProperty("--wv-depth", depth);
+    if (property.when) parts.push({ element, when: property.when });
+    return element;
+  }
+
+  function build(property) {
+    if (property.kind === "topic") return topic(property);
+    if (property.kind === "group") return section(property);
+    const made = row(property, send);
+    rows.set(property.path, made);
+    return made.element;
+  }
+
+  function topic(property) {
+    const [named, ...rest] = property.children;
+    const { label, help, type } = property;
+    const made = row({ ...named, kind: "topic", label, help, type }, send);
+    rows.set(named.path, made);
+    const qos = el("span");
+    const note = el("div", { class: "wv-section-note" }, qos);
+    lives.set(property.path, (known) => {
+      made.live(known);
+      setText(qos, known.qos);
+    });
+    const inner = deeper(() => rest.map(add));
+    const fold = foldable(`${property.path}.qos`, "QoS", note, inner, false);
+    return el("div", { class: "wv-topic" }, made.element, fold);
+  }
+
+  // As in RViz, a group may have a value of its own, which stands in its line.
+  function section({ path, label, help, children }) {
+    const own = children.find((child) => child.path === `${path}.value`);
+    const rest = children.filter((child) => child !== own);
+    const made = own && row({ ...own, help: own.help || help }, send);
+    if (made) rows.set(own.path, made);
+    const inner = deeper(() => rest.map(add));
+    return foldable(path, label, made ? made.element : null, inner, true, help);
+  }
+
+  function foldable(path, label, beside, children, isOpenAtFirst, help = "") {
+    const key = `fold.${name}.${path}`;
+    const inner = el("div", { class: "wv-section-inner", role: "group", "aria-label": label }, children);
+    const toggle = el("button", {
+      type: "button", class: "wv-fold", title: help || null, "aria-label": label,
+      onclick: () => show(inner.hidden),
+    }, icon("chevron", 12), beside?.matches(".wv-row") ? null : label);
+
+    function show(isOpen) {
+      inner.hidden = !isOpen;
+      set(toggle, { "aria-expanded": String(isOpen) });
+      remember(key, isOpen);
+    }
+
+    show(recall(key, isOpenAtFirst));
+    return el(
+      "div", { class: "wv-section" }, el("div", { class: "wv-section-head" }, toggle, beside), inner,
+    );
+  }
+
+  const element = el("div", { class: "wv-form" }, declared.map(add));
+  return {
+    element,
+    update(values, changed) {
+      for (const key of changed) {
+        const [kind, path] = split(key);
+        if (!values.has(key)) continue;
+        if (kind === "value") rows.get(path)?.update(values.get(key));
+        if (kind === "topic") lives.get(path)?.(values.get(key));
+      }
+      for (const part of parts) {
+        const isShown = part.when.every(([path, wanted]) => wanted.includes(values.get(`value.${path}`)));
+        if (part.element.hidden === isShown) part.element.hidden = !isShown;
+      }
+    },
+  };
+}
+
+function split(key) {
+  const dot = key.indexOf(".");
+  return [key.slice(0, dot), key.slice(dot + 1)];
+}

@@ -1,0 +1,72 @@
+// One property: its label, its control, and what leads back to the default.
+
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { control } from "./control.js";
+import { bounds } from "./units.js";
+
+let count = 0;
+
+/**
+ * A row for a property as `content/forms.py` declares it. `send(path, value)` tells the viewer, and
+ * returns the promise of `act`. Returns `{element, update(value), live(known)}`.
+ */
+export function row(property, send) {
+  count += 1;
+  const id = `wv-refused-${count}`;
+  const { path, label, kind, default: standard } = property;
+  const refusal = el("div", { class: "wv-refused", id, role: "alert", hidden: true });
+  const tell = (text) => {
+    setText(refusal, text);
+    refusal.hidden = !text;
+    set(element, { "aria-invalid": text ? "true" : null });
+  };
+  const made = control(property, { label, change: (value) => send(path, value), refused: tell });
+  const reset = el("button", {
+    type: "button", class: "wv-icon wv-row-reset", title: `Reset to ${words(property, standard)}`,
+    "aria-label": `Reset ${label}`, hidden: true,
+    onclick: () => {
+      tell("");
+      send(path, standard);
+      made.focus();
+    },
+  }, icon("reset", 14));
+  const name = el("span", { class: "wv-row-label", onclick: () => made.focus() }, label);
+  const element = el(
+    "div", { class: "wv-row", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
+    name, el("div", { class: "wv-row-control" }, made.element), reset, refusal,
+  );
+  const tooltip = about(property);
+  set(name, { title: tooltip });
+  made.describe(tooltip);
+
+  return {
+    element,
+    update(value) {
+      made.update(value);
+      const isChanged = JSON.stringify(value) !== JSON.stringify(standard);
+      set(element, { "data-changed": isChanged });
+      if (reset.hidden === isChanged) reset.hidden = !isChanged;
+    },
+    live: (known) => made.live?.(known),
+  };
+}
+
+/** What a tooltip says of a property: what it is for, what it may be, what it is by itself. */
+function about(property) {
+  const range = bounds(property);
+  const items = { dict: "One entry per line, name: value.", list: "One entry per line." }[property.kind];
+  const facts = [
+    property.help, property.type, items, range && `Range: ${range}.`,
+    `Default: ${words(property, property.default)}.`,
+  ];
+  return facts.filter(Boolean).join("\n");
+}
+
+function words({ kind, unit }, value) {
+  if (kind === "bool") return value ? "on" : "off";
+  if (Array.isArray(value)) return value.length ? value.join(", ") : "none";
+  if (typeof value === "object") return Object.keys(value).length ? JSON.stringify(value) : "none";
+  if (value === "") return "none";
+  return unit ? `${value} ${unit}` : String(value);
+}

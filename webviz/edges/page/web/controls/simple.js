@@ -1,0 +1,60 @@
+// Controls that the browser has by itself: a check box, a list to choose from, a line of text.
+
+import { el, set } from "../dom.js";
+import { icon } from "../icons.js";
+import { entry } from "./entry.js";
+import { sync } from "./sync.js";
+
+/** A check box; see `control.js`. */
+export function checkbox(_, { label, change, refused }) {
+  const input = el("input", { class: "wv-check", type: "checkbox", "aria-label": label });
+  const state = sync({
+    show(value) {
+      if (input.checked !== value) input.checked = value;
+    },
+    send: change,
+    refused,
+  });
+  input.addEventListener("change", () => state.edit(input.checked));
+  return {
+    element: input,
+    focus: () => input.focus(),
+    describe: (text) => set(input, { title: text }),
+    update: state.show,
+  };
+}
+
+/** One of a few values; see `control.js`. */
+export function choice({ choices }, { label, change, refused }) {
+  const select = el("select", { class: "wv-field", "aria-label": label });
+  let offered = choices;
+
+  function offer(values) {
+    offered = values;
+    select.replaceChildren(...values.map((value, index) => el("option", { value: index }, String(value))));
+  }
+
+  const state = sync({
+    show(value) {
+      // What a newer version of the viewer has may be unknown here.
+      if (!offered.includes(value)) offer([...choices, value]);
+      select.selectedIndex = offered.indexOf(value);
+    },
+    send: change,
+    refused,
+  });
+  select.addEventListener("change", () => state.edit(offered[select.selectedIndex]));
+  offer(choices);
+  return {
+    element: el("div", { class: "wv-choice" }, select, icon("chevron", 12)),
+    focus: () => select.focus(),
+    describe: (text) => set(select, { title: text }),
+    update: state.show,
+  };
+}
+
+/** A line of text; see `control.js`. */
+export function text(_, options) {
+  const input = el("input", { class: "wv-field", type: "text", "aria-label": options.label });
+  return entry(input, { ...options, encode: String, decode: (typed) => typed });
+}

@@ -1,0 +1,78 @@
+// Numbers as people write them, with a unit.
+
+// By the unit of the field: what others are worth in it.
+const UNITS = {
+  m: { km: 1000, m: 1, dm: 0.1, cm: 0.01, mm: 0.001, µm: 1e-6, um: 1e-6, in: 0.0254, ft: 0.3048 },
+  rad: { rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, mrad: 0.001 },
+  s: { h: 3600, min: 60, s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, ns: 1e-9 },
+  Hz: { kHz: 1000, Hz: 1, mHz: 0.001 },
+  px: { px: 1 },
+};
+const NUMBER = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
+const DECIMALS = 6;
+
+/** A number from what was typed into a field with a unit; throws a sentence if it means nothing. */
+export function parse(text, unit) {
+  const [, digits, suffix] = NUMBER.exec(text.trim().replace("−", "-")) ?? [];
+  if (digits === undefined) throw new Error(`Not changed: ${quoted(text)} is not a number.`);
+  const factor = factorOf(suffix.trim(), unit);
+  if (factor === undefined) throw new Error(`Not changed: ${wrongUnit(suffix, unit)}`);
+  const value = Number(digits) * factor;
+  if (!Number.isFinite(value)) throw new Error(`Not changed: ${quoted(text)} is too large.`);
+  return factor === 1 ? value : Number(value.toPrecision(12));
+}
+
+function factorOf(suffix, unit) {
+  if (suffix === "" || suffix === unit) return 1;
+  const known = UNITS[unit] ?? {};
+  return known[suffix] ?? known[Object.keys(known).find((name) => same(name, suffix))];
+}
+
+const same = (a, b) => a.toLowerCase() === b.toLowerCase();
+
+function wrongUnit(suffix, unit) {
+  if (!unit) return `this number has no unit, got ${quoted(suffix)}.`;
+  const others = Object.keys(UNITS[unit] ?? { [unit]: 1 });
+  return `${quoted(suffix)} is no unit here; use ${others.join(", ")}.`;
+}
+
+function quoted(text) {
+  return `“${text.length > 60 ? `${text.slice(0, 59)}…` : text}”`;
+}
+
+/** A number as a field shows it: as short as it can be, with up to six decimals. */
+export function format(value) {
+  if (!Number.isFinite(value)) return "";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e15)) return String(Number(value.toPrecision(6)));
+  return String(Number(value.toFixed(DECIMALS)));
+}
+
+/** The largest power of ten up to a size. */
+export const powerOfTen = (size) => Number(`1e${Math.floor(Math.log10(size))}`);
+
+/** How far one step of an arrow key goes from a value. */
+export function stepOf({ kind, low, high }, value) {
+  if (kind === "int") return 1;
+  if (low !== undefined && high !== undefined) return powerOfTen((high - low) / 100);
+  return powerOfTen(Math.abs(value) / 10 || 0.1);
+}
+
+/** The nearest value that the bounds of a property allow, rounded to a step. */
+export function within({ kind, low, above, high, below }, value, step) {
+  const rounded = kind === "int" ? Math.round(value) : Number((Math.round(value / step) * step).toPrecision(12));
+  if (low !== undefined && rounded < low) return low;
+  if (high !== undefined && rounded > high) return high;
+  if (above !== undefined && rounded <= above) return above + (kind === "int" ? 1 : step);
+  if (below !== undefined && rounded >= below) return below - (kind === "int" ? 1 : step);
+  return rounded;
+}
+
+/** The bounds in words, "" without any. */
+export function bounds({ low, above, high, below, unit }) {
+  const least = low !== undefined ? `≥ ${low}` : above !== undefined ? `> ${above}` : "";
+  const most = high !== undefined ? `≤ ${high}` : below !== undefined ? `< ${below}` : "";
+  const isRange = low !== undefined && high !== undefined;
+  const text = isRange ? `${low} to ${high}` : [least, most].filter(Boolean).join(", ");
+  return text && unit ? `${text} ${unit}` : text;
+}
