@@ -40,7 +40,7 @@ class Pane:
 
     def mount(self, id_: str = "a") -> Pane:
         self.page.evaluate(MOUNT, id_)
-        self.tab.wait_for(lambda: self.element.locator(".wv-row").count() > 0)
+        self.tab.wait_for(lambda: self.element.locator(".wv-property").count() > 0)
         return self
 
     def row(self, path: str) -> playwright.Locator:
@@ -60,7 +60,7 @@ class Pane:
         self.tab.wait_for(lambda: self.field(path).input_value() == text)
 
     def labels(self) -> list[str]:
-        return self.element.locator(".wv-row-label:visible").all_inner_texts()
+        return self.element.locator(".wv-property-label:visible").all_inner_texts()
 
     def text(self) -> str:
         return self.element.inner_text()
@@ -390,7 +390,7 @@ def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> N
     tab.page.evaluate("localStorage.clear()")
     tab.page.evaluate(MOUNT, "b")
     values = values_of(display, IN_THE_TREE)
-    rows = tab.page.locator("#bench .wv-row")
+    rows = tab.page.locator("#bench .wv-property")
     tab.wait_for(lambda: rows.count() == len(values))
     paths = rows.evaluate_all("(rows) => rows.map((row) => row.dataset.path)")
     assert {f"value.{path}" for path in paths} == values.keys()

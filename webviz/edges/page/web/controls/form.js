@@ -3,7 +3,7 @@
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { row } from "./row.js";
+import { row } from "./property_row.js";
 
 /**
  * Rows for properties as `content/forms.py` declares them.
@@ -53,7 +53,7 @@ export function form(declared, { send, name }) {
     });
     const inner = deeper(() => rest.map(add));
     const fold = foldable(`${property.path}.qos`, "QoS", note, inner, false);
-    return el("div", { class: "wv-topic" }, made.element, fold);
+    return el("div", { class: "wv-topic-property" }, made.element, fold);
   }
 
   // As in RViz, a group may have a value of its own, which stands in its line.
@@ -70,9 +70,9 @@ export function form(declared, { send, name }) {
     const key = `fold.${name}.${path}`;
     const inner = el("div", { class: "wv-section-inner", role: "group", "aria-label": label }, children);
     const toggle = el("button", {
-      type: "button", class: "wv-fold", title: help || null, "aria-label": label,
+      type: "button", class: "wv-section-fold", title: help || null, "aria-label": label,
       onclick: () => show(inner.hidden),
-    }, icon("chevron", 12), beside?.matches(".wv-row") ? null : label);
+    }, icon("chevron", 12), beside?.matches(".wv-property") ? null : label);
 
     function show(isOpen) {
       inner.hidden = !isOpen;

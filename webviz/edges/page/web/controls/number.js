@@ -19,7 +19,7 @@ export function number(property, { label, change, refused, prefix = "" }) {
     autocomplete: "off", spellcheck: "false",
   });
   const element = el(
-    "div", { class: "wv-number" },
+    "div", { class: "wv-number-input" },
     prefix && el("span", { class: "wv-number-prefix", "aria-hidden": "true" }, prefix),
     input,
     property.unit && el("span", { class: "wv-number-unit", "aria-hidden": "true" }, property.unit),

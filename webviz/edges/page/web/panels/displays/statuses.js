@@ -17,7 +17,7 @@ export function statuses({ open, use = null }) {
   const list = el("ul", { class: "wv-statuses-lines", id: `wv-statuses-${count}` });
   const note = el("span", { class: "wv-status-note" });
   const toggle = el("button", {
-    type: "button", class: "wv-fold wv-status-head", "aria-controls": list.id,
+    type: "button", class: "wv-section-fold wv-status-head", "aria-controls": list.id,
     onclick: () => {
       chosen = list.hidden;
       unfold();

@@ -23,7 +23,7 @@ export function row(property, send) {
   };
   const made = control(property, { label, change: (value) => send(path, value), refused: tell });
   const reset = el("button", {
-    type: "button", class: "wv-icon wv-row-reset", title: `Reset to ${words(property, standard)}`,
+    type: "button", class: "wv-icon wv-property-reset", title: `Reset to ${words(property, standard)}`,
     "aria-label": `Reset ${label}`, hidden: true,
     onclick: () => {
       tell("");
@@ -31,10 +31,10 @@ export function row(property, send) {
       made.focus();
     },
   }, icon("reset", 14));
-  const name = el("span", { class: "wv-row-label", onclick: () => made.focus() }, label);
+  const name = el("span", { class: "wv-property-label", onclick: () => made.focus() }, label);
   const element = el(
-    "div", { class: "wv-row", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
-    name, el("div", { class: "wv-row-control" }, made.element), reset, refusal,
+    "div", { class: "wv-property", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
+    name, el("div", { class: "wv-property-control" }, made.element), reset, refusal,
   );
   const tooltip = about(property);
   set(name, { title: tooltip });
