@@ -26,9 +26,6 @@ setup(
         ],
         "webviz.panels": [
             "Displays = webviz.panels.displays:Displays",
-            "TFTree = webviz.panels.transforms:TFTree",
-            "Time = webviz.panels.time:Time",
-            "Topics = webviz.panels.topics:Topics",
             "Views = webviz.panels.views:Views",
         ],
     },

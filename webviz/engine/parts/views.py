@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
+import numpy as np
 
-from webviz.api.bounds import union
+from webviz.api.bounds import Box, union
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
 from webviz.api.views import (
@@ -25,6 +26,7 @@ from webviz.engine.commands import (
     ChangeView,
     Command,
     FocusDisplay,
+    FocusFrame,
     RemoveView,
     RenameView,
     ResetView,
@@ -39,6 +41,9 @@ from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
 from webviz.files.config import ConfigError, nearest
+
+FRAME_M = 0.5
+"""Half of the edge of the cube around a frame that is looked at."""
 
 
 class ViewsPart(Part):
@@ -69,6 +74,7 @@ class ViewsPart(Part):
             ChangeView: self._change,
             ResetView: self._zero,
             FocusDisplay: self._focus,
+            FocusFrame: self._focus_frame,
             SaveView: self._save,
             RenameView: self._rename,
             RemoveView: self._remove,
@@ -135,7 +141,18 @@ class ViewsPart(Part):
         box = union(box for box in boxes if box is not None)
         if box is None:
             raise ConfigError("This display draws nothing to focus on. Check its statuses.")
-        for id, view in self._seen(_browser(command, sender)).items():
+        self._look_at(box, _browser(command, sender))
+
+    def _focus_frame(self, command: FocusFrame, sender: Sender) -> None:
+        frames = self.core.frames
+        pose = frames.latest(command.frame)
+        if pose is None:
+            raise ConfigError(frames.why_not(command.frame))
+        origin = np.array(pose.position)
+        self._look_at(Box(origin - FRAME_M, origin + FRAME_M), _browser(command, sender))
+
+    def _look_at(self, box: Box, browser: int | None) -> None:
+        for id, view in self._seen(browser).items():
             rig = self._rig(type(view), view.target_frame)
             size = self._cameras.size(id)
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)

@@ -5,5 +5,6 @@
 
 import { displays } from "./displays/displays.js";
 import { topics } from "./topics.js";
+import { transforms } from "./transforms.js";
 
-export const panels = [displays, topics];
+export const panels = [displays, topics, transforms];
