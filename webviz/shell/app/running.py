@@ -79,14 +79,11 @@ class Running:
             shown = read(path) if path is not None else None
             from webviz.edges.gui import Panels, take_typed
             from webviz.edges.page.toolbar import Toolbar
-            from webviz.edges.scene import CannotListen, Scene, on_typed, open_server
+            from webviz.edges.scene import Scene, on_typed, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
-            try:
-                server = open_server(host, port, allow_hosts)
-            except CannotListen as error:
-                raise Error(str(error)) from error
+            server = open_server(host, port, allow_hosts)
             stack.callback(_end, "The server of the page", server.stop)
             control = None
             if source is None:
