@@ -98,7 +98,7 @@ class Driver:
         self._executor = rclpy.executors.SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self.odometry: np.ndarray | None = None
-        self.patience_s = 20.0
+        self.patience_s = 60.0
 
     def _hear(self, odometry: Odometry) -> None:
         position = odometry.pose.pose.position

@@ -138,7 +138,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     assert has_map(page)
     assert "Waiting" not in page.text()
 
-    wait_for(page, "Simulated time stands still at 103.0 s: /player is paused", "Transform OK")
+    wait_for(page, "Simulated time has stopped at 103.0 s: /player is paused", "Transform OK")
     assert "No message for" not in page.text()
     assert 2.5 < scan_at(page) < 3.1
     assert has_map(page)

@@ -22,6 +22,7 @@ from webviz.edges.scene import on_typed, open_server
 from webviz.edges.scene.adapter import Adapter
 from webviz.engine.commands import Command, Refresh, Sender, SetProperty
 from webviz.engine.state import Row, State
+from webviz.shell.pictures.browser_scripts import HOLD
 
 WIDTH, HEIGHT = 700, 900
 """Of a tab in pixels."""
@@ -115,6 +116,9 @@ class Tab:
         page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
         page.get_by_text("Fixed Frame", exact=True).wait_for()
         self.wait_for(lambda: len(server.get_clients()) > known)
+        page.evaluate(
+            HOLD
+        )  # to draw the scene, which no test looks at, would take most of the time
 
     def field(self, label: str) -> playwright.Locator:
         """The input with a label on its left."""
@@ -172,7 +176,7 @@ class Tab:
         """All that can be read on the page."""
         return self.page.locator("body").inner_text()
 
-    def wait_for(self, condition: Callable[[], bool], timeout: float = 20.0) -> None:
+    def wait_for(self, condition: Callable[[], bool], timeout: float = 60.0) -> None:
         """Wait until a condition holds while the page runs."""
         for _ in range(int(timeout / 0.02)):
             if condition():

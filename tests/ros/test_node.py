@@ -61,7 +61,7 @@ def want(source: RosSource, name: str = "/words", **choices: Any) -> None:
     source.want({name: Subscription(STRING, Topic(name, **choices))})
 
 
-def until(condition: Callable[[], Any], what: str, seconds: float = 15.0) -> Any:
+def until(condition: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
     """Wait for something that DDS does in its own time."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:

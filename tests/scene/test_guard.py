@@ -17,7 +17,7 @@ from webviz.edges.scene import CannotListen, PortInUse, open_server
 
 def status(server: viser.ViserServer, *headers: tuple[str, str]) -> int:
     """The HTTP status of a request for the page with exactly these headers."""
-    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=5)
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=60)
     connection.putrequest("GET", "/", skip_host=True)
     for name, value in headers:
         connection.putheader(name, value.replace("PORT", str(server.get_port())))

@@ -6,7 +6,7 @@ from webviz import Output, Prop, Stroke, Tool, ToolContext, Topic
 
 
 class PublishPoint(Tool):
-    """Publish a point of the ground: click on it."""
+    """Publish a point on the ground: click it."""
 
     title = "Publish Point"
     rviz = "rviz_default_plugins/PublishPoint"

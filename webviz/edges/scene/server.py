@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Iterable
 from typing import Any
@@ -19,7 +20,6 @@ from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
 from webviz.edges.scene.gui_values import accepts_update
 from webviz.edges.scene.hosts import HostList
-from webviz.edges.scene.lights import add_lights
 from webviz.edges.scene.listener import listen
 from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
@@ -72,7 +72,11 @@ def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
 def _prepare(server: viser.ViserServer) -> None:
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
     set_background(server, BACKGROUND)
-    add_lights(server.scene)
+    # An ambient light shows plain colours, which `shade.js` then shades. viser's lights are too
+    # bright without tone mapping, and image-based lighting stalls browsers without a GPU.
+    server.scene.configure_environment_map(None)
+    server.scene.configure_default_lights(False, cast_shadow=False)
+    server.scene.add_light_ambient("/lights/ambient", intensity=math.pi)
     server.scene.set_up_direction("+z")
     server.initial_camera.far = 1e5
     server.scene.add_frame(ROOT, show_axes=False)
