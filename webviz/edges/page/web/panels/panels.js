@@ -6,5 +6,6 @@
 import { displays } from "./displays/displays.js";
 import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
+import { views } from "./views.js";
 
-export const panels = [displays, topics, transforms];
+export const panels = [displays, views, topics, transforms];

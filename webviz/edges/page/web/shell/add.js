@@ -18,7 +18,7 @@ export const onAdded = (listener) => listeners.add(listener);
 
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
-  if (document.querySelector(".wv-add")) return;
+  if (document.querySelector(".wv-add[open]")) return;
   const state = { way: recall("add", "type"), types: null, topics: null };
   const checked = new Map();
   const input = el("input", {

@@ -22,7 +22,7 @@ export function provideFrom(stores, make) {
 }
 
 export function openCommandList() {
-  if (document.querySelector(".wv-command-list")) return;
+  if (document.querySelector(".wv-command-list[open]")) return;
   const input = el("input", {
     class: "wv-field wv-search", type: "text", "aria-label": "Command", placeholder: "Type a command",
   });

@@ -20,8 +20,11 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
   let isBusy = false;
 
   function close(value = null) {
+    if (!dialog.open) return;
     answer = value;
     dialog.close();
+    // At once, so that no key goes to what had the focus in it.
+    dialog.remove();
   }
 
   async function choose({ value, accept }) {
@@ -77,7 +80,12 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
     ),
   );
   // viser's page and the commands have keys that are letters.
-  dialog.addEventListener("keydown", (event) => event.stopPropagation());
+  dialog.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    if (event.key !== "Escape" || event.defaultPrevented) return;
+    event.preventDefault();
+    close();
+  });
   if (isLight) {
     dialog.addEventListener("pointerdown", (event) => {
       if (event.target === dialog) close();

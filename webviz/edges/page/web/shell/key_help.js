@@ -19,7 +19,7 @@ const SCENE = [
 ];
 
 export function openKeys() {
-  if (document.querySelector(".wv-keys")) return;
+  if (document.querySelector(".wv-keys[open]")) return;
   const groups = new Map(ORDER.map((name) => [name, []]));
   for (const one of all()) {
     if (!keysOf(one).length) continue;

@@ -39,15 +39,15 @@ export function install(places) {
     open, tools.buttons, line, type, views, fixed.element, target.element, image, full, more,
   );
   const bar = fit(element, more, [
-    { element: full, items: () => [item(actions.fullscreen)] },
-    { element: image, items: () => [item(actions.image)] },
     { element: target.element, items: () => [
       { label: "Follow…", icon: "follow", run: () => choose("Follow", () => shown.target, targetOptions, setTarget) },
     ] },
-    { element: views, items: () => savedMenu() },
     { element: fixed.element, items: () => [
       { label: "Fixed frame…", icon: "axes", run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed) },
     ] },
+    { element: full, items: () => [item(actions.fullscreen)] },
+    { element: image, items: () => [item(actions.image)] },
+    { element: views, items: () => savedMenu() },
     { element: type, items: () => viewMenu() },
   ]);
   places.toolbar.append(element, tools.hint);
@@ -103,7 +103,7 @@ const setTarget = (value) => act("ChangeView", { key: "target_frame", value: val
 const setFixed = (frame) => act("SetFixedFrame", { frame });
 const fixedOptions = () => shown.frames.map((value) => ({ value }));
 const targetOptions = () => [
-  { value: FIXED, label: "Follow nothing" },
+  { value: FIXED, label: "No target" },
   ...shown.frames.map((value) => ({ value })),
 ];
 
