@@ -5,65 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Tab
+from tests.page.properties_pane import MOUNT, Pane
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
 from webviz.edges.page.content.forms import values_of
 from webviz.edges.page.content.properties import IN_THE_TREE
-from webviz.engine.commands import SetProperty
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
 
 MakeRow = Callable[..., Row]
-MOUNT = """async (id) => {
-  const { properties } = await import("/webviz/panels/displays/properties.js");
-  const bench = document.createElement("div");
-  bench.id = "bench";
-  bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
-  document.querySelector("#webviz").append(bench);
-  window.ended = properties(bench, id);
-}"""
-
-
-class Pane:
-    """The properties of the display "a"."""
-
-    def __init__(self, tab: Tab) -> None:
-        self.tab = tab
-        self.page = tab.page
-        self.keyboard = tab.page.keyboard
-        self.element = tab.page.locator("#bench")
-
-    def mount(self, id_: str = "a") -> Pane:
-        self.page.evaluate(MOUNT, id_)
-        self.tab.wait_for(lambda: self.element.locator(".wv-property").count() > 0)
-        return self
-
-    def row(self, path: str) -> playwright.Locator:
-        return self.element.locator(f"[data-path='{path}']")
-
-    def field(self, path: str) -> playwright.Locator:
-        return self.row(path).locator("input, select, textarea").first
-
-    def enter(self, path: str, text: str, key: str = "Enter") -> None:
-        self.field(path).fill(text)
-        self.keyboard.press(key)
-
-    def wait_for_set(self, path: str, value: Any) -> None:
-        self.tab.wait_for_command(SetProperty("a", path, value))
-
-    def wait_for_value(self, path: str, text: str) -> None:
-        self.tab.wait_for(lambda: self.field(path).input_value() == text)
-
-    def labels(self) -> list[str]:
-        return self.element.locator(".wv-property-label:visible").all_inner_texts()
-
-    def text(self) -> str:
-        return self.element.inner_text()
 
 
 @pytest.fixture
