@@ -45,6 +45,7 @@ def page(
     config.write_text("\n".join(["fixed_frame: map", "displays:", *rows, ""]))
     program = start("webviz", "-d", str(config), "--port", "0")
     page = Page(browser, program.url(), 900, 900)
+    page.hold()
     yield page
     errors = page.errors
     page.close()
@@ -65,8 +66,8 @@ def wait_for(page: Page, *words: str) -> None:
         return [each for each in words if each not in text]
 
     try:
-        page.wait_for(lambda: not missing(), "", 15)
-    except AssertionError:
+        page.wait_for(lambda: not missing(), "", 60)
+    except TimeoutError:
         pytest.fail(f"the page lacks {missing()}: {page.text()}")
 
 
