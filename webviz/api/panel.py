@@ -91,9 +91,6 @@ class Ui(Protocol):
     Labels, values and tooltips are shown as plain text.
     """
 
-    viser: Any
-    """The `viser.ViserServer`, for other widgets; these depend on viser's version."""
-
     def area(self) -> Area:
         """Add an empty place for text, tables or HTML."""
         ...
@@ -117,14 +114,14 @@ class Ui(Protocol):
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None, icon: str = ""
     ) -> None:
-        """Add a command to the palette of Ctrl+K.
+        """Add a command to the list of Ctrl+K.
 
         Args:
             label: its name there.
             act: its callback.
             key: its keyboard shortcut, "" for none.
             modifier: of the shortcut.
-            icon: name of a Tabler icon, such as "refresh".
+            icon: unused; kept for panels that name one.
         """
         ...
 

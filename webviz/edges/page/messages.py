@@ -211,8 +211,24 @@ class Do(FromPage, frozen=True):
     arguments: dict[str, Any]
 
 
+class Use(FromPage, frozen=True):
+    """Says what somebody did with a widget of a plug-in's panel.
+
+    Args:
+        number: of the request, for the page to know its `Done`.
+        panel: its name in the registry.
+        widget: its id.
+        value: what was entered, None for a button.
+    """
+
+    number: int
+    panel: str
+    widget: str
+    value: bool | str | None = None
+
+
 class Done(ToPage, frozen=True):
-    """What came of a `Do`.
+    """What came of a `Do` or a `Use`.
 
     Args:
         number: of the request.

@@ -9,7 +9,7 @@ import { optionList, search } from "./option_list.js";
 
 const MAX_SHOWN = 60;
 const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
-const STORES = ["settings", "frames", "commands"];
+const STORES = ["settings", "frames"];
 
 const makers = new Set();
 
@@ -64,7 +64,7 @@ export function openCommandList() {
 }
 
 function commands(values) {
-  const { settings, frames, commands: ofPanels } = values;
+  const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
     stores.every((name) => values[name]) ? make(values) : []);
   const place = ({ group }) => (ORDER.indexOf(group) + ORDER.length) % ORDER.length;
@@ -79,10 +79,6 @@ function commands(values) {
       name: `Fixed frame: ${frame}`, icon: "axes", group: "Fixed frame",
       note: frame === settings?.get("fixed_frame") ? "now" : "",
       run: () => act("SetFixedFrame", { frame }),
-    })),
-    ...[...(ofPanels?.values() ?? [])].filter((one) => one?.name).map((one) => ({
-      name: one.name, icon: one.icon, key: one.key, group: one.panel ?? "Panels",
-      run: () => act("RunPanelCommand", { panel: one.panel, command: one.name }),
     })),
   ];
 }
