@@ -50,7 +50,7 @@ class Form(Panel):
         self.lines = ui.area()
         self.html = ui.area()
         self.live = ui.checkbox("Live", False, note)
-        self.name = ui.field("Name", "robot", note, "Of the robot")
+        self.robot = ui.field("Name", "robot", note, "Of the robot")
         self.color = ui.choice("Color", "red", note)
         self.color.offer(["red", "green", ""], "red")
         self.pause = ui.button("Pause", lambda browser: None)
@@ -61,7 +61,7 @@ class Form(Panel):
         self.html.html("<b id='bold'>bold</b>")
         self.pause.label = "Resume" if state.clock.is_paused else "Pause"
         if state.frames:
-            self.name.show(state.frames[0])
+            self.robot.show(state.frames[0])
 
 
 class Moody(Panel):

@@ -61,7 +61,13 @@ class Area(Protocol):
 class Button(Protocol):
     """A button."""
 
-    label: str
+    @property
+    def label(self) -> str:
+        """Its text, which may be changed."""
+        ...
+
+    @label.setter
+    def label(self, label: str) -> None: ...
 
 
 class Field(Protocol[T]):
