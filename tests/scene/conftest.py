@@ -124,13 +124,13 @@ class Peer:
         data = message if isinstance(message, bytes) else msgspec.msgpack.encode(message)
         self._socket.send(data)
 
-    def look(self) -> None:
+    def look(self, x: float = 1.0) -> None:
         """Sends a camera, upon which the server counts this peer as a browser."""
         self.send(
             {
                 "type": "ViewerCameraMessage",
                 "wxyz": [1, 0, 0, 0],
-                "position": [1, 1, 1],
+                "position": [x, 1.0, 1.0],
                 "fov": 1.0,
                 "near": 0.1,
                 "far": 100.0,

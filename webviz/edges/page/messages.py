@@ -112,17 +112,6 @@ class SaveImage(ToPage, frozen=True):
     name: str
 
 
-class Typed(FromPage, frozen=True):
-    """Says what was typed into a dropdown.
-
-    Args:
-        uuid: viser's of the dropdown.
-    """
-
-    uuid: str
-    text: str
-
-
 class ToolButton(msgspec.Struct, frozen=True):
     """A button of the toolbar; see `webviz.engine.state.ToolButton`."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import viser
@@ -18,7 +17,6 @@ from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.connections import Gate
 from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
-from webviz.edges.scene.gui_values import accepts_update
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.listener import listen
 from webviz.edges.scene.names import ROOT
@@ -49,14 +47,9 @@ def open_server(
         CannotListen: `host` is not an address of this machine, or the port is not allowed.
     """
     listener = listen(host, port)
-    server: Server | None = None
-
-    def accepts(message: dict[str, Any]) -> bool:
-        return server is not None and accepts_update(server, message)
-
     gate, hosts, channel = Gate(), HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
-    serve = guarded_serve(websocket.serve, listener, gate, hosts, accepts, channel, modules)
+    serve = guarded_serve(websocket.serve, listener, gate, hosts, channel, modules)
     with _opening, replaced(websocket, "serve", serve):
         server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)
