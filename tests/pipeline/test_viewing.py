@@ -215,6 +215,8 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     looking.do(SaveView("Other", BOB))
     assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
     assert "already" in looking.refused(RenameView("Map", "Other"))
+    assert "needs a name" in looking.refused(RenameView("Map", ""))
+    assert "at most 200 characters" in looking.refused(SaveView("x" * 201, ALICE))
     assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
     assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
     assert "Unknown saved view `Map`" in looking.refused(RemoveView("Map"))

@@ -45,6 +45,8 @@ from webviz.files.config import ConfigError, nearest
 FRAME_M = 0.5
 """Half of the edge of the cube around a frame that is looked at."""
 
+MAX_NAME = 200
+
 
 class ViewsPart(Part):
     """The views of all browsers.
@@ -158,14 +160,14 @@ class ViewsPart(Part):
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
 
     def _save(self, command: SaveView, sender: Sender) -> None:
-        if not command.name:
-            raise ConfigError("A saved view needs a name.")
+        _check_name(command.name)
         view = command.view or self._one(_browser(command, sender))
         self._keep({**self._saved(), command.name: view})
 
     def _rename(self, command: RenameView, sender: Sender) -> None:
         saved, name, new_name = self._saved(), command.name, command.new_name
         view = _found(name, saved)
+        _check_name(new_name)
         if new_name != name and new_name in saved:
             raise ConfigError(f"A view named {new_name} exists already. Choose another name.")
         names = {key: new_name if key == name else key for key in saved}
@@ -234,6 +236,13 @@ class ViewsPart(Part):
 
     def _keep(self, views: Mapping[str, View]) -> None:
         self._settings.set("views", views)
+
+
+def _check_name(name: str) -> None:
+    if not name:
+        raise ConfigError("A saved view needs a name.")
+    if len(name) > MAX_NAME:
+        raise ConfigError(f"The name of a view can have at most {MAX_NAME} characters.")
 
 
 def _browser(command: Any, sender: Sender) -> int | None:
