@@ -124,7 +124,7 @@ class Tab:
         page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
         page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
-        self.wait_for(lambda: page.get_by_role("tablist").count() > 0)
+        self.wait_for(lambda: page.locator("#webviz").count() > 0)
 
     def button(self, name: str) -> playwright.Locator:
         """A button by its exact name."""

@@ -9,9 +9,10 @@ let count = 0;
  * Opens a dialog; resolves with the value of the button that was chosen, null on Escape.
  *
  * `content`: a string, an element or several, or what makes them when it is told how to close the
- * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary, danger,
- * focused, accept}`; Enter in a field is the primary one. `accept()`, which may be asynchronous, is
- * asked first: unless it returns true the dialog stays. `isLight`: a click beside it closes it, too.
+ * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary,
+ * danger, focused, accept}`; Enter in a field is the primary one. `accept()`, which may be
+ * asynchronous, is asked first: unless it returns true the dialog stays. `isLight`: a click beside
+ * it closes it, too.
  */
 export function openDialog({ title, content, buttons = [], isLight = false, className = "" }) {
   count += 1;
@@ -55,9 +56,16 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
         "header",
         { class: "wv-dialog-head" },
         el("h2", { id }, title),
-        el("button", {
-          type: "button", class: "wv-icon", "aria-label": "Close", onclick: () => close(),
-        }, icon("close")),
+        el(
+          "button",
+          {
+            type: "button",
+            class: "wv-icon",
+            "aria-label": "Close",
+            onclick: () => close(),
+          },
+          icon("close"),
+        ),
       ),
       el(
         "div",
@@ -69,11 +77,16 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
             "footer",
             { class: "wv-dialog-buttons" },
             buttons.map((button) =>
-              el("button", {
-                type: button.primary ? "submit" : "button", autofocus: button.focused,
-                class: `wv-button${button.primary ? " wv-primary" : ""}${button.danger ? " wv-danger" : ""}`,
-                onclick: button.primary ? null : () => choose(button),
-              }, button.label),
+              el(
+                "button",
+                {
+                  type: button.primary ? "submit" : "button",
+                  autofocus: button.focused,
+                  class: classOf(button),
+                  onclick: button.primary ? null : () => choose(button),
+                },
+                button.label,
+              ),
             ),
           )
         : null,
@@ -104,6 +117,9 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
     });
   });
 }
+
+const classOf = ({ primary, danger }) =>
+  ["wv-button", primary && "wv-primary", danger && "wv-danger"].filter(Boolean).join(" ");
 
 /** Asks a question; resolves with true if it was confirmed. The focus is on Cancel. */
 export async function ask(text, { confirm = "OK", title = "Are you sure?", danger = false } = {}) {

@@ -24,7 +24,10 @@ export function openKeys() {
   for (const one of all()) {
     if (!keysOf(one).length) continue;
     const group = one.group ?? "Tools";
-    groups.set(group, [...(groups.get(group) ?? []), [one.name.replace("…", ""), keysOf(one).map(keyText)]]);
+    groups.set(group, [
+      ...(groups.get(group) ?? []),
+      [one.name.replace("…", ""), keysOf(one).map(keyText)],
+    ]);
   }
   groups.set("Scene", SCENE);
   openDialog({
@@ -48,7 +51,17 @@ function group(name, rows) {
       "dl",
       {},
       rows.map(([does, keys]) =>
-        el("div", {}, el("dt", {}, does), el("dd", {}, keys.map((key) => el("kbd", {}, key))))),
+        el(
+          "div",
+          {},
+          el("dt", {}, does),
+          el(
+            "dd",
+            {},
+            keys.map((key) => el("kbd", {}, key)),
+          ),
+        ),
+      ),
     ),
   );
 }

@@ -36,11 +36,21 @@ export function install() {
     for (const listener of listeners) listener();
   });
   channel.on("Told", ({ level, text }) => tell(level, text));
-  provide(() => tools.map((tool) => ({
-    name: tool.name, icon: iconOf(tool), key: tool.shortcut || undefined, group: "Tools", run: () => toggle(tool),
-  })));
+  provide(() =>
+    tools.map((tool) => ({
+      name: tool.name,
+      icon: iconOf(tool),
+      key: tool.shortcut || undefined,
+      group: "Tools",
+      run: () => toggle(tool),
+    })),
+  );
   command({
-    name: "Leave the tool", key: "Escape", group: "Tools", isHidden: true, isThere: () => active !== null,
+    name: "Leave the tool",
+    key: "Escape",
+    group: "Tools",
+    isHidden: true,
+    isThere: () => active !== null,
     run: () => select(null),
   });
   for (const name of ["pointerdown", "pointermove", "pointerup", "pointercancel", "wheel"]) {
@@ -52,23 +62,30 @@ const iconOf = ({ gesture }) => (gesture === "pose" ? "pose" : "point");
 const toggle = (tool) => select(tool.id === active?.id ? null : tool);
 
 function show() {
-  setChildren(buttons, tools.map((tool) => {
-    const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
-    made.set(tool.id, button);
-    const text = JSON.stringify(tool);
-    if (button.dataset.tool !== text) {
-      set(button, { "aria-label": tool.name, "data-tip": tool.tooltip, "data-key": tool.shortcut || null });
-      button.dataset.tool = text;
-      button.replaceChildren(
-        icon(iconOf(tool)),
-        el("span", { class: "wv-tool-name" }, tool.name),
-        ...(tool.shortcut ? [el("kbd", {}, keyText(tool.shortcut))] : []),
-      );
-      button.onclick = () => toggle(tool);
-    }
-    set(button, { "aria-pressed": String(tool.id === active?.id) });
-    return button;
-  }));
+  setChildren(
+    buttons,
+    tools.map((tool) => {
+      const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
+      made.set(tool.id, button);
+      const text = JSON.stringify(tool);
+      if (button.dataset.tool !== text) {
+        set(button, {
+          "aria-label": tool.name,
+          "data-tip": tool.tooltip,
+          "data-key": tool.shortcut || null,
+        });
+        button.dataset.tool = text;
+        button.replaceChildren(
+          icon(iconOf(tool)),
+          el("span", { class: "wv-tool-name" }, tool.name),
+          ...(tool.shortcut ? [el("kbd", {}, keyText(tool.shortcut))] : []),
+        );
+        button.onclick = () => toggle(tool);
+      }
+      set(button, { "aria-pressed": String(tool.id === active?.id) });
+      return button;
+    }),
+  );
 }
 
 function leave() {
@@ -110,6 +127,7 @@ function onPointer(event) {
       select(null);
       channel.send({ type: "StrokeDone", tool: tool.id, ...made });
     };
-    if (!stroke.begin(event, tool, done)) tell("warn", "There is no ground. Press below the horizon.");
+    if (!stroke.begin(event, tool, done))
+      tell("warn", "There is no ground. Press below the horizon.");
   }
 }
