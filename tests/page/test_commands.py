@@ -11,6 +11,7 @@ from tests.page.conftest import Loop, Tab
 from webviz.api.views import Orbit
 from webviz.commands import (
     ChangeView,
+    FocusDisplay,
     Redo,
     Reset,
     ResetView,
@@ -226,3 +227,15 @@ def test_a_page_that_joins_is_not_told_of_old_steps(
     other = open_tab()
     other.wait_for(lambda: not other.button("Undo").is_disabled())
     assert "in another browser" not in other.text()
+
+
+def test_displays_are_selected_and_looked_at_by_name(
+    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+) -> None:
+    loop.show(make_row("a", "Front scan"), make_row("b", "Map"))
+    tab.wait_for(lambda: "Front scan" in tab.text())
+    run(tab, "focus front")
+    tab.wait_for_command(FocusDisplay("a"))
+    run(tab, "select map")
+    row = tab.page.get_by_role("treeitem", name="Map")
+    playwright.expect(row).to_have_attribute("aria-selected", "true")

@@ -43,7 +43,6 @@ export const actions = {
     run: () => history.redo(),
   },
   add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", run: () => openAdd() },
-  reset: { name: "Reset", icon: "refresh", key: "r", group: "Time", run: () => act("Reset") },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
   fold: {
     name: "Show or hide the panels",

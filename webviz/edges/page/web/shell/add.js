@@ -11,11 +11,6 @@ import { typeIcon } from "./type_icons.js";
 const MAX_SHOWN = 200;
 const WAYS = { type: "By type", topic: "By topic" };
 
-const listeners = new Set();
-
-/** Calls `listener(id)` with each display that was added here. */
-export const onAdded = (listener) => listeners.add(listener);
-
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
@@ -109,13 +104,8 @@ export function openAdd({ group = "" } = {}) {
   }).then((chosen) => {
     ends.forEach((end) => end());
     const picks = chosen === "add" ? input.taken() : chosen;
-    for (const { type, values } of picks ?? []) add(type, values, group);
+    for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group });
   });
-}
-
-async function add(type, values, group) {
-  const { display } = await act("AddDisplay", { type, values, group });
-  if (display) for (const listener of listeners) listener(display);
 }
 
 function rows({ way, types, topics }, checked) {

@@ -104,7 +104,6 @@ function menu(owner) {
     null,
     item(actions.image),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
-    item(actions.reset),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

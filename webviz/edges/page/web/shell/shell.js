@@ -4,6 +4,7 @@ import * as channel from "../channel.js";
 import { el } from "../dom.js";
 import * as actions from "./actions.js";
 import * as commands from "./commands.js";
+import * as displayCommands from "./display_commands.js";
 import * as drop from "./drop.js";
 import * as files from "./files.js";
 import * as firstRun from "./first_run.js";
@@ -38,6 +39,7 @@ function build() {
   actions.install();
   files.install();
   history.install();
+  displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
   toasts.install(scene);

@@ -16,12 +16,14 @@ let successor = null; // what follows displays that this page removes
 
 let tell = () => {};
 
-// The row of what was added is there before the answer, or comes after it.
-channel.on("Done", ({ display }) => {
-  if (!display) return;
-  added = display;
+/** Selects a display as soon as there is a row of it, and shows it. */
+export function reveal(id) {
+  added = id;
   tell();
-});
+}
+
+// The row of what was added is there before the answer, or comes after it.
+channel.on("Done", ({ display }) => display && reveal(display));
 channel.onOpen(() => {
   restored = new Set(recall(KEY, []));
   selected.clear();
