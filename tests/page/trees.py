@@ -61,6 +61,11 @@ class Tree:
         self.row(name).locator(".wv-tree-name").click(**options)
         self.tab.turn()
 
+    def press(self, keys: str) -> None:
+        """Press keys where the focus is."""
+        self.tab.page.keyboard.press(keys)
+        self.tab.turn()
+
     def fold(self, name: str) -> None:
         """Click on the arrow of a row."""
         self.row(name).locator(".wv-tree-fold").click()

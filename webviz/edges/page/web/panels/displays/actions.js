@@ -81,7 +81,10 @@ export function openActions(x, y, { model, rows, rename, refresh }) {
   const canEdit = items.every((item) => item.can_edit);
   openMenu(x, y, [
     { label: "Focus", icon: "focus", disabled: !isOne, run: () => focus(first) },
-    { label: "Rename", key: "F2", disabled: !isOne || !first.can_edit, run: () => rename(first.id) },
+    {
+      label: "Rename", icon: "pencil", key: "F2", disabled: !isOne || !first.can_edit,
+      run: () => rename(first.id),
+    },
     { label: "Duplicate", icon: "copy", run: () => duplicate(items) },
     { label: "Copy as YAML", icon: "file", key: "Ctrl+c", run: () => copyAsYaml(items) },
     { label: "Put into a new group", icon: "folder", run: async () => rename(await group(model, items)) },

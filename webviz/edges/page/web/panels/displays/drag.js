@@ -119,7 +119,11 @@ export function listenToDrags(canvas, tree) {
       move(tree.model(), ids, place);
       if (!selection.isSelected(item.id)) selection.choose(item.id);
       tree.showActive();
-    } else if (kind === "touch" && isReady) tree.openMenu(item.id, event.clientX, event.clientY);
+    } else if (kind === "touch" && isReady) {
+      // A menu that opens now would be closed by the end of this touch.
+      const { clientX: x, clientY: y } = event;
+      setTimeout(() => tree.openMenu(item.id, x, y));
+    }
   }
 
   function end() {
