@@ -24,6 +24,7 @@ from webviz.engine.commands import (
     ChangeView,
     Command,
     FocusDisplay,
+    FocusFrame,
     Load,
     RemoveView,
     RenameView,
@@ -117,6 +118,7 @@ ELSEWHERE = FPS(pitch=0.5)
         ChangeView("pitch", 0.2),
         ResetView(),
         FocusDisplay("display1"),
+        FocusFrame("base"),
         SaveImage(name="a.png"),
         SaveView("Mine"),
         StartWithView(),
@@ -251,3 +253,13 @@ def test_without_browsers_there_is_nothing_to_change(bench: Callable[..., Bench]
     cameras.shown.clear()
     assert "No browser is connected" in looking.refused(ResetView())
     assert "No browser is connected" in looking.refused(SaveView("A"))
+
+
+def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
+    looking: Looking,
+) -> None:
+    looking.do(FocusFrame("base", ALICE))
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, Orbit)
+    assert view.focal_point == pytest.approx((4.0, 0.0, 0.0))
+    assert "moon" in looking.refused(FocusFrame("moon", ALICE))

@@ -54,7 +54,9 @@ class Pages:
         watched = self._channel.watched()
         self._wishes.update(watched)
         for store in watched:
-            name, _, argument = store.partition(":")
-            if (make := self._makers.get(name)) is not None:
-                values = self._guard.attempt(store, {}, make, state, argument)
-                self._channel.show(store, values)
+            self._guard(store, self._fill, store, state)
+
+    def _fill(self, store: str, state: State) -> None:
+        name, _, argument = store.partition(":")
+        if (make := self._makers.get(name)) is not None:
+            self._channel.show(store, make(state, argument))

@@ -29,10 +29,9 @@ class Stores:
         """Makes these the values of a store, and returns the keys that are new, changed or gone."""
         if self._made_of.get(store) is values:
             return []  # large ones are the same object while nothing changes
-        self._made_of[store] = values
         old = self._content.get(store, {})
         new = {key: _encoded(value) for key, value in values.items()}
-        self._content[store] = new
+        self._content[store], self._made_of[store] = new, values
         changed = [key for key, value in new.items() if old.get(key) != value]
         return changed + [key for key in old if key not in new]
 

@@ -30,7 +30,7 @@ export function between() {
   let offered = [];
 
   const pick = (which, label) => combobox({
-    label, value: chosen[which], options: [], change: (value) => change(which, value),
+    label, value: chosen[which], options: [], placeholder: "Frame", change: (value) => change(which, value),
   });
   const boxes = { source: pick("source", "Frame"), target: pick("target", "In frame") };
   const swap = el("button", {
