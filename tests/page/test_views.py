@@ -83,6 +83,12 @@ def test_the_numbers_follow_the_camera_but_not_while_one_types(views: Pane) -> N
     views.wait_for_sent(ChangeView("distance", 4))
 
 
+def test_angles_can_be_typed_in_degrees(views: Pane) -> None:
+    views.field("yaw").fill("90°")
+    views.page.keyboard.press("Enter")
+    views.wait_for_sent(ChangeView("yaw", 1.57079632679))
+
+
 def test_type_and_target_frame_are_chosen_for_this_browser(views: Pane) -> None:
     views.field("type").select_option("TopDownOrtho")
     views.wait_for_sent(ChangeView("type", "TopDownOrtho"))
