@@ -11,6 +11,7 @@ import pytest
 from tests.page.conftest import Tab
 from webviz.edges.page.messages import Shell
 from webviz.edges.scene.server import Server
+from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import State
 
 SURFACES = ("back", "raised", "field", "chosen", "hover")
@@ -66,13 +67,17 @@ def test_all_letters_can_be_read_on_all_surfaces(tab: Tab, name: str) -> None:
     assert too_faint == []
 
 
-def test_nothing_published_is_explained_until_a_topic_appears(tab: Tab, server: Server) -> None:
+def test_nothing_published_is_explained_until_a_topic_appears(tab: Tab) -> None:
     card = tab.page.get_by_role("region", name="Nothing is published")
-    tab.loop.show(topics={"/rosout": ("rcl_interfaces/msg/Log",)})
+    tab.loop.show(offers={"/rosout": offer("/driver"), "/goal_pose": offer("/webviz")})
     tab.wait_for(card.is_visible)
     assert "webviz-sim" in card.inner_text()
-    tab.loop.show(topics={"/scan": ("sensor_msgs/msg/LaserScan",)})
+    tab.loop.show(offers={"/scan": offer("/driver")})
     tab.wait_for(card.is_hidden)
+
+
+def offer(node: str) -> Offer:
+    return Offer((Publisher(node, "std_msgs/msg/String", "reliable", "volatile"),))
 
 
 def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(
@@ -127,7 +132,7 @@ def test_visers_panel_is_hidden_but_for_debugging(tab: Tab, server: Server) -> N
 
 
 def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
-    tab.loop.state = State(topics={"/scan": ("sensor_msgs/msg/LaserScan",)})
+    tab.loop.state = State(offers={"/scan": offer("/driver")})
     for _ in range(10):
         tab.turn()
     watch = """() => {
