@@ -14,8 +14,10 @@ from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
 from webviz.edges.page.content.forms import values_of
 from webviz.edges.page.content.properties import IN_THE_TREE
+from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
+from webviz.files.config import Settings
 
 MakeRow = Callable[..., Row]
 
@@ -361,3 +363,44 @@ def test_names_of_strangers_are_text(pane: Pane, make_row: MakeRow) -> None:
     pane.field("topic.name").click()
     pane.tab.wait_for(lambda: pane.row("topic.name").get_by_role("option").count() == 1)
     assert pane.element.evaluate("(element) => element.scrollWidth <= element.clientWidth")
+
+
+@pytest.fixture
+def options(tab: Tab) -> Iterator[Pane]:
+    tab.page.evaluate("localStorage.clear()")
+    module = "import('/webviz/panels/displays/properties.js')"
+    tab.page.evaluate(f"""async () => {{
+      const bench = document.createElement("div");
+      bench.id = "bench";
+      bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
+      document.querySelector("#webviz").append(bench);
+      window.ended = (await {module}).globalOptions(bench);
+    }}""")
+    pane = Pane(tab)
+    tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate"])
+    yield pane
+    tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_what_holds_for_the_whole_viewer_is_edited(options: Pane) -> None:
+    options.tab.loop.show(frames=("map", "odom"))
+    options.field("fixed_frame").click()
+    odom = options.page.get_by_role("option", name="odom")
+    options.tab.wait_for(odom.is_visible)
+    assert options.row("fixed_frame").get_by_role("option").count() == 2
+    odom.click()
+    options.tab.wait_for_command(SetFixedFrame("odom"))
+    options.field("background").fill("#0a0b0c")
+    options.tab.wait_for_command(SetBackground((10, 11, 12)))
+    rate = options.row("frame_rate").get_by_role("spinbutton")
+    rate.fill("30 Hz")
+    rate.press("Enter")
+    options.tab.wait_for_command(SetFrameRate(30.0))
+
+
+def test_what_is_wrong_with_the_viewer_is_said_above(options: Pane) -> None:
+    bad = {"Fixed Frame": Status(Level.ERROR, "There is no frame <b>map</b>.")}
+    options.tab.loop.show(statuses=bad, settings=Settings(fixed_frame="odom"))
+    options.tab.wait_for(lambda: "Fixed Frame: There is no frame <b>map</b>." in options.text())
+    assert options.field("fixed_frame").input_value() == "odom"
+    assert options.row("fixed_frame").get_attribute("data-changed") is not None
