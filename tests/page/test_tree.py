@@ -297,6 +297,22 @@ def test_an_added_display_is_selected_and_scrolled_into_view(
     playwright.expect(tree.row("new")).to_be_in_viewport()
 
 
+def test_the_search_ends_when_something_else_is_added(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    field = tree.tab.page.get_by_label("Filter displays")
+    field.fill("b")
+    tree.wait_for_names("b")
+    tree.row("b").click(button="right")
+    loop.made = "new"
+    tree.item("Duplicate").click()
+    tree.tab.wait_for(lambda: loop.commands)
+    loop.show(make_row("a"), make_row("b"), make_row("new"))
+    tree.wait_for_names("a", "b", "new")
+    assert field.input_value() == ""
+
+
 def test_the_search_finds_by_name_type_and_topic(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
     scan = replace(make_row("scan", topic=Topic("/front/laser")), depth=1)
     loop.show(group("Sensors"), scan, replace(make_row("Cloud"), depth=1), make_row("Map"))

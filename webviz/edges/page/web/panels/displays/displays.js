@@ -31,7 +31,10 @@ export const displays = {
     const details = buildDetails(panel);
     const tree = buildTree({
       after: add,
-      changed: ({ item }) => details.update(item),
+      changed({ item, search }) {
+        details.update(item);
+        if (field.value !== search) field.value = search;
+      },
     });
     panel.append(
       el("div", { class: "wv-tree-filter" }, el("div", { class: "wv-tree-search" }, field, hint), more),

@@ -59,9 +59,12 @@ export function topmost(model, ids) {
   return model.items.filter(({ id, parent }) => ids.has(id) && !(parent && isWithin(parent, ids)));
 }
 
+/** The words of what somebody searches for. */
+export const wordsOf = (search) => search.toLowerCase().split(/\s+/).filter(Boolean);
+
 /** The items that are rows: not those in folded groups; while somebody searches, what matches. */
 export function visible(model, isOpen, search) {
-  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  const words = wordsOf(search);
   if (words.length) return matching(model, words);
   const rows = [];
   const add = (items) => {

@@ -7,7 +7,7 @@ import * as actions from "./actions.js";
 import { listenToDrags } from "./drag.js";
 import * as folding from "./folding.js";
 import { listenToKeys } from "./keys.js";
-import { GLOBAL, arrange, globalItem, matches, siblings, visible } from "./model.js";
+import { GLOBAL, arrange, globalItem, matches, siblings, visible, wordsOf } from "./model.js";
 import { rename } from "./rename.js";
 import { makeRow } from "./row.js";
 import * as selection from "./selection.js";
@@ -19,8 +19,9 @@ const SEEN_MS = 400; // a second click must find the row where the first one did
 const GUESS = { status: 18, inside: 240 };
 
 /**
- * Builds the tree; `after` follows the last row. `changed({model, item})` is called when something
- * else is shown or selected: `item` is the one that is selected alone, or null.
+ * Builds the tree; `after` follows the last row. `changed({item, search})` is called when
+ * something else is shown or selected: `item` is what is selected alone, or null, and `search` what
+ * is searched for, which ends when something else is added.
  */
 export function buildTree({ after, changed }) {
   let model = arrange(new Map());
@@ -62,7 +63,7 @@ export function buildTree({ after, changed }) {
   }
 
   function refresh() {
-    const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = wordsOf(search);
     const isGlobalShown = !words.length || matches(global, words);
     rows = [...(isGlobalShown ? [global] : []), ...visible(model, folding.isOpen, search)];
     if (!rows.some(({ id }) => id === selection.active())) {
@@ -72,7 +73,7 @@ export function buildTree({ after, changed }) {
     none.hidden = rows.length > 0;
     none.textContent = rows.length ? "" : "No display has this in its name, type or topic.";
     const [alone] = selection.ids().size === 1 ? selection.ids() : [null];
-    changed({ model, item: alone === GLOBAL ? global : model.byId.get(alone) ?? null });
+    changed({ item: alone === GLOBAL ? global : model.byId.get(alone) ?? null, search });
     selection.save([global, ...model.items]);
   }
 
@@ -82,7 +83,7 @@ export function buildTree({ after, changed }) {
     folding.follow(items);
     const added = selection.follow(items);
     if (added) {
-      search = matches(model.byId.get(added), [search.toLowerCase()]) ? search : "";
+      if (!matches(model.byId.get(added), wordsOf(search))) search = "";
       for (let one = model.byId.get(added).parent; one; one = one.parent) folding.setOpen(one, true);
     }
     refresh();
@@ -117,7 +118,6 @@ export function buildTree({ after, changed }) {
     list,
     model: () => model,
     rows: () => rows,
-    search: () => search,
     refresh,
     showActive,
     rename: startRename,
