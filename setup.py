@@ -24,10 +24,6 @@ setup(
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",
         ],
-        "webviz.panels": [
-            "Displays = webviz.panels.displays:Displays",
-            "Views = webviz.panels.views:Views",
-        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/webviz"]),

@@ -8,6 +8,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.commands import AddDisplay
 from webviz.edges.page.content.types import addable, types
+from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import State, Traffic
 
@@ -106,3 +107,12 @@ def test_types_have_their_help_and_topics_what_fits() -> None:
     offers = addable(State(topics=TOPICS), "")
     assert [tuple(pick) for pick in offers["/front"]["displays"]] == [("LaserScan", "topic")]
     assert offers["/imu"]["why"] == f"No display for {IMU}."
+
+
+def test_a_closed_dialog_costs_nothing(
+    tab: Tab, server: Server, dialog: playwright.Locator
+) -> None:
+    assert {"addable", "types"} <= server.channel.watched()
+    dialog.get_by_role("button", name="Cancel").click()
+    tab.wait_for(lambda: not {"addable", "types"} & server.channel.watched())
+    assert dialog.count() == 0

@@ -108,6 +108,7 @@ def open_panel(tab: Tab, type_: type[Panel]) -> None:
     registry.register("tests", {type_.__name__: type_})
     tab.wait_for(lambda: type_.__name__ in tabs(tab))
     tab.show_tab(type_.__name__)
+    tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
 
 
 def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: Tab) -> None:
@@ -116,7 +117,7 @@ def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: 
     open_panel(tab, Frames)
     assert tabs(tab) == [*before, "Frames"]
     tab.wait_for(lambda: HOSTILE in tab.text())
-    assert tab.button("Forget all").get_attribute("title") == "All of it"
+    assert tab.button("Forget all").get_attribute("data-tip") == "All of it"
     tab.button("Forget all").click()
     tab.wait_for_command(Reset())
     assert loop.senders[-1].browser is not None
@@ -203,10 +204,12 @@ def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> 
         registry.register("tests", {"Slow": Slow, "Frames": Frames})
         tab.wait_for(lambda: "Slow" in tabs(tab))
         tab.show_tab("Slow")
+        tab.wait_for(lambda: tab.button("Wait").count() > 0)
         for _ in range(MAX_WAITING + 2):
             tab.button("Wait").click()
         tab.wait_for(lambda: "Not done: the panel Slow is busy." in tab.text())
         tab.show_tab("Frames")
+        tab.wait_for(lambda: tab.button("Forget all").count() > 0)
         tab.button("Forget all").click()
         tab.wait_for_command(Reset())
     finally:

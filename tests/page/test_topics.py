@@ -209,7 +209,7 @@ def test_two_browsers_look_into_different_topics(
     assert "yours" not in panel.text()
     other.page.context.close()
     panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
-    panel.button("Close").click()
+    panel.page.locator(".wv-inspected").get_by_role("button", name="Close").click()
     panel.wait_for_command(InspectTopics(frozenset()))
 
 

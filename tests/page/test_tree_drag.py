@@ -34,6 +34,7 @@ def tree(tab: Tab, rows: list[Row]) -> Tree:
 
 def at(tree: Tree, name: str, share: float) -> tuple[float, float]:
     """A place on a row; `share` of its height."""
+    tree.tab.wait_for(lambda: tree.row(name).bounding_box())
     box = tree.row(name).bounding_box()
     assert box is not None
     return box["x"] + 90, box["y"] + share * box["height"]

@@ -18,8 +18,6 @@ from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import State
 
-OLD = "webviz.panels."
-"""Where webviz's own panels were, which pages draw themselves."""
 MAX_WAITING = 16
 """Acts of one panel that wait for one that takes long."""
 
@@ -39,12 +37,12 @@ class PluginPanels:
         self._channel = channel
         self._enqueue = enqueue
         self._tabs: dict[str, _Tab] = {}
-        self._broken = {n: why for n, why in broken_types(Panel).items() if OLD not in why}
+        self._broken = broken_types(Panel)
         channel.on(Use, self._use)
 
     def update(self, state: State) -> None:
         """Let every panel show the viewer."""
-        types = {n: c for n, c in plugin_types(Panel).items() if OLD not in f"{c.__module__}:"}
+        types = plugin_types(Panel)
         for name in [n for n, tab in self._tabs.items() if types.get(n) is not tab.type]:
             self._tabs.pop(name).close()
         for name in types.keys() - self._tabs.keys():

@@ -66,9 +66,9 @@ export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
   setText(fact, factOf(frame));
   setText(age, frame && !frame.is_static ? ageText(frame) : "");
   const problems = frame?.problems ?? [];
-  set(dot, { "data-level": problems.length ? "warn" : null, title: problems.join("\n") || null });
+  set(dot, { "data-level": problems.length ? "warn" : null, "data-tip": problems.join("\n") || null });
   set(row, {
-    title: [name, ...problems].join("\n"), "aria-level": depth + 1,
+    "data-tip": [name, ...problems].join("\n"), "aria-level": depth + 1,
     "aria-expanded": isOpen === null ? null : String(isOpen),
   });
   indent(row, depth);

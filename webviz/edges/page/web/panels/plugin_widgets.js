@@ -36,7 +36,7 @@ function button({ width }, send) {
   element.style.setProperty("--wv-share", width);
   function update({ label, hint }) {
     setText(element, label);
-    set(element, { title: hint || null });
+    set(element, { "data-tip": hint || null });
   }
   return { element, update };
 }
@@ -53,7 +53,7 @@ function checkbox(_, send) {
   });
   function update({ label, hint, value }) {
     setText(text, label);
-    set(element, { title: hint || null });
+    set(element, { "data-tip": hint || null });
     state.show(value);
   }
   return { element, update };
@@ -88,7 +88,7 @@ function field(_, send) {
   }
   function update({ label, hint, value }) {
     setText(name, label);
-    set(element, { title: hint || null });
+    set(element, { "data-tip": hint || null });
     state.show(value);
   }
   return { element, update };
@@ -101,7 +101,7 @@ function choice({ label, value, options }, send) {
   const element = el("div", { class: "wv-plugin-line" }, name, box.element);
   function update(values) {
     setText(name, values.label);
-    set(element, { title: values.hint || null });
+    set(element, { "data-tip": values.hint || null });
     box.update({ value: values.value, options: named(values.options) });
   }
   return { element, update };

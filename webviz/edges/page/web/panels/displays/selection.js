@@ -15,6 +15,7 @@ let saved = JSON.stringify([...restored]);
 let successor = null; // what follows displays that this page removes
 
 let tell = () => {};
+let place = 0; // of the current row, should it go
 
 /** Selects a display as soon as there is a row of it, and shows it. */
 export function reveal(id) {
@@ -85,9 +86,10 @@ export function follow(items) {
   if (!there.has(current)) {
     const next = there.has(successor) ? successor : null;
     if (next && !selected.size) choose(next);
-    else current = next ?? selected.values().next().value ?? items[0]?.id ?? null;
+    else current = next ?? items[Math.min(place, items.length - 1)]?.id ?? null;
     successor = null;
   }
+  place = Math.max(items.findIndex(({ id }) => id === current), 0);
   return null;
 }
 
