@@ -403,7 +403,7 @@ def test_five_hundred_displays_are_a_few_rows_in_the_page(
     assert len(tree.names()) < 60
     tree.click("row2")
     tree.tab.page.mouse.wheel(0, 4000)
-    tree.tab.wait_for(lambda: "row70" in tree.names() or "row90" in tree.names())
+    tree.tab.wait_for(lambda: int(tree.names()[-1].removeprefix("row")) > 60)
     assert "row2" in tree.names(), "the row that keys are about stays"
     tree.tab.page.keyboard.press("End")
     tree.tab.wait_for(lambda: tree.selected() == ["row499"])
