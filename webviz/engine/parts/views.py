@@ -99,15 +99,14 @@ class ViewsPart(Part):
         """The frames whose poses `follow` needs."""
         return self._cameras.target_frames()
 
-    def follow(self, frames: Frames) -> None:
+    def follow(self, targets: set[str], frames: Frames) -> None:
         """Move views with their target frames; call before the scene is flushed."""
-        wanted = self._cameras.target_frames()
-        for frame in wanted:
+        for frame in targets:
             if pose := frames.latest(frame):
                 self._scene.set_pose(target_group(frame), pose)
-        for frame in self._placed - wanted:
+        for frame in self._placed - targets:
             self._scene.remove_group(target_group(frame))
-        self._placed = wanted
+        self._placed = targets
 
     def statuses(self) -> Mapping[str, Status]:
         """Views whose target frame has no pose."""
