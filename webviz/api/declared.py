@@ -16,6 +16,8 @@ import msgspec
 Byte = Annotated[int, msgspec.Meta(ge=0, le=255)]
 Color = tuple[Byte, Byte, Byte]
 """Red, green and blue, 0 to 255."""
+MAX_NESTED = 64
+"""Parts of a path, as many as a config file has levels."""
 
 
 class Topic(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -103,6 +105,8 @@ def set_property(declared: Declared, path: str, value: Any) -> None:
         msgspec.ValidationError: the value is invalid; nothing was changed.
         AttributeError: the property does not exist.
     """
+    if path.count(".") >= MAX_NESTED:
+        raise AttributeError(f"{type(declared).__name__} has no property nested that deeply")
     head, _, rest = path.partition(".")
     if head not in declared.__struct_fields__:
         raise AttributeError(f"{type(declared).__name__} has no property {head!r}")

@@ -11,9 +11,11 @@ from typing import Any, get_type_hints
 import msgspec
 
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.content.forms import MAX_TEXT, brief
 from webviz.edges.page.messages import Do, Done, Download
 from webviz.engine import commands
 from webviz.engine.commands import Command, Sender
+from webviz.files.config import MAX_DEPTH, MAX_VALUES
 
 ALLOWED = (
     commands.AddDisplay,
@@ -50,6 +52,9 @@ ALLOWED = (
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
+MAX_ERROR = 1000
+"""Characters of what is answered to a page that is refused: it may quote what the page sent."""
+
 
 class Acts:
     """Does what pages ask for.
@@ -70,7 +75,7 @@ class Acts:
         try:
             command = command_of(do.command, do.arguments, made=made.append, deliver=deliver)
         except ValueError as error:
-            self._channel.send(Done(do.number, "error", str(error), ""), browser)
+            self._channel.send(Done(do.number, "error", brief(str(error), MAX_ERROR), ""), browser)
             return
 
         def tell(done: Future[str]) -> None:
@@ -80,7 +85,7 @@ class Acts:
             except CancelledError:
                 return
             except Exception as error:  # a sentence for people
-                level, text = "error", str(error)
+                level, text = "error", brief(str(error), MAX_ERROR)
             self._channel.send(Done(do.number, level, text, "".join(made)), browser)
 
         self._enqueue(command, Sender(browser)).add_done_callback(tell)
@@ -98,17 +103,40 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
         own: fields that the server fills in, for commands that have them.
 
     Raises:
-        ValueError: there is no such command for pages, or no such fields; with a sentence.
+        ValueError: there is no such command for pages, or no such fields, or they are too large;
+            with a sentence.
     """
     class_, form = _forms().get(name, (None, None))
     if class_ is None:
         raise ValueError("Not done: this page does not fit the viewer. Reload the page.")
+    _refuse_endless({key: value for key, value in arguments.items() if key != "text"})
     try:
         values = msgspec.structs.asdict(msgspec.convert(arguments, form))
     except (msgspec.ValidationError, RecursionError) as error:
         raise ValueError(f"Not done: {error}.") from error
     names = {field.name for field in dataclasses.fields(class_)}
     return class_(**values, **{key: value for key, value in own.items() if key in names})
+
+
+def _refuse_endless(arguments: dict[str, Any]) -> None:
+    """Refuse what no config file may have; the text of a whole one is checked when it is read."""
+    waiting: list[tuple[Any, int]] = [(arguments, 0)]
+    count = characters = 0
+    while waiting:
+        value, depth = waiting.pop()
+        count += 1
+        if isinstance(value, str):
+            characters += len(value)
+        elif isinstance(value, dict):
+            waiting += [(part, depth + 1) for pair in value.items() for part in pair]
+        elif isinstance(value, list):
+            waiting += [(part, depth + 1) for part in value]
+        if characters > MAX_TEXT:
+            raise ValueError(f"Not done: expected at most {MAX_TEXT} characters.")
+        if count > MAX_VALUES:
+            raise ValueError(f"Not done: expected at most {MAX_VALUES} values.")
+        if depth > MAX_DEPTH:
+            raise ValueError(f"Not done: expected at most {MAX_DEPTH} nested levels.")
 
 
 @functools.cache

@@ -23,6 +23,8 @@ MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
 MAX_CHARACTERS = 3 << 20
 """Of a message of a page; the longest is a config."""
+MAX_QUOTED = 200
+"""Characters of a message that the log quotes."""
 HELLO_S = 10.0
 """For a page to say who it is."""
 
@@ -66,6 +68,8 @@ class Channel:
         self._outboxes: dict[int, _Outbox] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
         self._stores = Stores()
+        self.may_watch: Callable[[int, str], bool] = lambda browser, store: True
+        """Called on the event loop: whether a browser may watch a store."""
         self.on_watch: Callable[[int], object] = lambda browser: None
         """Called on the event loop with a browser that watches another store."""
         self._listeners: dict[type[FromPage], list[Callable[[int, Any], None]]] = {}
@@ -183,7 +187,8 @@ class Channel:
         try:
             message = self._decoder.decode(text)
         except (msgspec.MsgspecError, RecursionError) as error:
-            log.warning("A message of a page was ignored: %s.", error)
+            # It may quote what the page sent, control characters included.
+            log.warning("A message of a page was ignored: %s.", ascii(str(error))[1:MAX_QUOTED])
             return
         if isinstance(message, Watch | Unwatch):
             self._watch(browser, message, log)
@@ -197,12 +202,13 @@ class Channel:
             if isinstance(message, Unwatch):
                 outbox.watched.discard(message.store)
                 return
-            is_allowed = outbox.watched.add(message.store)
+            is_allowed = self.may_watch(browser, message.store)
+            is_allowed = is_allowed and outbox.watched.add(message.store)
         if is_allowed:
             self.on_watch(browser)
             self._wake()
         else:
-            log.warning("A page asked for too many stores.")
+            log.warning("A page may not watch a store that it asked for, or not so many.")
 
     def _wake_soon(self) -> None:
         if (loop := self._loop) is not None:

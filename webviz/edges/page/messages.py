@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import msgspec
+
+Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
+"""What both JavaScript and JSON can hold."""
 
 
 class ToPage(msgspec.Struct, frozen=True, tag=True):
@@ -195,7 +198,7 @@ class Do(FromPage, frozen=True):
         arguments: its fields.
     """
 
-    number: int
+    number: Number
     command: str
     arguments: dict[str, Any]
 
@@ -210,7 +213,7 @@ class Use(FromPage, frozen=True):
         value: what was entered, None for a button.
     """
 
-    number: int
+    number: Number
     panel: str
     widget: str
     value: bool | str | None = None

@@ -16,6 +16,9 @@ from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import State
 
+OF_ONE_BROWSER = ("view", "view_type")
+"""Stores with the id of a browser behind the colon."""
+
 
 class Pages:
     """Shows a viewer on every page, and passes on what people do there.
@@ -40,6 +43,7 @@ class Pages:
         }
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
+        channel.may_watch = _may_watch
         channel.on(Ping, lambda browser, _: channel.send(Pong(), browser))
         channel.send(Shell())
 
@@ -60,3 +64,9 @@ class Pages:
         name, _, argument = store.partition(":")
         if (make := self._makers.get(name)) is not None:
             self._channel.show(store, make(state, argument))
+
+
+def _may_watch(browser: int, store: str) -> bool:
+    """Whether a store may be sent to a browser: a view is that of its own page only."""
+    name, _, argument = store.partition(":")
+    return name not in OF_ONE_BROWSER or argument == str(browser)

@@ -97,7 +97,7 @@ class Watched:
 def _encoded(value: Any) -> msgspec.Raw:
     try:
         return msgspec.Raw(msgspec.json.encode(value))
-    except UnicodeEncodeError:  # half of a surrogate pair, which JSON can only escape
+    except (UnicodeEncodeError, OverflowError):  # half of a surrogate pair, more than 64 bits
         return msgspec.Raw(json.dumps(msgspec.to_builtins(value)).encode())
 
 

@@ -122,8 +122,14 @@ class FilesPart(Part):
             with contextlib.suppress(OSError):
                 self._listing = in_thread(functools.partial(_config_files, self._folder))
 
+    def _in_folder(self, path: str) -> Path:
+        """A file that was named, relative to the folder."""
+        if "\0" in path:
+            raise ConfigError("A file name cannot contain a null character. Choose another name.")
+        return self._folder / path
+
     def _open(self, command: Open, sender: Sender) -> Job[Config]:
-        wanted = self._folder / command.path
+        wanted = self._in_folder(command.path)
 
         def then(config: Config) -> str:
             self._show(config, wanted)
@@ -145,7 +151,7 @@ class FilesPart(Part):
         return Job(lambda: opening.parse(text, name), then)
 
     def _save(self, command: Save, sender: Sender) -> Job[None]:
-        target = self._folder / command.path if command.path else self._path
+        target = self._in_folder(command.path) if command.path else self._path
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()

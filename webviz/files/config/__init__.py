@@ -17,10 +17,11 @@ from webviz.files.config.model import (
     standard,
 )
 from webviz.files.config.reading import read, read_display, read_tool
-from webviz.files.config.source import MAX_VALUES, Location, YamlDocument
+from webviz.files.config.source import MAX_DEPTH, MAX_VALUES, Location, YamlDocument
 from webviz.files.config.writing import document, dump, dump_displays
 
 __all__ = [
+    "MAX_DEPTH",
     "MAX_VALUES",
     "STANDARD",
     "VERSION",
