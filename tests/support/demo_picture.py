@@ -31,6 +31,7 @@ def main() -> int:
         program = Program(arguments, env, Path(folder) / "output.txt")
         try:
             page = Page(browser, program.url(), WIDTH, HEIGHT)
+            page.tab.emulate_media(color_scheme="dark")
             page.tab.wait_for_timeout(1000.0 * SECONDS)
             picture = PIL.Image.open(io.BytesIO(page.tab.screenshot()))
             page.close()
