@@ -9,7 +9,7 @@ from typing import Any
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
-from webviz.api.tool import Gesture
+from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.engine.sources import Offer
@@ -162,14 +162,21 @@ class ToolButton:
         name: as shown.
         tooltip: one sentence.
         shortcut: the key that selects it, "" for none.
-        gesture: followed by the page.
+        icon: of the page, "" for that of the gesture.
+        gesture, surface: followed by the page, and where it starts.
+        stays: whether it remains active after a gesture.
+        tool: read-only.
     """
 
     id: str
     name: str
     tooltip: str
     shortcut: str
+    icon: str
     gesture: Gesture
+    surface: bool
+    stays: bool
+    tool: Tool
 
 
 @dataclass(frozen=True)
