@@ -4,6 +4,7 @@
 // what is to be done when it is not any more.
 
 import { displays } from "./displays/displays.js";
+import { toolsPanel } from "./tools.js";
 import { topics } from "./topics.js";
 
-export const panels = [displays, topics];
+export const panels = [displays, topics, toolsPanel];
