@@ -1,5 +1,5 @@
-# `make` sets up .venv, `make test` checks and tests everything in it, by two processes: first what
-# takes a minute, `make quick` and `make check` at once, then what opens browsers and ROS graphs.
+# `make` sets up .venv, `make test` checks and tests everything in it, first what takes a minute,
+# `make quick` and `make check` at once, then what opens browsers and ROS graphs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := install
 
@@ -17,12 +17,14 @@ else
 endif
 comma := ,
 
-PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
+PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Neither a browser nor a ROS graph.
 QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages pipeline rviz \
 	sources transforms views)
+# Processes for the others, one more than processors: they wait for browsers and ROS graphs.
+WAITING := 3
 # A long file that comes last would leave one of the processes without work.
-FIRST := $(addprefix tests/,benchmarks e2e gui capture)
+FIRST := $(addprefix tests/,benchmarks e2e testing sim gui capture)
 
 .PHONY: install test quick check bench browser docs
 
@@ -31,14 +33,14 @@ install: $(VENV)/ready
 test: $(VENV)/ready-to-test
 ifdef ARGS
 	@$(MAKE) --no-print-directory check
-	@$(PYTEST) $(ARGS)
+	@$(PYTEST) -n 2 $(ARGS)
 else
 	@$(MAKE) --no-print-directory -j2 check quick
-	@$(PYTEST) --no-loadscope-reorder $(FIRST) tests $(addprefix --ignore=,$(QUICK))
+	@$(PYTEST) -n $(WAITING) --no-loadscope-reorder $(FIRST) tests $(addprefix --ignore=,$(QUICK))
 endif
 
 quick: $(VENV)/ready-to-test
-	@$(PYTEST) $(QUICK)
+	@$(PYTEST) -n 2 $(QUICK)
 
 check: $(VENV)/ready-to-test
 	@$(VENV)/bin/ruff check

@@ -26,13 +26,6 @@ setup(
             "PoseEstimate = webviz.tools.pose_estimate:PoseEstimate",
             "PublishPoint = webviz.tools.publish_point:PublishPoint",
         ],
-        "webviz.panels": [
-            "Displays = webviz.panels.displays:Displays",
-            "TFTree = webviz.panels.transforms:TFTree",
-            "Time = webviz.panels.time:Time",
-            "Topics = webviz.panels.topics:Topics",
-            "Views = webviz.panels.views:Views",
-        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/webviz"]),

@@ -19,7 +19,6 @@ ROOMS = (
     "webviz.engine",
     "webviz.edges",
     "webviz.tools",
-    "webviz.panels",
     "webviz.shell",
 )
 """Each may import itself and those before it."""
@@ -28,7 +27,7 @@ FACES = ("webviz", "webviz.__main__", "webviz.commands", "webviz.testing", "webv
 EDGES = {
     "rclpy": ("webviz.edges.ros", "webviz_sim"),
     "rosidl_runtime_py": ("webviz.edges.ros", "webviz_sim"),
-    "viser": ("webviz.edges.scene", "webviz.edges.gui", "webviz.panels"),
+    "viser": ("webviz.edges.scene",),
 }
 """Who may know a library."""
 SHARED_WITH_THE_SIMULATOR = (

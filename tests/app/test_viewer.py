@@ -5,7 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 import threading
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Mapping
@@ -92,11 +91,12 @@ def test_after_the_end_everything_is_refused(source: HandFedSource, refused: Ref
 def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    hangs, goes_on, closed = threading.Event(), threading.Event(), threading.Event()
+    hangs, is_stuck, goes_on, closed = (threading.Event() for _ in range(4))
 
     class Stuck(HandFedSource):
         def offers(self) -> Mapping[str, Offer]:
             if hangs.is_set():
+                is_stuck.set()
                 goes_on.wait()
             return super().offers()
 
@@ -105,7 +105,7 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
 
     viewer = webviz.Viewer(port=0, source=Stuck())
     hangs.set()
-    time.sleep(0.5)  # the frame loop looks around four times a second
+    assert is_stuck.wait(60)
     viewer.close()
     goes_on.set()
     assert closed.is_set()
@@ -119,7 +119,7 @@ def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
     waiting = threading.Thread(target=viewer.wait)
     waiting.start()
     viewer.stop()
-    waiting.join(10)
+    waiting.join(60)
     assert not waiting.is_alive()
 
 

@@ -95,7 +95,7 @@ def test_a_disk_that_does_not_respond_is_given_up() -> None:
             in_thread(mounted.wait)
     finally:
         mounted.set()
-    assert all(each.result(10.0) for each in waiting)
+    assert all(each.result(60.0) for each in waiting)
     assert within(10.0, lambda: "mounted again") == "mounted again"
 
 

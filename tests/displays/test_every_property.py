@@ -258,7 +258,7 @@ def is_group(hint: Any) -> bool:
 
 def settle(bench: Any) -> None:
     """Let slow work finish."""
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     bench.turn()
     while "Loading" in bench.statuses():
         assert time.monotonic() < deadline, bench.statuses()

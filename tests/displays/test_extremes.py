@@ -143,7 +143,7 @@ def send(at: Any, name: str, values: Values) -> None:
     topic = getattr(at.display, name).name or "/map_updates"
     at.send_bytes(type_name, cdr, topic)
     at.turn()
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     while at.runner.is_busy():
         assert time.monotonic() < deadline
         time.sleep(0.005)

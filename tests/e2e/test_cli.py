@@ -141,12 +141,13 @@ def test_the_demo_ends_cleanly_and_leaves_nothing(
     pytest.importorskip("rclpy", reason="needs rclpy")
     program = start("webviz", "demo", "--port", "0")
     url = program.url()
-    assert b"<html" in urllib.request.urlopen(url, timeout=10).read(4000)
+    assert b"<html" in urllib.request.urlopen(url, timeout=60).read(4000)
     children = command_lines(program.process.pid)
     assert any("webviz_sim" in line for line in children.values())
     assert program.end(number) == 0, program.output()
     assert "Traceback" not in program.output()
-    assert not [child for child in children if child.is_running()]
+    _, alive = psutil.wait_procs(children, timeout=60)
+    assert alive == []
     with pytest.raises(OSError):  # noqa: PT011 - the kind depends on the system
         urllib.request.urlopen(url, timeout=2)
 
@@ -159,7 +160,7 @@ def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(
     program.url()
     main = psutil.Process(program.process.pid)
     send(signal.SIGINT, (*main.children(recursive=True), main))
-    assert program.process.wait(20) == 0, program.output()
+    assert program.process.wait(60) == 0, program.output()
     assert "Traceback" not in program.output()
 
 
@@ -170,7 +171,7 @@ def test_a_simulator_that_dies_ends_the_demo_with_a_reason(start: Callable[..., 
     children = command_lines(program.process.pid)
     (simulator,) = (child for child, line in children.items() if "webviz_sim" in line)
     simulator.kill()
-    assert program.process.wait(20) == 1
+    assert program.process.wait(60) == 1
     assert "webviz: The simulator failed with exit status" in program.output()
 
 

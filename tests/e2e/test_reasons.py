@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 import playwright.sync_api as playwright
 import pytest
 from program import Program
+from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
@@ -45,6 +46,7 @@ def page(
     config.write_text("\n".join(["fixed_frame: map", "displays:", *rows, ""]))
     program = start("webviz", "-d", str(config), "--port", "0")
     page = Page(browser, program.url(), 900, 900)
+    page.hold()
     yield page
     errors = page.errors
     page.close()
@@ -53,28 +55,18 @@ def page(
 
 
 def select(page: Page, row: str) -> None:
-    page.tab.get_by_role("button", name=row).click()
-    wait_for(page, f"{row} · LaserScan")
+    Side(page).select(row)
 
 
 def wait_for(page: Page, *words: str) -> None:
-    """Wait until the page says all of this."""
-
-    def missing() -> list[str]:
-        text = page.text()
-        return [each for each in words if each not in text]
-
-    try:
-        page.wait_for(lambda: not missing(), "", 15)
-    except AssertionError:
-        pytest.fail(f"the page lacks {missing()}: {page.text()}")
+    Side(page).wait_for(*words)
 
 
 def wait_until_ok(page: Page, *gone: str) -> None:
     """Wait until the transform is there, and the sentence is not."""
-    wait_for(page, OK)
-    text = page.text()
-    assert not [words for words in gone if words in text]
+    side = Side(page)
+    side.wait_for(OK)
+    assert not [words for words in gone if words in side.text()]
 
 
 def test_an_unknown_frame_is_reported_with_the_nearest_name(robot: Robot, page: Page) -> None:
@@ -196,11 +188,13 @@ def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, 
 def test_a_fixed_frame_that_does_not_exist_is_typed_and_kept_with_the_reason(
     robot: Robot, page: Page
 ) -> None:
-    field = page.tab.get_by_role("combobox", name="Fixed Frame")
+    side = Side(page)
+    side.select(GLOBAL_OPTIONS)
+    field = side.field("fixed_frame")
     field.fill("mapp")
     field.press("Enter")
-    wait_for(page, 'Fixed frame "mapp" does not exist. Did you mean "map"?')
+    side.wait_for('Fixed frame "mapp" does not exist. Did you mean "map"?')
     assert field.input_value() == "mapp"
     field.fill("map")
     field.press("Enter")
-    wait_for(page, "Fixed Frame: OK")
+    side.wait_for("Fixed Frame: OK")

@@ -18,7 +18,14 @@ from webviz.api.status import Status
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
-from webviz.engine.commands import Command, Refresh, Sender, SetProperty
+from webviz.engine.commands import (
+    AddDisplay,
+    Command,
+    DuplicateDisplay,
+    Refresh,
+    Sender,
+    SetProperty,
+)
 from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 900, 800
@@ -61,6 +68,8 @@ class Loop:
         self.state = State()
         self.answer: str | Exception = ""
         """To all commands."""
+        self.made = ""
+        """The id that commands answer with which make a display."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
         self.pages = Pages(server.channel, self._enqueue)
 
@@ -86,13 +95,22 @@ class Loop:
                 displays = {row.id: row.display for row in self.state.rows if row.display}
                 try:
                     set_property(displays[command.display], command.path, command.value)
+                    self.state = replace(self.state, rows=tuple(map(_as_is, self.state.rows)))
                 except msgspec.ValidationError as error:
                     reply = error
+            if self.made and isinstance(command, AddDisplay | DuplicateDisplay):
+                command.made(self.made)
             if isinstance(reply, Exception):
                 answer.set_exception(reply)
             else:
                 answer.set_result(reply)
         self.pages.update(self.state)
+
+
+def _as_is(row: Row) -> Row:
+    """A row with the name and the switch that its display has now."""
+    display = row.display
+    return replace(row, name=display.name, enabled=display.enabled) if display else row
 
 
 class Tab:
@@ -106,7 +124,7 @@ class Tab:
         page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
         page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
-        self.wait_for(lambda: page.get_by_role("tablist").count() > 0)
+        self.wait_for(lambda: page.locator("#webviz").count() > 0)
 
     def button(self, name: str) -> playwright.Locator:
         """A button by its exact name."""
@@ -168,7 +186,7 @@ def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
 def tab(lasting: Tab) -> Iterator[Tab]:
     """The tab with an empty viewer; it must not see an error."""
     lasting.loop.state = State()
-    lasting.loop.answer = ""
+    lasting.loop.answer = lasting.loop.made = ""
     lasting.turn()
     lasting.loop.commands.clear()
     lasting.loop.senders.clear()
@@ -216,6 +234,7 @@ def make_row() -> Callable[..., Row]:
         id_: str, name: str = "", statuses: Mapping[str, Status] | None = None, **values: Any
     ) -> Row:
         display = Everything(name=name or id_, **values)
-        return Row(id_, "Everything", display, display.name, statuses or {})
+        statuses = statuses or {}
+        return Row(id_, "Everything", display, display.name, statuses, enabled=display.enabled)
 
     return make_row

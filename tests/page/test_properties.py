@@ -5,65 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Tab
+from tests.page.properties_pane import MOUNT, Pane
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
 from webviz.edges.page.content.forms import values_of
 from webviz.edges.page.content.properties import IN_THE_TREE
-from webviz.engine.commands import SetProperty
+from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
+from webviz.files.config import Settings
 
 MakeRow = Callable[..., Row]
-MOUNT = """async (id) => {
-  const { properties } = await import("/webviz/panels/displays/properties.js");
-  const bench = document.createElement("div");
-  bench.id = "bench";
-  bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
-  document.querySelector("#webviz").append(bench);
-  window.ended = properties(bench, id);
-}"""
-
-
-class Pane:
-    """The properties of the display "a"."""
-
-    def __init__(self, tab: Tab) -> None:
-        self.tab = tab
-        self.page = tab.page
-        self.keyboard = tab.page.keyboard
-        self.element = tab.page.locator("#bench")
-
-    def mount(self, id_: str = "a") -> Pane:
-        self.page.evaluate(MOUNT, id_)
-        self.tab.wait_for(lambda: self.element.locator(".wv-property").count() > 0)
-        return self
-
-    def row(self, path: str) -> playwright.Locator:
-        return self.element.locator(f"[data-path='{path}']")
-
-    def field(self, path: str) -> playwright.Locator:
-        return self.row(path).locator("input, select, textarea").first
-
-    def enter(self, path: str, text: str, key: str = "Enter") -> None:
-        self.field(path).fill(text)
-        self.keyboard.press(key)
-
-    def wait_for_set(self, path: str, value: Any) -> None:
-        self.tab.wait_for_command(SetProperty("a", path, value))
-
-    def wait_for_value(self, path: str, text: str) -> None:
-        self.tab.wait_for(lambda: self.field(path).input_value() == text)
-
-    def labels(self) -> list[str]:
-        return self.element.locator(".wv-property-label:visible").all_inner_texts()
-
-    def text(self) -> str:
-        return self.element.inner_text()
 
 
 @pytest.fixture
@@ -407,3 +363,44 @@ def test_names_of_strangers_are_text(pane: Pane, make_row: MakeRow) -> None:
     pane.field("topic.name").click()
     pane.tab.wait_for(lambda: pane.row("topic.name").get_by_role("option").count() == 1)
     assert pane.element.evaluate("(element) => element.scrollWidth <= element.clientWidth")
+
+
+@pytest.fixture
+def options(tab: Tab) -> Iterator[Pane]:
+    tab.page.evaluate("localStorage.clear()")
+    module = "import('/webviz/panels/displays/properties.js')"
+    tab.page.evaluate(f"""async () => {{
+      const bench = document.createElement("div");
+      bench.id = "bench";
+      bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
+      document.querySelector("#webviz").append(bench);
+      window.ended = (await {module}).globalOptions(bench);
+    }}""")
+    pane = Pane(tab)
+    tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate"])
+    yield pane
+    tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_what_holds_for_the_whole_viewer_is_edited(options: Pane) -> None:
+    options.tab.loop.show(frames=("map", "odom"))
+    options.field("fixed_frame").click()
+    odom = options.page.get_by_role("option", name="odom")
+    options.tab.wait_for(odom.is_visible)
+    assert options.row("fixed_frame").get_by_role("option").count() == 2
+    odom.click()
+    options.tab.wait_for_command(SetFixedFrame("odom"))
+    options.field("background").fill("#0a0b0c")
+    options.tab.wait_for_command(SetBackground((10, 11, 12)))
+    rate = options.row("frame_rate").get_by_role("spinbutton")
+    rate.fill("30 Hz")
+    rate.press("Enter")
+    options.tab.wait_for_command(SetFrameRate(30.0))
+
+
+def test_what_is_wrong_with_the_viewer_is_said_above(options: Pane) -> None:
+    bad = {"Fixed Frame": Status(Level.ERROR, "There is no frame <b>map</b>.")}
+    options.tab.loop.show(statuses=bad, settings=Settings(fixed_frame="odom"))
+    options.tab.wait_for(lambda: "Fixed Frame: There is no frame <b>map</b>." in options.text())
+    assert options.field("fixed_frame").input_value() == "odom"
+    assert options.row("fixed_frame").get_attribute("data-changed") is not None

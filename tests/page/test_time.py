@@ -61,6 +61,7 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
 
 def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None:
     loop.show(clock=running(100.25, is_paused=True, pace=Pace(100_250_000_000, time.time(), 0.0)))
+    tab.page.mouse.move(450, 300)  # no tooltip
     tab.wait_for(lambda: "0:01:40.250" in bar(tab))
     tab.page.evaluate(MUTATIONS)
     tab.page.wait_for_timeout(1500)

@@ -21,7 +21,7 @@ SEND = """async () => {
 
 def button(id_: str, cls: type[Tool]) -> ToolButton:
     tool = make(cls, {})
-    return ToolButton(id_, tool.name, "", "", "", "pose", False, False, tool)
+    return ToolButton(id_, tool.name, "", "", "pose", tool=tool)
 
 
 def shown(tab: Tab) -> None:

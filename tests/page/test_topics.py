@@ -209,7 +209,7 @@ def test_two_browsers_look_into_different_topics(
     assert "yours" not in panel.text()
     other.page.context.close()
     panel.wait_for_command(InspectTopics(frozenset({"/scan"})))
-    panel.button("Close").click()
+    panel.page.locator(".wv-inspected").get_by_role("button", name="Close").click()
     panel.wait_for_command(InspectTopics(frozenset()))
 
 
@@ -264,3 +264,11 @@ def test_nothing_is_made_anew_while_the_topics_are_the_same() -> None:
     assert topics(state, "") is made
     assert made["/scan"]["qos"] == "best effort, volatile"
     assert made["/mixed"]["qos"] == "mixed, mixed"
+
+
+def test_a_name_that_cannot_be_sent_stops_no_other_store(loop: Loop, panel: Tab) -> None:
+    show(loop, scan=(SCAN,))
+    choose(panel, "/scan")
+    bad = {"/half \ud800": Offer((SCAN,))}
+    loop.show(offers=bad, inspected={"/scan": Inspected("x", {"fields": {"a": "still read"}})})
+    panel.wait_for(lambda: "still read" in panel.text())

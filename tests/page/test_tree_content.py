@@ -34,6 +34,21 @@ def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: Mak
     assert row_of(make_row("a", statuses={"Topic": STATUSES["Topic"]}))["line"] == ""
 
 
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        (
+            "No message for 137.5 s on /map, before at 20.72 Hz.",
+            "No message for 140 s on /map, before at 21 Hz.",
+        ),
+        ("3.4 s old; 0.25 s apart; 1234567.8 s.", "3 s old; 0.25 s apart; 1200000 s."),
+        ("scan_2.5 s, 12 m, v1.25.3 seconds", "scan_2.5 s, 12 m, v1.25.3 seconds"),
+    ],
+)
+def test_ages_and_rates_in_a_line_change_seldom(make_row: MakeRow, text: str, shown: str) -> None:
+    assert row_of(make_row("a", statuses={"Topic": Status(Level.WARN, text)}))["line"] == shown
+
+
 def test_a_group_names_the_display_that_has_the_problem() -> None:
     group = Row("g", "Group", Group(name="G"), "G", {"Front scan": STATUSES["Points"]})
     assert row_of(group)["line"] == "Front scan: No points."

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
-from webviz.engine.by_topic import Pick, matching, no_display, picks
+from webviz.engine.by_topic import Pick, no_display, picks
 from webviz.engine.commands import AddDisplay
 
 GRID = "nav_msgs/msg/OccupancyGrid"
@@ -47,13 +47,3 @@ def test_a_pick_adds_the_display_with_its_topic() -> None:
 def test_a_topic_without_a_display_says_why() -> None:
     assert no_display(("sensor_msgs/msg/Imu",)) == "No display for sensor_msgs/msg/Imu."
     assert no_display(("a/msg/B", "c/msg/D")) == "No display for a/msg/B or c/msg/D."
-
-
-def test_the_filter_wants_every_word_somewhere() -> None:
-    found = picks({"/map": (GRID,), "/local/costmap": (GRID,)}, DISPLAYS)
-    assert [(p.topic, p.display) for p in matching(found, "local OUT")] == [
-        ("/local/costmap", "Outline")
-    ]
-    assert matching(found, "occupancy") == found
-    assert matching(found, "") == found
-    assert matching(found, "scan") == []

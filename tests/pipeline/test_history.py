@@ -72,6 +72,13 @@ def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Callable[..
     assert "History" not in b.statuses()
 
 
+def test_longer_than_any_clock_is_for_ever(bench: Callable[..., Any]) -> None:
+    b = bench(Note(name="Note", count=0, seconds=1e308))
+    note(b, 1, 0)
+    note(b, 2, 1000)
+    assert sorted(lengths(b)) == [1, 2]
+
+
 def test_one_message_at_a_time_is_no_shortage(bench: Callable[..., Any]) -> None:
     b = bench(Note(name="Note"))
     for second in range(6):

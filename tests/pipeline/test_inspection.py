@@ -174,12 +174,27 @@ def test_the_tree_of_transforms_is_reported_while_somebody_wants_it(
 ) -> None:
     b = bench()
     b.transform("map", "odom", 0, static=True)
-    assert do(b).transforms == ""
-    assert do(b, InspectTransforms()).transforms.splitlines()[1].startswith("└─ odom  [static")
+    assert do(b).transforms is None
+    (report,) = do(b, InspectTransforms()).transforms.frames  # pyright: ignore[reportOptionalMemberAccess]
+    assert (report.frame, report.parent, report.is_static) == ("odom", "map", True)
     b.scene.watched = False
-    assert do(b).transforms == ""
+    assert do(b).transforms is None
     b.scene.watched = True
-    assert do(b, InspectTransforms(False)).transforms == ""
+    assert do(b, InspectTransforms(tree=False)).transforms is None
+
+
+def test_the_transform_between_two_frames_is_read_out(bench: Callable[..., Any]) -> None:
+    b = bench()
+    b.transform("map", "odom", 0, 1.0, static=True)
+    b.transform("odom", "base", b.source.now - SECOND // 2)
+    pairs = frozenset({("map", "odom"), ("map", "base"), ("map", "moon")})
+    found = do(b, InspectTransforms(tree=False, between=pairs)).between
+    assert found["map", "odom"].translation == (1.0, 0.0, 0.0)
+    assert found["map", "odom"].age_s is None
+    assert found["map", "base"].age_s == 0.5
+    assert found["map", "moon"].translation is None
+    assert "moon" in found["map", "moon"].problem
+    assert do(b, InspectTransforms(tree=False)).between == {}
 
 
 def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(

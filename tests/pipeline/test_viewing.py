@@ -24,6 +24,7 @@ from webviz.engine.commands import (
     ChangeView,
     Command,
     FocusDisplay,
+    FocusFrame,
     Load,
     RemoveView,
     RenameView,
@@ -117,6 +118,7 @@ ELSEWHERE = FPS(pitch=0.5)
         ChangeView("pitch", 0.2),
         ResetView(),
         FocusDisplay("display1"),
+        FocusFrame("base"),
         SaveImage(name="a.png"),
         SaveView("Mine"),
         StartWithView(),
@@ -215,6 +217,8 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     looking.do(SaveView("Other", BOB))
     assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
     assert "already" in looking.refused(RenameView("Map", "Other"))
+    assert "needs a name" in looking.refused(RenameView("Map", ""))
+    assert "at most 200 characters" in looking.refused(SaveView("x" * 201, ALICE))
     assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
     assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
     assert "Unknown saved view `Map`" in looking.refused(RemoveView("Map"))
@@ -249,3 +253,13 @@ def test_without_browsers_there_is_nothing_to_change(bench: Callable[..., Bench]
     cameras.shown.clear()
     assert "No browser is connected" in looking.refused(ResetView())
     assert "No browser is connected" in looking.refused(SaveView("A"))
+
+
+def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
+    looking: Looking,
+) -> None:
+    looking.do(FocusFrame("base", ALICE))
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, Orbit)
+    assert view.focal_point == pytest.approx((4.0, 0.0, 0.0))
+    assert "moon" in looking.refused(FocusFrame("moon", ALICE))

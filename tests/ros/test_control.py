@@ -63,12 +63,12 @@ class Client:
         self.node.destroy_node()
         self._context.try_shutdown()
 
-    def wait(self, future: Future, seconds: float = 20.0) -> Any:
+    def wait(self, future: Future, seconds: float = 60.0) -> Any:
         self._executor.spin_until_future_complete(future, timeout_sec=seconds)
         assert future.done(), f"no answer within {seconds} s"
         return future.result()
 
-    def until(self, condition: Callable[[], Any], what: str, seconds: float = 20.0) -> None:
+    def until(self, condition: Callable[[], Any], what: str, seconds: float = 60.0) -> None:
         """Wait for something that the viewer or DDS does in its own time."""
         deadline = self.node.get_clock().now().nanoseconds + int(seconds * 1e9)
         while not condition():
@@ -76,12 +76,12 @@ class Client:
             self._executor.spin_once(timeout_sec=0.02)
 
     def get(self, name: str) -> str:
-        assert self._parameters.wait_for_services(20.0)
+        assert self._parameters.wait_for_services(60.0)
         return self.wait(self._parameters.get_parameters([name])).values[0].string_value
 
     def set(self, name: str, value: object) -> str:
         """Set a parameter, and return why not, "" if it is set."""
-        assert self._parameters.wait_for_services(20.0)
+        assert self._parameters.wait_for_services(60.0)
         answer = self._parameters.set_parameters([Parameter(name, value=value)])
         result = self.wait(answer).results[0]
         assert result.successful == (not result.reason)
@@ -89,7 +89,7 @@ class Client:
 
     def ask(self, service: str, type: Any = Trigger) -> Future:
         client = self.node.create_client(type, service)
-        assert client.wait_for_service(20.0)
+        assert client.wait_for_service(60.0)
         return client.call_async(type.Request())
 
     def call(self, service: str, type: Any = Trigger) -> Any:
@@ -319,7 +319,7 @@ class SlowViewer:
         return "Done."
 
     def save_screenshot(self) -> Path:
-        assert self.ready.wait(20.0)
+        assert self.ready.wait(60.0)
         return Path("/picture.png")
 
 
@@ -360,7 +360,7 @@ def test_messages_arrive_while_a_service_works(
 def test_too_many_requests_are_refused(slow: tuple[SlowViewer, RosSource], client: Client) -> None:
     viewer, _ = slow
     trigger = client.node.create_client(Trigger, "/webviz/screenshot")
-    assert trigger.wait_for_service(20.0)
+    assert trigger.wait_for_service(60.0)
     answers = [trigger.call_async(Trigger.Request()) for _ in range(5)]
     client.until(lambda: any(answer.done() for answer in answers), "one is refused")
     viewer.ready.set()

@@ -61,7 +61,7 @@ def want(source: RosSource, name: str = "/words", **choices: Any) -> None:
     source.want({name: Subscription(STRING, Topic(name, **choices))})
 
 
-def until(condition: Callable[[], Any], what: str, seconds: float = 15.0) -> Any:
+def until(condition: Callable[[], Any], what: str, seconds: float = 60.0) -> Any:
     """Wait for something that DDS does in its own time."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
@@ -96,6 +96,8 @@ def test_auto_asks_for_what_the_publisher_offers(
         return "hello" in heard(source)
 
     until(heard_it, "a message arrives")
+    until(lambda: source.offers()["/words"].subscribers == 1, "our subscription counts")
+    assert source.clock_messages() is None
 
 
 def test_a_latched_message_from_before_arrives(
@@ -195,7 +197,11 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., R
         publisher.publish(clock)
         return source.now_ns() == 42_000_000_000
 
+    assert source.clock_messages() == 0
     until(ticked, "the time of /clock")
+    assert source.clock_messages() == 1, "a message that changes nothing is none"
+    clock.clock.sec = 43
+    until(lambda: publisher.publish(clock) or source.clock_messages() == 2, "another message")
 
 
 def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) -> None:

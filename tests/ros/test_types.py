@@ -62,12 +62,12 @@ else:
 
 
 @pytest.fixture
-def ros():
-    """A context and node of this process, in a domain of its own."""
+def ros(webviz_domain):
+    """A context and node of this process."""
     import rclpy
 
     context = Context()
-    context.init(domain_id=_domain())
+    context.init(domain_id=webviz_domain)
     node = rclpy.create_node("types_test", context=context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
@@ -77,19 +77,14 @@ def ros():
     context.try_shutdown()
 
 
-@pytest.fixture(autouse=True)
-def localhost(monkeypatch):
-    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-
-
 @pytest.fixture
-def peer():
+def peer(webviz_domain):
     """Starts the other process; it is fed one message on stdin and prints what it receives."""
     started = []
 
     def start(role, *args):
         env = os.environ | {
-            "ROS_DOMAIN_ID": str(_domain()),
+            "ROS_DOMAIN_ID": str(webviz_domain),
             "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path[1:]]),
         }
         process = subprocess.Popen(
@@ -107,11 +102,7 @@ def peer():
         process.communicate()
 
 
-def _domain() -> int:
-    return 33 + os.getpid() % 60
-
-
-def spin_until(executor, condition, seconds=15.0):
+def spin_until(executor, condition, seconds=60.0):
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         executor.spin_once(timeout_sec=0.05)
@@ -290,9 +281,10 @@ def test_hashes_equal_those_of_every_installed_service():
 SERVER = """
 import sys
 import rclpy
+from rclpy.signals import SignalHandlerOptions
 from webviz.edges.ros.types import service_class
 from webviz.edges.ros.types.wire import Raw
-rclpy.init()
+rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
 node = rclpy.create_node("server")
 def answer(request, response):
     return Raw.__init__(response, bytes([0, 1, 0, 0, request.cdr[4]])) or response

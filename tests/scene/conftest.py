@@ -124,13 +124,13 @@ class Peer:
         data = message if isinstance(message, bytes) else msgspec.msgpack.encode(message)
         self._socket.send(data)
 
-    def look(self) -> None:
+    def look(self, x: float = 1.0) -> None:
         """Sends a camera, upon which the server counts this peer as a browser."""
         self.send(
             {
                 "type": "ViewerCameraMessage",
                 "wxyz": [1, 0, 0, 0],
-                "position": [1, 1, 1],
+                "position": [x, 1.0, 1.0],
                 "fov": 1.0,
                 "near": 0.1,
                 "far": 100.0,
@@ -141,7 +141,7 @@ class Peer:
             }
         )
 
-    def receive(self, timeout: float = 10.0) -> list[dict[str, Any]]:
+    def receive(self, timeout: float = 60.0) -> list[dict[str, Any]]:
         """The messages of the next websocket frame."""
         data = self._socket.recv(timeout)
         assert isinstance(data, bytes)
@@ -181,7 +181,7 @@ def ask(server: viser.ViserServer) -> Callable[[bytes], tuple[int, bytes, bytes]
     """Sends the bytes of a request; returns status, headers and body of the answer."""
 
     def ask(request: bytes) -> tuple[int, bytes, bytes]:
-        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=10) as stranger:
+        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as stranger:
             stranger.sendall(request)
             answer = b"".join(iter(lambda: stranger.recv(1 << 16), b""))
         head, _, body = answer.partition(b"\r\n\r\n")
@@ -195,9 +195,9 @@ def wait_until() -> Callable[[Callable[[], bool]], None]:
     """Waits until a condition holds, for what another thread is about to do."""
 
     def wait_until(condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + 10
+        deadline = time.monotonic() + 60
         while not condition():
-            assert time.monotonic() < deadline, "waited 10 s in vain"
+            assert time.monotonic() < deadline, "waited 60 s in vain"
             time.sleep(0.005)
 
     return wait_until

@@ -195,7 +195,7 @@ def test_when_the_channel_ends_viser_notifies_the_page(
 
 
 def test_modules_are_served_as_scripts_and_nothing_else_is(server: Server) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=60)
     connection.request("GET", "/webviz/channel.js?x")
     answer = connection.getresponse()
     assert (answer.status, answer.getheader("Content-Type")) == (
@@ -213,7 +213,7 @@ def test_modules_are_served_as_scripts_and_nothing_else_is(server: Server) -> No
     "path", ["", "bootstrap.js", "messages.py", "%6dain.js", "../webviz/main.js", "main.js/", "."]
 )
 def test_nothing_but_modules_is_below_their_folder(server: Server, path: str) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", server.get_port(), timeout=60)
     connection.request("GET", f"/webviz/{path}")
     assert connection.getresponse().status == 404
 
@@ -269,7 +269,7 @@ def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channe
     loop = server.get_event_loop()
     proxy = asyncio.run_coroutine_threadsafe(
         asyncio.start_server(forward, "127.0.0.1", 0), loop
-    ).result(10)
+    ).result(60)
     port = proxy.sockets[0].getsockname()[1]
     page = Page(browser, f"http://127.0.0.1:{port}/robot", 320, 240)
     server.channel.send(Ask("below"))

@@ -98,15 +98,19 @@ def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "Allowance", lambda: Allowance(rate=1e-9, burst=3.5))
-    sent, done = server.gui.add_number("sent", 0), server.gui.add_checkbox("done", False)
     eager, other = call(), call()
     for number in range(1, 6):
-        update = {"updates": {"value": number}, "uuid": sent._impl.uuid}
-        eager.send({"type": "GuiUpdateMessage"} | update)
-    wait_until(lambda: sent.value >= 3)
-    other.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
-    wait_until(lambda: done.value)
-    assert sent.value == 3
+        eager.look(float(number))
+    wait_until(lambda: seen(server) == [3.0])
+    other.look(9.0)
+    wait_until(lambda: len(server.get_clients()) == 2)
+    assert seen(server) == [3.0, 9.0]
+
+
+def seen(server: viser.ViserServer) -> list[float]:
+    """The x of every camera that the server has heard of."""
+    cameras = [client.camera for client in server.get_clients().values()]
+    return sorted(float(camera.position[0]) for camera in cameras)
 
 
 @pytest.mark.parametrize(
@@ -126,38 +130,31 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
         pytest.fail("the server took a million frames")
 
 
-def test_changes_of_an_unknown_form_are_not_kept(
+def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_connection(
     server: viser.ViserServer,
     call: Callable[..., Any],
     wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
-    form, done = server.gui.add_form("form"), server.gui.add_checkbox("done", False)
-    sender = call()
-    for number in range(50):
-        sender.send({"type": "GuiFormDirtyMessage", "uuid": f"{number}"})
-    sender.send({"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid})
-    sender.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
-    wait_until(lambda: done.value)
-    kept = [m["uuid"] for m in call().replay() if m["type"] == "GuiFormDirtyMessage"]
-    assert kept == [form._impl.uuid]
-
-
-def test_a_message_that_is_too_large_for_its_kind_is_dropped(
-    server: viser.ViserServer,
-    call: Callable[..., Any],
-    wait_until: Callable[[Callable[[], bool]], None],
-) -> None:
-    text, done = server.gui.add_text("text", ""), server.gui.add_checkbox("done", False)
-    form = server.gui.add_form("form")
+    clicked: list[str] = []
+    names = "/" + 10_000 * "x", "/short"
+    for name in names:
+        node = server.scene.add_icosphere(name)
+        node.on_click(lambda event: clicked.append(event.target.name))
     peer = call()
-    uuid = {"uuid": text._impl.uuid}
-    peer.send({"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid, "x": 10_000 * "x"})
-    peer.send({"type": "GuiUpdateMessage", "updates": {"value": 600_000 * "x"}} | uuid)
-    peer.send({"type": "GuiUpdateMessage", "uuid": done._impl.uuid, "updates": {"value": True}})
-    wait_until(lambda: done.value)
-    assert text.value == ""
-    assert "GuiFormDirtyMessage" not in {m["type"] for m in call().replay()}
-    peer.send({"type": "GuiUpdateMessage", "updates": {"value": 2_000_000 * "x"}} | uuid)
+    peer.look()
+    wait_until(lambda: len(server.get_clients()) == 1)
+    rest = {
+        "instance_index": None,
+        "ray_origin": [0.0, 0.0, 1.0],
+        "ray_direction": [0.0, 0.0, -1.0],
+        "screen_pos": [0.5, 0.5],
+        "modifier": None,
+    }
+    for name in names:
+        peer.send({"type": "SceneNodeClickMessage", "name": name} | rest)
+    wait_until(lambda: "/short" in clicked)
+    assert clicked == ["/short"]
+    peer.send({"type": "SceneNodeClickMessage", "name": 5_000_000 * "x"})
 
     def hear() -> None:
         while True:

@@ -18,11 +18,11 @@ def test_of_one_name_only_the_newest_work_is_sent() -> None:
 
     def slow() -> int:
         begun.set()
-        go.wait(10)
+        go.wait(60)
         return 1
 
     late.put("/map", slow, sent.append)
-    assert begun.wait(10)
+    assert begun.wait(60)
     late.put("/map", lambda: 2, sent.append)
     late.put("/map", lambda: 3, sent.append)
     assert not late.wait(0.0)
@@ -36,13 +36,13 @@ def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
 
     def slow() -> str:
         begun.set()
-        go.wait(10)
+        go.wait(60)
         return "running"
 
     late.put("/map/a", slow, sent.append)
     late.put("/map/b", lambda: "waiting", sent.append)
     late.put("/map2", lambda: "other", sent.append)
-    assert begun.wait(10)
+    assert begun.wait(60)
     late.drop("/map")
     go.set()
     late.finish(10)
@@ -62,7 +62,7 @@ def test_a_picture_that_is_removed_while_it_is_encoded_leaves_nothing(
     scene: Scene, call: Callable[..., Any]
 ) -> None:
     go = threading.Event()
-    scene.link.late.put("/before", lambda: go.wait(10), lambda _: None)
+    scene.link.late.put("/before", lambda: go.wait(60), lambda _: None)
     scene.upsert("map", "it", Image(np.zeros((3, 4, 4), np.uint8), 4.0, 3.0))
     scene.flush()
     scene.remove_group("map")

@@ -76,13 +76,6 @@ def test_a_browser_that_joins_late_sees_the_same(view: Any, browser: Any) -> Non
     other.close()
 
 
-def test_the_tab_of_the_browser_is_called_as_the_panel_says(view: Any) -> None:
-    server = view.scene.link.server
-    label = server.gui.add_html('<div data-page-title="lab.yaml* · webviz"></div>')
-    view.wait_for(lambda: view.tab.title() == "lab.yaml* · webviz")
-    label.remove()
-
-
 def test_the_camera_does_not_walk_while_somebody_saves(view: Any) -> None:
     before = view.evaluate("() => window.__viserMutable.camera.position.toArray()")
     view.tab.keyboard.press("Control+s", delay=300)
@@ -91,18 +84,3 @@ def test_the_camera_does_not_walk_while_somebody_saves(view: Any) -> None:
     view.tab.keyboard.press("s", delay=300)
     view.draw()
     assert view.evaluate("() => window.__viserMutable.camera.position.toArray()") != before
-
-
-def test_a_control_that_changes_and_goes_before_the_next_frame_is_no_error(view: Any) -> None:
-    errors: list[str] = []
-    view.tab.on("console", lambda said: said.type == "error" and errors.append(said.text))
-    view.evaluate(
-        """() => {
-          const { messageQueue, requestRender } = window.__viserMutable;
-          messageQueue.push({ type: "GuiUpdateMessage", uuid: "gone", updates: { label: "" } });
-          messageQueue.push({ type: "GuiRemoveMessage", uuid: "gone" });
-          requestRender();
-        }"""
-    )
-    view.wait_for(lambda: view.evaluate("() => window.__viserMutable.messageQueue.length") == 0)
-    assert errors == []

@@ -165,3 +165,14 @@ def test_an_empty_buffer_has_an_empty_diagnosis(buffer: TransformBuffer) -> None
     diagnosis = diagnose(buffer)
     assert (diagnosis.roots, diagnosis.frames, diagnosis.problems) == ((), (), [])
     assert tree_text(buffer) == ""
+
+
+def test_a_gap_is_reported_until_it_is_long_ago(buffer: TransformBuffer, put: Put) -> None:
+    stamps = [i / 20 for i in range(20)]
+    for stamp in (*stamps, *(3.0 + each for each in stamps)):
+        put("map", "odom", 10.0 + stamp)
+    assert report(buffer, "odom", 14.0).gap_ns == pytest.approx(2.05 * S, abs=1000)
+    assert report(buffer, "odom", 14.0).problems == ()
+    for i in range(200):
+        put("map", "odom", 14.0 + i / 20)
+    assert report(buffer, "odom", 24.0).gap_ns == 0

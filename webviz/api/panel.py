@@ -61,7 +61,13 @@ class Area(Protocol):
 class Button(Protocol):
     """A button."""
 
-    label: str
+    @property
+    def label(self) -> str:
+        """Its text, which may be changed."""
+        ...
+
+    @label.setter
+    def label(self, label: str) -> None: ...
 
 
 class Field(Protocol[T]):
@@ -91,9 +97,6 @@ class Ui(Protocol):
     Labels, values and tooltips are shown as plain text.
     """
 
-    viser: Any
-    """The `viser.ViserServer`, for other widgets; these depend on viser's version."""
-
     def area(self) -> Area:
         """Add an empty place for text, tables or HTML."""
         ...
@@ -117,14 +120,14 @@ class Ui(Protocol):
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None, icon: str = ""
     ) -> None:
-        """Add a command to the palette of Ctrl+K.
+        """Add a command to the list of Ctrl+K.
 
         Args:
             label: its name there.
             act: its callback.
             key: its keyboard shortcut, "" for none.
             modifier: of the shortcut.
-            icon: name of a Tabler icon, such as "refresh".
+            icon: unused; kept for panels that name one.
         """
         ...
 

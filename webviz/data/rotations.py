@@ -98,13 +98,13 @@ def conjugate(wxyz: ArrayLike) -> F64:
 
 def matrices(wxyz: ArrayLike) -> F64:
     """Rotation matrices (..., 3, 3) of unit quaternions (..., 4)."""
-    w, x, y, z = _components(wxyz)
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    w, x, y, z = np.asarray(wxyz, dtype=np.float64).T
+    columns = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
+        (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
+        (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)),
     )
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return np.array(columns).T
 
 
 def from_matrices(m: F64) -> F64:

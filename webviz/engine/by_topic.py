@@ -54,16 +54,6 @@ def picks(
     )
 
 
-def matching(found: Sequence[Pick], text: str) -> list[Pick]:
-    """The picks with every word of the text in their topic, display or message type."""
-    words = text.lower().split()
-    return [
-        pick
-        for pick in found
-        if all(word in f"{pick.topic} {pick.display} {pick.message}".lower() for word in words)
-    ]
-
-
 def no_display(messages: Sequence[str]) -> str:
     """Why a topic of these message types cannot be shown."""
     return f"No display for {' or '.join(messages)}." if messages else "No publisher."

@@ -36,11 +36,12 @@ class Showing:
         if background != self._background:
             crashed = guard("Scene", self._scene.set_background, background) is CRASHED
             self._background = None if crashed else background
+        targets = guard.attempt("Views", None, self._views.followed)
         followed = (runner.followed() for runner in runners)
-        wanted = guard.attempt("Views", set[str](), self._views.followed).union(*followed)
-        guard("Transforms", frames.prepare, wanted)
+        guard("Transforms", frames.prepare, set[str]().union(targets or (), *followed))
         for runner in runners:
             runner.draw(frames)
-        guard("Views", self._views.follow, frames)
+        if targets is not None:
+            guard("Views", self._views.follow, targets, frames)
         if guard("Drawing", self._scene.flush) is CRASHED:
             self.statuses["Scene"] = Status(Level.ERROR, guard.crashes["Drawing"])

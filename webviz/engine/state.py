@@ -12,6 +12,7 @@ from webviz.api.status import Level, Status, worst
 from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
+from webviz.data.transforms import Diagnosis
 from webviz.engine.sources import Offer
 from webviz.files.config import Settings
 
@@ -154,6 +155,23 @@ class Inspected:
 
 
 @dataclass(frozen=True)
+class Between:
+    """The transform between two frames, at the newest time that all links between them have.
+
+    Args:
+        translation: of the source in the target, in metres; None if there is no transform.
+        rotation: (x, y, z, w).
+        age_s: how old that time is; None if all links are static, or ROS time is not known.
+        problem: why there is no transform, and what to do; a sentence.
+    """
+
+    translation: tuple[float, float, float] | None = None
+    rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    age_s: float | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
 class ToolButton:
     """One tool in the toolbar.
 
@@ -162,8 +180,9 @@ class ToolButton:
         name: as shown.
         tooltip: one sentence.
         shortcut: the key that selects it, "" for none.
+        gesture: followed by the page.
         icon: of the page, "" for that of the gesture.
-        gesture, surface: followed by the page, and where it starts.
+        surface: whether the gesture starts on a surface.
         stays: whether it remains active after a gesture.
         tool: read-only.
     """
@@ -172,11 +191,11 @@ class ToolButton:
     name: str
     tooltip: str
     shortcut: str
-    icon: str
     gesture: Gesture
-    surface: bool
-    stays: bool
-    tool: Tool
+    icon: str = ""
+    surface: bool = False
+    stays: bool = False
+    tool: Tool = field(default_factory=Tool)
 
 
 @dataclass(frozen=True)
@@ -219,7 +238,8 @@ class State:
         offers: publishers and QoS by topic name.
         traffic: by topic name, of the topics that are subscribed to.
         inspected: the topics that somebody looks into, by name.
-        transforms: the tree of transforms as lines of text, "" if nobody wants to see it.
+        transforms: the tree of transforms, None if nobody wants to see it.
+        between: transforms that somebody reads out, by target and source frame.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
         history: what can be undone and redone.
@@ -238,7 +258,8 @@ class State:
     offers: Mapping[str, Offer] = field(default_factory=dict)
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
     inspected: Mapping[str, Inspected] = field(default_factory=dict)
-    transforms: str = ""
+    transforms: Diagnosis | None = None
+    between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
     history: History = History()

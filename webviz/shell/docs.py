@@ -1,6 +1,6 @@
 """Writes the documentation that is generated from declarations: `make docs`.
 
-That is: the pages on displays, tools and panels; the schema of config files; and, for .rviz files
+That is: the pages on displays and tools; the schema of config files; and, for .rviz files
 given as arguments, the page on their support. Explanations of statuses and differences from RViz2
 are in `notes.yaml` next to the pages; the pictures are those of `tests/pictures`.
 """
@@ -19,7 +19,6 @@ from ruamel.yaml import YAML
 
 from webviz.api.declared import Color, Declared, P, Topic
 from webviz.api.display import Display, inputs_of
-from webviz.api.panel import Panel
 from webviz.api.properties import FIRST, Property, properties_of, value_at
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
@@ -63,12 +62,11 @@ def pages() -> dict[str, str]:
     return found | {
         "README.md": index(types, notes["every display"]),
         "tools.md": tools_page(built_in(Tool)),
-        "panels.md": panels_page(built_in(Panel)),
     }
 
 
 def built_in(base: type[P]) -> dict[str, type[P]]:
-    """The displays, tools or panels that come with webviz, by name."""
+    """The displays or tools that come with webviz, by name."""
     types = plugin_types(base)
     return {n: c for n, c in types.items() if c.__module__.split(".")[0] in BUILT_IN}
 
@@ -121,20 +119,12 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
     return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
 
 
-def panels_page(types: Mapping[str, type[Panel]]) -> str:
-    """The page of the panels."""
-    in_order = sorted(types.items(), key=lambda item: (item[1].place, item[0]))
-    rows = [(c.title or name, next(iter(paragraphs(c)))) for name, c in in_order]
-    lines = ["# The panels", "", "Each is a tab of the page.", "", *table(("tab", "shows"), rows)]
-    return "\n".join([*lines, "", f"Written by `{COMMAND}`.", ""])
-
-
 def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     """The overview, with links to the other pages."""
     lines = ["# The displays", ""]
     rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
     lines += table(("display", "shows"), rows)
-    lines += ["", "There are [tools](tools.md) and [panels](panels.md) besides, also "]
+    lines += ["", "There are [tools](tools.md), too, and panels and tools "]
     lines[-1] += "[of your own](examples/README.md)."
     lines += ["", "Where something looks wrong on a robot:", ""]
     for path in sorted((PAGES / "stories").glob("*.md")):

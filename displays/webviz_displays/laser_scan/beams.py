@@ -53,7 +53,8 @@ def fault(scan: messages.LaserScan) -> str:
     if not len(scan.ranges):
         return "The scan has no ranges. Check the laser driver."
     for name in ("angle_min", "angle_increment", "range_min", "range_max"):
-        if np.isnan(value := getattr(scan, name)) or (name.startswith("angle") and np.isinf(value)):
+        value = getattr(scan, name)
+        if math.isnan(value) or (name.startswith("angle") and math.isinf(value)):
             return f"{name} is {value}. The publisher must set it to a finite number."
     for name, most in (("angle_min", MOST_ANGLE), ("angle_increment", math.tau)):
         if abs(value := getattr(scan, name)) > most:
@@ -73,17 +74,19 @@ def project(scan: messages.LaserScan) -> Hits:
     beam i points at angle_min + i * angle_increment from x towards y.
     """
     ranges = scan.ranges.astype(np.float64)
-    nan, infinite = np.isnan(ranges), np.isinf(ranges)
-    rest = ~(nan | infinite)
-    near = rest & (ranges < scan.range_min)
-    far = rest & (ranges >= min(scan.range_max, FARTHEST))
-    beams = np.flatnonzero(rest & ~near & ~far)
+    farthest = min(scan.range_max, FARTHEST)
+    is_hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges < farthest)
+    beams = np.flatnonzero(is_hit)
     over = max(len(beams) - MOST_BEAMS, 0)
     if over:
         beams = beams[evenly(len(beams), MOST_BEAMS)]
     angles = scan.angle_min + beams * scan.angle_increment
     hits = ranges[beams]
-    xyz = np.stack((hits * np.cos(angles), hits * np.sin(angles), np.zeros(len(hits))), axis=1)
+    xyz = np.zeros((len(hits), 3))
+    xyz[:, 0], xyz[:, 1] = hits * np.cos(angles), hits * np.sin(angles)
+    others = ranges[~is_hit]
+    nan, infinite = np.isnan(others), np.isinf(others)
+    near, far = ~infinite & (others < scan.range_min), ~infinite & (others >= farthest)
     counts = {
         "NaN": nan,
         "infinite": infinite,

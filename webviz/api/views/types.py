@@ -18,9 +18,9 @@ FIXED_FRAME = "<Fixed Frame>"
 
 Length = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 Angle = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
-Yaw = Annotated[Angle, Prop(help="Direction of the camera, in rad.")]
-Pitch = Annotated[float, Prop(ge=-1.5698, le=1.5698, help="In rad; positive looks down.")]
-Middle = Annotated[Length, Prop(help="Centre of the picture, in m.")]
+Yaw = Annotated[Angle, Prop(unit="rad", help="Direction of the camera.")]
+Pitch = Annotated[float, Prop(ge=-1.5698, le=1.5698, unit="rad", help="Positive looks down.")]
+Middle = Annotated[Length, Prop(unit="m", help="Centre of the picture.")]
 Point = tuple[Length, Length, Length]
 
 
@@ -36,11 +36,11 @@ class _View(
 
 class _AroundAPoint(_View, frozen=True, kw_only=True):
     distance: Annotated[
-        float, Prop(gt=0, le=1e6, help="From the camera to the focal point, in m.")
+        float, Prop(gt=0, le=1e6, unit="m", help="From the camera to the focal point.")
     ] = 10.0
     yaw: Yaw = 0.785398
     pitch: Pitch = 0.785398
-    focal_point: Annotated[Point, Prop(help="Centre of rotation, in m.")] = (0.0, 0.0, 0.0)
+    focal_point: Annotated[Point, Prop(unit="m", help="Centre of rotation.")] = (0.0, 0.0, 0.0)
 
 
 class Orbit(_AroundAPoint, frozen=True, kw_only=True, tag="Orbit"):
@@ -60,14 +60,14 @@ class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
 
     yaw: Yaw = 0.0
     pitch: Pitch = 0.0
-    position: Annotated[Point, Prop(help="Position of the camera, in m.")] = (5.0, 5.0, 10.0)
+    position: Annotated[Point, Prop(unit="m", help="Position of the camera.")] = (5.0, 5.0, 10.0)
 
 
 class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
     """Looks straight down without perspective; centred on `x`, `y`, `scale` in px/m."""
 
-    scale: Annotated[float, Prop(ge=1e-5, le=1e6, help="In px/m.")] = 10.0
-    angle: Annotated[Angle, Prop(help="Rotation of the picture, in rad.")] = 0.0
+    scale: Annotated[float, Prop(ge=1e-5, le=1e6, unit="px/m", help="Size of the picture.")] = 10.0
+    angle: Annotated[Angle, Prop(unit="rad", help="Rotation of the picture.")] = 0.0
     x: Middle = 0.0
     y: Middle = 0.0
 

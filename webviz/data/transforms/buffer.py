@@ -57,8 +57,8 @@ class TransformBuffer:
         self._tree = FrameTree()
         self._publishers: dict[str, Publishers] = {}
         self._rejections: dict[str, Rejection] = {}
-        self._topology: tuple[int, Topology] | None = None
-        """The cached shape of the last query for many frames, and its structure version."""
+        self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
+        """The cached shape of the last query for many frames, by structure version and query."""
         self._largest: tuple[int, tuple[str, int]] | None = None
 
     @property
@@ -332,17 +332,10 @@ class TransformBuffer:
         return self._tree.resolve(target, source, stamp_ns)
 
     def _topology_of(self, target: str, frames: list[str]) -> Topology:
-        if self._topology is not None:
-            version, topology = self._topology
-            if (version, target, frames) == (
-                self.structure_version,
-                topology.target,
-                topology.frames,
-            ):
-                return topology
-        topology = Topology(self._tree, target, frames)
-        self._topology = (self.structure_version, topology)
-        return topology
+        key = (self.structure_version, target, frames)
+        if self._topology is None or self._topology[0] != key:
+            self._topology = (key, Topology(self._tree, target, frames))
+        return self._topology[1]
 
     def _new_cache(self, parent: str, child: str, is_static: bool) -> Cache:
         cache = StaticCache() if is_static else TimeCache(self.cache_time_ns)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
@@ -12,6 +13,11 @@ from webviz.data.transforms.quarrels import quarrels
 from webviz.data.transforms.reasons import YEAR_NS, in_words
 from webviz.data.transforms.tree import ancestors
 
+GAP_NS = NS_PER_S // 2
+GAP_PERIODS = 10
+"""A moving frame has a gap if one of its periods is as long as this and as many usual ones."""
+GAP_SAMPLES = 200
+"""Newest samples searched for gaps."""
 STALE_NS = NS_PER_S
 STALE_PERIODS = 5
 """A moving frame is stale after a second and five of its periods without a transform."""
@@ -33,6 +39,7 @@ class FrameReport:
         samples: number of samples kept.
         history_ns: time between the oldest and the newest of them.
         problems: sentences.
+        gap_ns: the longest of the recent times without a transform; 0 if none is unusual.
     """
 
     frame: str
@@ -46,6 +53,7 @@ class FrameReport:
     samples: int
     history_ns: int
     problems: tuple[str, ...]
+    gap_ns: int = 0
 
 
 @dataclass(frozen=True)
@@ -156,6 +164,16 @@ def _age(stamp_ns: int, age_ns: int) -> str:
     return f"{in_words(age_ns)} {'ahead' if age_ns < 0 else 'old'}"
 
 
+def _gap(cache: Cache) -> int:
+    """The longest of the recent times without a transform, 0 if none is unusual."""
+    stamps = cache.stamps[-GAP_SAMPLES:] if isinstance(cache, TimeCache) else []
+    if len(stamps) <= GAP_PERIODS:
+        return 0
+    periods = sorted(after - before for before, after in pairwise(stamps))
+    usual, longest = periods[len(periods) // 2], periods[-1]
+    return longest if longest >= max(GAP_NS, GAP_PERIODS * usual) else 0
+
+
 def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> FrameReport:
     newest = cache.newest
     publishers = buffer.publishers[frame]
@@ -188,4 +206,5 @@ def _report(buffer: TransformBuffer, frame: str, cache: Cache, now_ns: int) -> F
         samples=len(cache),
         history_ns=history_ns,
         problems=tuple(problems),
+        gap_ns=_gap(cache),
     )

@@ -12,6 +12,7 @@ from webviz.data.transforms.errors import TransformException
 from webviz.data.transforms.explain import explain
 from webviz.data.transforms.geometry import is_within_reach
 from webviz.data.transforms.reasons import Explanation, Kind, in_words
+from webviz.data.transforms.records import Transform
 
 P = TypeVar("P")
 
@@ -88,8 +89,8 @@ class MessageFilter(Generic[P]):
         for message in (*waiting, *self._new):
             if not message.frame:
                 self._give_up(message, Kind.EMPTY_FRAME)
-            elif all(buffer.can_transform(fixed_frame, message.frame, t) for t in message.stamps()):
-                if _is_within_reach(buffer, fixed_frame, message):
+            elif (pose := _pose(buffer, fixed_frame, message)) is not None:
+                if is_within_reach((*pose.translation, *pose.rotation)):
                     done.append(message.payload)
                 else:
                     self._give_up(message, Kind.OUT_OF_REACH)
@@ -157,10 +158,13 @@ def _why(
     return next((r for r in reasons if r.kind != Kind.AVAILABLE), reasons[0])
 
 
-def _is_within_reach(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:
-    """Whether a message can be drawn where the transforms place it."""
-    pose = buffer.lookup(fixed_frame, message.frame, message.stamp_ns)
-    return is_within_reach((*pose.translation, *pose.rotation))
+def _pose(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> Transform | None:
+    """The pose of a message at its stamp, None unless it has one at all its stamps."""
+    try:
+        poses = [buffer.lookup(fixed_frame, message.frame, t) for t in message.stamps()]
+    except TransformException:
+        return None
+    return poses[0]
 
 
 def _is_too_old(buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P]) -> bool:

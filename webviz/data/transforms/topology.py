@@ -47,8 +47,6 @@ class Topology:
     """
 
     def __init__(self, tree: FrameTree, target: str, frames: Sequence[str]) -> None:
-        self.target = target
-        self.frames = list(frames)
         self._nodes: dict[str, int] = {}
         self._parents: list[int] = []
         self.is_usable = all(self._climb(tree, frame) for frame in (target, *frames))

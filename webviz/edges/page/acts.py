@@ -28,6 +28,7 @@ ALLOWED = (
     commands.SetFrameRate,
     commands.ChangeView,
     commands.FocusDisplay,
+    commands.FocusFrame,
     commands.RemoveView,
     commands.RenameView,
     commands.ResetView,

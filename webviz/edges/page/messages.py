@@ -112,17 +112,6 @@ class SaveImage(ToPage, frozen=True):
     name: str
 
 
-class Typed(FromPage, frozen=True):
-    """Says what was typed into a dropdown.
-
-    Args:
-        uuid: viser's of the dropdown.
-    """
-
-    uuid: str
-    text: str
-
-
 class ToolButton(msgspec.Struct, frozen=True):
     """A button of the toolbar; see `webviz.engine.state.ToolButton`."""
 
@@ -130,8 +119,8 @@ class ToolButton(msgspec.Struct, frozen=True):
     name: str
     tooltip: str
     shortcut: str
-    icon: str
     gesture: str
+    icon: str
     surface: bool
     stays: bool
 
@@ -239,8 +228,24 @@ class Do(FromPage, frozen=True):
     arguments: dict[str, Any]
 
 
+class Use(FromPage, frozen=True):
+    """Says what somebody did with a widget of a plug-in's panel.
+
+    Args:
+        number: of the request, for the page to know its `Done`.
+        panel: its name in the registry.
+        widget: its id.
+        value: what was entered, None for a button.
+    """
+
+    number: int
+    panel: str
+    widget: str
+    value: bool | str | None = None
+
+
 class Done(ToPage, frozen=True):
-    """What came of a `Do`.
+    """What came of a `Do` or a `Use`.
 
     Args:
         number: of the request.

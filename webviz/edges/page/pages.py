@@ -9,6 +9,7 @@ from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.messages import Ping, Pong, Shell
+from webviz.edges.page.plugin_panels import PluginPanels
 from webviz.edges.page.toolbar import Toolbar
 from webviz.edges.page.wishes import Wishes
 from webviz.engine.commands import Command, Refresh, Sender
@@ -30,6 +31,13 @@ class Pages:
         self._toolbar = Toolbar(channel, enqueue)
         self._acts = Acts(channel, enqueue)
         self._wishes = Wishes(enqueue)
+        self._panels = panels = PluginPanels(channel, enqueue)
+        self._makers = {
+            **MAKERS,
+            "commands": panels.commands,
+            "panel": panels.panel,
+            "panels": panels.panels,
+        }
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
         channel.on(Ping, lambda browser, _: channel.send(Pong(), browser))
@@ -42,10 +50,13 @@ class Pages:
     def update(self, state: State) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
         self._toolbar.update(state)
+        self._panels.update(state)
         watched = self._channel.watched()
         self._wishes.update(watched)
         for store in watched:
-            name, _, argument = store.partition(":")
-            if (make := MAKERS.get(name)) is not None:
-                values = self._guard.attempt(store, {}, make, state, argument)
-                self._channel.show(store, values)
+            self._guard(store, self._fill, store, state)
+
+    def _fill(self, store: str, state: State) -> None:
+        name, _, argument = store.partition(":")
+        if (make := self._makers.get(name)) is not None:
+            self._channel.show(store, make(state, argument))

@@ -29,10 +29,9 @@ class Stores:
         """Makes these the values of a store, and returns the keys that are new, changed or gone."""
         if self._made_of.get(store) is values:
             return []  # large ones are the same object while nothing changes
-        self._made_of[store] = values
         old = self._content.get(store, {})
-        new = {key: _encoded(value) for key, value in values.items()}
-        self._content[store] = new
+        new = {_sendable(key): _encoded(value) for key, value in values.items()}
+        self._content[store], self._made_of[store] = new, values
         changed = [key for key, value in new.items() if old.get(key) != value]
         return changed + [key for key in old if key not in new]
 
@@ -100,3 +99,7 @@ def _encoded(value: Any) -> msgspec.Raw:
         return msgspec.Raw(msgspec.json.encode(value))
     except UnicodeEncodeError:  # half of a surrogate pair, which JSON can only escape
         return msgspec.Raw(json.dumps(msgspec.to_builtins(value)).encode())
+
+
+def _sendable(key: str) -> str:
+    return key if key.isascii() else key.encode(errors="replace").decode()

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from webviz.engine.commands import PROGRAM, Command, InspectTopics, Sender
+from webviz.edges.page.content.transforms import pair_of
+from webviz.engine.commands import (
+    PROGRAM,
+    Command,
+    InspectTopics,
+    InspectTransforms,
+    Sender,
+)
 
 
 class Wishes:
@@ -16,15 +23,23 @@ class Wishes:
 
     def __init__(self, enqueue: Callable[[Command, Sender], object]) -> None:
         self._enqueue = enqueue
-        self._wished: set[Command] = {InspectTopics(frozenset())}
+        self._wished = _wishes(set())
 
     def update(self, watched: set[str]) -> None:
         """Ask for what these stores need, if that is something else than before."""
-        topics = frozenset(_arguments("message", watched))
-        wished: set[Command] = {InspectTopics(topics)}
+        wished = _wishes(watched)
         for command in wished - self._wished:
             self._enqueue(command, PROGRAM)
         self._wished = wished
+
+
+def _wishes(stores: set[str]) -> set[Command]:
+    """What is needed for these stores."""
+    pairs = map(pair_of, _arguments("between", stores))
+    return {
+        InspectTopics(frozenset(_arguments("message", stores))),
+        InspectTransforms("transforms" in stores, frozenset(pair for pair in pairs if pair)),
+    }
 
 
 def _arguments(name: str, stores: set[str]) -> set[str]:

@@ -3,13 +3,11 @@
 from webviz.edges.scene.listener import CannotListen, PortInUse
 from webviz.edges.scene.scene import Scene
 from webviz.edges.scene.server import open_server, set_background
-from webviz.edges.scene.typed import on_typed
 
 __all__ = [
     "CannotListen",
     "PortInUse",
     "Scene",
-    "on_typed",
     "open_server",
     "set_background",
 ]

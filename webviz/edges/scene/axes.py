@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
@@ -46,6 +48,7 @@ class AxesDrawn(SingleNode[Axes]):
         )
 
 
+@functools.lru_cache(maxsize=32)
 def _model(radius: float) -> bytes:
     """Three cylinders of length 1 from the origin."""
     vertices, faces = SOLIDS["cylinder"]

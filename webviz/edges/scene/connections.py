@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import resource
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import websockets.asyncio.server as websocket
 from websockets.frames import Frame, Opcode
 
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
-from webviz.edges.scene.messages import Accepts, Judge
+from webviz.edges.scene.messages import objection
 
 MAX_BROWSERS = 64
 
@@ -97,10 +97,9 @@ class Connection(websocket.ServerConnection):
 
     Args:
         gate: of the server.
-        accepts: as for `Judge`.
     """
 
-    def __init__(self, gate: Gate, accepts: Accepts, *arguments: Any, **options: Any) -> None:
+    def __init__(self, gate: Gate, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.wants_head = False
         """Whether the request is for the headers only."""
@@ -109,7 +108,7 @@ class Connection(websocket.ServerConnection):
         self.is_channel = False
         """Whether this is the channel of a page, instead of viser's own connection."""
         self._gate = gate
-        self.objection = Judge(accepts).objection
+        self.objection: Callable[[str | bytes], str | None] = objection
         """The reason to ignore a message, or None."""
         self._allowance = Allowance()
         self._head: bytearray | None = bytearray()

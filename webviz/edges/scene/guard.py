@@ -24,7 +24,7 @@ from webviz.edges.scene.connections import Connection, Gate
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
 from webviz.edges.scene.listener import Listener
-from webviz.edges.scene.messages import MAX_BYTES, Accepts
+from webviz.edges.scene.messages import MAX_BYTES
 from webviz.edges.scene.sparing_log import sparing_log
 
 MAX_WAITING_FRAMES = 4
@@ -38,7 +38,6 @@ def guarded_serve(
     listener: Listener,
     gate: Gate,
     hosts: HostList,
-    accepts: Accepts,
     channel: Channel,
     modules: Modules,
 ) -> Callable[..., Any]:
@@ -50,8 +49,6 @@ def guarded_serve(
             another port nor follows its environment variable.
         gate: limits the connections.
         hosts: names by which the server may be addressed.
-        accepts: whether to pass a decoded message that sets a value, changes a form or announces a
-            file.
         channel: to the modules of the page.
         modules: of the page.
     """
@@ -132,7 +129,7 @@ def guarded_serve(
         options |= {
             "process_request": functools.partial(process_request, options["process_request"]),
             "process_response": process_response,
-            "create_connection": functools.partial(Connection, gate, accepts),
+            "create_connection": functools.partial(Connection, gate),
             "max_size": MAX_BYTES,
             "max_queue": MAX_WAITING_FRAMES,
             "logger": log,

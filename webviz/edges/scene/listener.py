@@ -9,6 +9,8 @@ import logging
 import os
 import socket
 
+from webviz.api.errors import Error
+
 MAX_PORT = 65535
 
 SEND_BUFFER_BYTES = 1 << 19
@@ -20,7 +22,7 @@ UNSENT_BYTES = 1 << 16
 _BUSY = "webviz has no file descriptors left for another connection. Try again later.\n"
 
 
-class CannotListen(OSError):
+class CannotListen(Error, OSError):
     """The server cannot listen at its address; the message says why."""
 
 

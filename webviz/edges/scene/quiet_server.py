@@ -29,30 +29,23 @@ class Server(viser.ViserServer):
         self.channel = channel
         self.modules = modules
         self._close = close
-        with _quiet():
+        with replaced(rich.get_console(), "quiet", True):
             super().__init__(**options)
 
     def stop(self) -> None:
         """Ends the server's threads and frees the port."""
         with contextlib.suppress(RuntimeError):  # stopped already
             self.get_event_loop().call_soon_threadsafe(self._close)
-        with _quiet():
+        with replaced(rich.get_console(), "quiet", True):
             super().stop()
 
 
 @contextlib.contextmanager
-def replaced(module: Any, name: str, value: Any) -> Iterator[None]:
-    """Replaces an attribute of a module during the block."""
-    original = getattr(module, name)
-    setattr(module, name, value)
+def replaced(target: Any, name: str, value: Any) -> Iterator[None]:
+    """Replaces an attribute during the block."""
+    original = getattr(target, name)
+    setattr(target, name, value)
     try:
         yield
     finally:
-        setattr(module, name, original)
-
-
-@contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    console = rich.get_console()
-    with replaced(console, "quiet", True):
-        yield
+        setattr(target, name, original)

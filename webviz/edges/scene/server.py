@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import viser
@@ -17,9 +17,7 @@ from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.connections import Gate
 from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
-from webviz.edges.scene.gui_values import accepts_update
 from webviz.edges.scene.hosts import HostList
-from webviz.edges.scene.lights import add_lights
 from webviz.edges.scene.listener import listen
 from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
@@ -49,14 +47,9 @@ def open_server(
         CannotListen: `host` is not an address of this machine, or the port is not allowed.
     """
     listener = listen(host, port)
-    server: Server | None = None
-
-    def accepts(message: dict[str, Any]) -> bool:
-        return server is not None and accepts_update(server, message)
-
     gate, hosts, channel = Gate(), HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
-    serve = guarded_serve(websocket.serve, listener, gate, hosts, accepts, channel, modules)
+    serve = guarded_serve(websocket.serve, listener, gate, hosts, channel, modules)
     with _opening, replaced(websocket, "serve", serve):
         server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)
@@ -72,7 +65,11 @@ def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
 def _prepare(server: viser.ViserServer) -> None:
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
     set_background(server, BACKGROUND)
-    add_lights(server.scene)
+    # An ambient light shows plain colours, which `shade.js` then shades. viser's lights are too
+    # bright without tone mapping, and image-based lighting stalls browsers without a GPU.
+    server.scene.configure_environment_map(None)
+    server.scene.configure_default_lights(False, cast_shadow=False)
+    server.scene.add_light_ambient("/lights/ambient", intensity=math.pi)
     server.scene.set_up_direction("+z")
     server.initial_camera.far = 1e5
     server.scene.add_frame(ROOT, show_axes=False)

@@ -22,6 +22,7 @@ from webviz.engine.commands.transforms import InspectTransforms
 from webviz.engine.commands.views import (
     ChangeView,
     FocusDisplay,
+    FocusFrame,
     RemoveView,
     RenameView,
     ResetView,
@@ -41,6 +42,7 @@ __all__ = [
     "Export",
     "FileCommand",
     "FocusDisplay",
+    "FocusFrame",
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",

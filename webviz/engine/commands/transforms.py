@@ -1,4 +1,4 @@
-"""Commands for transforms."""
+"""What is about transforms."""
 
 from __future__ import annotations
 
@@ -9,6 +9,12 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class InspectTransforms(Command):
-    """Start or stop showing the tree of transforms."""
+    """Report on the transforms while somebody looks at them.
 
-    inspect: bool = True
+    Args:
+        tree: whether on the tree of all frames.
+        between: pairs of frames, target and source, between which transforms are read out.
+    """
+
+    tree: bool = True
+    between: frozenset[tuple[str, str]] = frozenset()

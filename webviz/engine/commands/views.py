@@ -66,6 +66,19 @@ class FocusDisplay(ViewCommand):
 
 
 @dataclass(frozen=True)
+class FocusFrame(ViewCommand):
+    """Look at the origin of a frame, from the same direction.
+
+    Args:
+        frame: its id.
+        browser: see `ViewCommand`.
+    """
+
+    frame: str
+    browser: int | None = None
+
+
+@dataclass(frozen=True)
 class SaveView(ViewCommand):
     """Save the current view under a name.
 

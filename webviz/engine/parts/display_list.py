@@ -60,7 +60,8 @@ class Entry:
     @property
     def is_enabled(self) -> bool:
         """Whether it and all groups it is in are enabled."""
-        own = isinstance(self.declared, Unreadable) or self.declared.enabled
+        declared = self.declared
+        own = isinstance(declared, Unreadable) or declared.enabled
         return own and (self.parent is None or self.parent.is_enabled)
 
     def is_within(self, other: Entry) -> bool:

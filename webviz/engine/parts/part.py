@@ -102,3 +102,8 @@ class Part:
 
     def close(self) -> None:
         """Clean up when the loop has ended."""
+
+
+def overrides(part: Part, hook: str) -> bool:
+    """Whether a part overrides a hook; the others do nothing."""
+    return getattr(type(part), hook) is not getattr(Part, hook)

@@ -9,13 +9,14 @@ from typing import Any
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.engine.commands import Command, FileCommand, Sender
-from webviz.engine.parts.part import Batches, Handler, Part
+from webviz.engine.parts.part import Batches, Handler, Part, overrides
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.requests import Job
 from webviz.engine.sources import Subscription, merged
 from webviz.engine.state import State
 
 _FIELDS = {field.name for field in fields(State)}
+_HOOKS = ("subscriptions", "take", "reset", "keep_up", "state", "statuses", "close")
 
 
 class Parts:
@@ -28,6 +29,7 @@ class Parts:
 
     def __init__(self, parts: Sequence[Part], guard: Guard) -> None:
         self._parts = parts
+        self._overriding = {hook: [p for p in parts if overrides(p, hook)] for hook in _HOOKS}
         self._guard = guard
         self._handlers: dict[type[Command], Handler] = {}
         for part in parts:
@@ -57,27 +59,30 @@ class Parts:
         """All subscriptions by topic."""
         own: Mapping[str, Subscription] = {}
         guard = self._guard
-        return merged(guard.attempt(part.name, own, part.subscriptions) for part in self._parts)
+        return merged(
+            guard.attempt(part.name, own, part.subscriptions)
+            for part in self._overriding["subscriptions"]
+        )
 
     def take(self, batches: Batches) -> None:
         """Pass on the messages since the last turn."""
-        for part in self._parts:
+        for part in self._overriding["take"]:
             self._guard(part.name, part.take, batches)
 
     def reset(self) -> None:
         """Discard received data."""
-        for part in self._parts:
+        for part in self._overriding["reset"]:
             self._guard(part.name, part.reset)
 
     def keep_up(self, commanded: bool) -> None:
         """Do periodic work."""
-        for part in self._parts:
+        for part in self._overriding["keep_up"]:
             self._guard(part.name, part.keep_up, commanded)
 
     def state(self) -> State:
         """The fields of all parts; those of a part that fails have their defaults."""
         found: dict[str, Any] = {}
-        for part in self._parts:
+        for part in self._overriding["state"]:
             own: Mapping[str, Any] = {}
             found |= self._guard.attempt(part.name, own, part.state)
         more = {name: value for name, value in found.items() if name not in _FIELDS}
@@ -86,12 +91,12 @@ class Parts:
     def statuses(self) -> dict[str, Status]:
         """The statuses of the viewer as a whole, by key."""
         found: dict[str, Status] = {}
-        for part in self._parts:
+        for part in self._overriding["statuses"]:
             own: Mapping[str, Status] = {}
             found |= self._guard.attempt(part.name, own, part.statuses)
         return found
 
     def close(self) -> None:
         """Close all parts."""
-        for part in self._parts:
+        for part in self._overriding["close"]:
             self._guard(part.name, part.close)

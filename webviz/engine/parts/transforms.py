@@ -1,4 +1,4 @@
-"""The transforms, and problems with them."""
+"""The transforms that arrive, and what is wrong with them."""
 
 from __future__ import annotations
 
@@ -6,27 +6,34 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.status import Status
-from webviz.data.transforms import tree_text
+from webviz.data.transforms import Diagnosis, TransformException, diagnose, explain
 from webviz.engine.commands import Command, InspectTransforms, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.engine.sources import Subscription
+from webviz.engine.state import Between
 from webviz.engine.statuses import fixed_frame_status
+
+EVERY_S = 1.0
+"""How often the tree is looked at."""
+MAX_BETWEEN = 64
+"""Transforms that are read out at once."""
 
 
 class TransformsPart(Part):
-    """Fills the transform buffer and reports problems of its tree."""
+    """Fills the buffer of transforms, and reports on their tree."""
 
     name = "Transforms"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self._listener = TransformListener(core.buffer, core.clock)
-        self._is_inspected = False
+        self._wanted = InspectTransforms(tree=False)
+        self._tree: tuple[float, int, Diagnosis] | None = None
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
+        """What does each of its commands."""
         return {InspectTransforms: self._inspect}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
@@ -34,7 +41,7 @@ class TransformsPart(Part):
         return self._listener.subscriptions()
 
     def insert(self, batches: Batches) -> bool:
-        """Insert what arrived, before displays look it up.
+        """Insert what arrived, before displays ask for it.
 
         Returns:
             Whether the transforms started over in the past.
@@ -42,24 +49,46 @@ class TransformsPart(Part):
         return self._listener.take(batches, self.core.offers)
 
     def reset(self) -> None:
-        """Discard the moving transforms."""
+        """Forget the moving transforms."""
         self._listener.reset()
+        self._tree = None
 
     def state(self) -> Mapping[str, Any]:
-        """The frames, and their tree while it is inspected."""
-        buffer, core = self.core.buffer, self.core
-        wanted = self._is_inspected and core.is_watched()
+        """The frames, and what somebody wants to see of them."""
+        buffer = self.core.buffer
+        is_watched = self.core.is_watched()
+        between = sorted(self._wanted.between)[:MAX_BETWEEN] if is_watched else ()
         return {
             "frames": tuple(sorted(buffer.frames())),
-            "transforms": tree_text(buffer, core.frames.now_ns) if wanted else "",
+            "transforms": self._diagnosis() if is_watched and self._wanted.tree else None,
+            "between": {pair: self._between(*pair) for pair in between},
         }
 
     def statuses(self) -> Mapping[str, Status]:
-        """Whether the fixed frame is known, and problems with transforms."""
+        """Whether anything can be drawn in the fixed frame, and what is wrong with transforms."""
         core = self.core
         fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
         found = self._listener.statuses(core.offers, core.frames.now_ns)
         return {"Fixed Frame": fixed, **found}
 
     def _inspect(self, command: InspectTransforms, sender: Sender) -> None:
-        self._is_inspected = command.inspect
+        self._wanted = command
+        self._tree = None
+
+    def _diagnosis(self) -> Diagnosis:
+        """The tree as it was less than a second ago; at once if frames came or moved."""
+        now, structure = self.core.clock(), self.core.buffer.structure_version
+        tree = self._tree
+        if tree is None or tree[1] != structure or not 0.0 <= now - tree[0] < EVERY_S:
+            tree = now, structure, diagnose(self.core.buffer, self.core.frames.now_ns)
+            self._tree = tree
+        return tree[2]
+
+    def _between(self, target: str, source: str) -> Between:
+        buffer, now_ns = self.core.buffer, self.core.frames.now_ns
+        try:
+            found = buffer.lookup(target, source, 0)
+        except TransformException:
+            return Between(problem=explain(buffer, target, source, 0, now_ns).sentence)
+        age_s = (now_ns - found.stamp_ns) / 1e9 if found.stamp_ns and now_ns else None
+        return Between(found.translation, found.rotation, age_s)

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
+import numpy as np
 
-from webviz.api.bounds import union
+from webviz.api.bounds import Box, union
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
 from webviz.api.views import (
@@ -25,6 +26,7 @@ from webviz.engine.commands import (
     ChangeView,
     Command,
     FocusDisplay,
+    FocusFrame,
     RemoveView,
     RenameView,
     ResetView,
@@ -39,6 +41,11 @@ from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
 from webviz.files.config import ConfigError, nearest
+
+FRAME_M = 0.5
+"""Half of the edge of the cube around a frame that is looked at."""
+
+MAX_NAME = 200
 
 
 class ViewsPart(Part):
@@ -69,6 +76,7 @@ class ViewsPart(Part):
             ChangeView: self._change,
             ResetView: self._zero,
             FocusDisplay: self._focus,
+            FocusFrame: self._focus_frame,
             SaveView: self._save,
             RenameView: self._rename,
             RemoveView: self._remove,
@@ -91,15 +99,14 @@ class ViewsPart(Part):
         """The frames whose poses `follow` needs."""
         return self._cameras.target_frames()
 
-    def follow(self, frames: Frames) -> None:
+    def follow(self, targets: set[str], frames: Frames) -> None:
         """Move views with their target frames; call before the scene is flushed."""
-        wanted = self._cameras.target_frames()
-        for frame in wanted:
+        for frame in targets:
             if pose := frames.latest(frame):
                 self._scene.set_pose(target_group(frame), pose)
-        for frame in self._placed - wanted:
+        for frame in self._placed - targets:
             self._scene.remove_group(target_group(frame))
-        self._placed = wanted
+        self._placed = targets
 
     def statuses(self) -> Mapping[str, Status]:
         """Views whose target frame has no pose."""
@@ -135,20 +142,31 @@ class ViewsPart(Part):
         box = union(box for box in boxes if box is not None)
         if box is None:
             raise ConfigError("This display draws nothing to focus on. Check its statuses.")
-        for id, view in self._seen(_browser(command, sender)).items():
+        self._look_at(box, _browser(command, sender))
+
+    def _focus_frame(self, command: FocusFrame, sender: Sender) -> None:
+        frames = self.core.frames
+        pose = frames.latest(command.frame)
+        if pose is None:
+            raise ConfigError(frames.why_not(command.frame))
+        origin = np.array(pose.position)
+        self._look_at(Box(origin - FRAME_M, origin + FRAME_M), _browser(command, sender))
+
+    def _look_at(self, box: Box, browser: int | None) -> None:
+        for id, view in self._seen(browser).items():
             rig = self._rig(type(view), view.target_frame)
             size = self._cameras.size(id)
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
 
     def _save(self, command: SaveView, sender: Sender) -> None:
-        if not command.name:
-            raise ConfigError("A saved view needs a name.")
+        _check_name(command.name)
         view = command.view or self._one(_browser(command, sender))
         self._keep({**self._saved(), command.name: view})
 
     def _rename(self, command: RenameView, sender: Sender) -> None:
         saved, name, new_name = self._saved(), command.name, command.new_name
         view = _found(name, saved)
+        _check_name(new_name)
         if new_name != name and new_name in saved:
             raise ConfigError(f"A view named {new_name} exists already. Choose another name.")
         names = {key: new_name if key == name else key for key in saved}
@@ -217,6 +235,13 @@ class ViewsPart(Part):
 
     def _keep(self, views: Mapping[str, View]) -> None:
         self._settings.set("views", views)
+
+
+def _check_name(name: str) -> None:
+    if not name:
+        raise ConfigError("A saved view needs a name.")
+    if len(name) > MAX_NAME:
+        raise ConfigError(f"The name of a view can have at most {MAX_NAME} characters.")
 
 
 def _browser(command: Any, sender: Sender) -> int | None:

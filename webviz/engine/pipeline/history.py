@@ -97,7 +97,7 @@ class History:
         """Drop samples beyond `keep`."""
         self._drop(len(self.held) - self._most(keep))
         if keep.seconds:
-            oldest = now_ns - round(keep.seconds * 1e9)
+            oldest = now_ns - round(min(keep.seconds * 1e9, 2**63))  # which may be infinite
             is_young = (held.sample.received_ns >= oldest for held in self.held)
             self._drop(next((i for i, young in enumerate(is_young) if young), len(self.held)))
 

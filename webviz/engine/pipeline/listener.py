@@ -50,6 +50,8 @@ class TransformListener:
         self._faults: dict[str, Status] = {}
         self._back_since: float | None = None
         self._back_messages = 0
+        self._offers: Mapping[str, Offer] | None = None
+        self._publishers: dict[str, tuple[str, ...]] = dict.fromkeys(TOPICS, ())
         self._static_publishers: tuple[str, ...] = ()
         self._asked = 0
         self._asked_at = 0.0
@@ -66,16 +68,19 @@ class TransformListener:
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:
         """Insert what arrived; whether the transforms started over in the past."""
-        senders = {topic: _nodes(offers, topic) for topic in TOPICS}
-        self._buffer.nodes = {topic: who[0] for topic, who in senders.items() if len(who) == 1}
+        if offers is not self._offers:  # else nothing has changed
+            self._offers = offers
+            self._publishers = {topic: _nodes(offers, topic) for topic in TOPICS}
+            self._buffer.nodes = {
+                topic: nodes[0] for topic, nodes in self._publishers.items() if len(nodes) == 1
+            }
         for topic, is_static in TOPICS.items():
             for raw in batches.get(topic, ()):
                 self._insert(topic, raw, is_static)
-        self._watch_static(offers)
-        clock = self._clock()
+        self._watch_static()
         return (
             self._back_since is not None
-            and clock - self._back_since > BACK_S
+            and self._clock() - self._back_since > BACK_S
             and self._back_messages >= BACK_MESSAGES
         )
 
@@ -133,9 +138,9 @@ class TransformListener:
         else:
             self._back_messages += 1
 
-    def _watch_static(self, offers: Mapping[str, Offer]) -> None:
+    def _watch_static(self) -> None:
         """Subscribe again when static transforms or the publishers of contested ones changed."""
-        publishers = _nodes(offers, "/tf_static")
+        publishers = self._publishers["/tf_static"]
         if publishers != self._static_publishers:
             self._static_publishers = publishers
             if any(p.contest for p in self._buffer.publishers.values()):

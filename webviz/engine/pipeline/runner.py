@@ -209,10 +209,13 @@ class Runner:
     def _take(
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
     ) -> None:
+        clock = self._services.clock()
+        arrived = self._inputs.take(batches, frames, offers, clock)
+        if not arrived:
+            return
         display, keep = self.display, self._keep()
         every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
-        clock = self._services.clock()
-        for found in self._inputs.take(batches, frames, offers, clock):
+        for found in arrived:
             name = next(iter(found))
             self._ready_s[name] = clock
             # The duration is known once a message is decoded; the next ones wait for that.
@@ -220,7 +223,7 @@ class Runner:
                 overrides(display, "duration_ns") and not self._inputs.intakes[name].duration_ns
             )
             if every_one or is_unknown:
-                self._admit(found, frames)
+                self._admit(found, keep, frames)
             else:
                 self._newest[name] = found
         self._trim(keep, frames)  # also without browsers
@@ -230,16 +233,17 @@ class Runner:
             history.trim(keep, frames.now_ns)
 
     def _draw(self, frames: Frames) -> None:
+        keep = self._keep()
         newest, self._newest = self._newest, {}
         for found in newest.values():
-            self._admit(found, frames)
+            self._admit(found, keep, frames)
         if frames.fixed_frame != self._fixed_frame:
             if self._fixed_frame:
                 for history in self._histories.values():
                     history.move(frames, self._fixed_frame, self._inputs.waits)
             self._fixed_frame = frames.fixed_frame
             self._painter.is_stale = True
-        self._trim(self._keep(), frames)
+        self._trim(keep, frames)
         self._painter.draw(self.display, self._guard, self._histories, frames)
         if self._services.tracer.wants(self.id):
             self._services.tracer.drawn(self.id)
@@ -259,7 +263,7 @@ class Runner:
         keep = self._guard("history", self.display.history)
         return keep if isinstance(keep, Keep) else Keep()
 
-    def _admit(self, found: Set, frames: Frames) -> None:
+    def _admit(self, found: Set, keep: Keep, frames: Frames) -> None:
         """Decode the messages of a set and hold it, if the display accepts it."""
         samples: dict[str, Sample] = {}
         for name, arrival in found.items():
@@ -273,20 +277,20 @@ class Runner:
         size = sum(len(arrival.raw.cdr) for arrival in found.values())
         tracer = self._services.tracer
         decoded_s = tracer.clock() if tracer.wants(self.id) else None
-        is_held = self._hold(sample, size)
+        is_held = self._hold(sample, size, keep)
         if is_held and decoded_s is not None:
             tracer.decoded(self.id, sample, found[name].raw, self._ready_s[name], decoded_s)
 
-    def _hold(self, sample: Sample, size: int) -> bool:
+    def _hold(self, sample: Sample, size: int, keep: Keep) -> bool:
         """Fold a sample, or hold it if the display accepts it; whether the history changed."""
         if overrides(self.display, "fold"):
-            return self._fold(sample, size)
+            return self._fold(sample, size, keep)
         history = self._histories[sample.input]
         verdict = self._guard("accept", self.display.accept, sample, history.samples())
         if isinstance(verdict, str):
             self._inputs.intakes[sample.input].refuse(verdict)
         elif verdict is True:
-            history.add(sample, size, self._keep())
+            history.add(sample, size, keep)
         return verdict is True
 
     def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
@@ -313,13 +317,13 @@ class Runner:
             message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
         )
 
-    def _fold(self, sample: Sample, size: int) -> bool:
+    def _fold(self, sample: Sample, size: int, keep: Keep) -> bool:
         folded = self._guard("fold", self.display.fold, sample.input, sample, self._folded)
         if folded is None or folded is CRASHED:
             return False
         self._folded = folded
         history = next(iter(self._histories.values()))
-        history.add(replace(sample, message=folded), size, self._keep())
+        history.add(replace(sample, message=folded), size, keep)
         return True
 
 

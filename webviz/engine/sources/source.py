@@ -34,7 +34,8 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
     for wish in wishes:
         for topic, subscription in wish.items():
             first = wanted.setdefault(topic, subscription)
-            wanted[topic] = replace(first, asked=max(first.asked, subscription.asked))
+            if subscription.asked > first.asked:
+                wanted[topic] = replace(first, asked=subscription.asked)
     return wanted
 
 

@@ -18,7 +18,11 @@ PREFIX = "rviz_default_plugins/"
 NEAR_CLIP_DISTANCE = 0.01
 """RViz's default; here the near plane follows from the distance."""
 
-KEYS = {each.path: each.label for cls in VIEW_TYPES.values() for each in properties_of(cls)}
+KEYS = {
+    each.path: each.label.removesuffix(f" ({each.unit})")
+    for cls in VIEW_TYPES.values()
+    for each in properties_of(cls)
+}
 """RViz's keys for the fields of views."""
 BOUNDS = {
     "distance": (0.01, 1e6),

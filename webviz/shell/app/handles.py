@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.engine.commands import (
+    Command,
     DuplicateDisplay,
     FocusDisplay,
     MoveDisplay,
@@ -87,8 +88,7 @@ class DisplayHandle:
 
     def remove(self) -> None:
         """Remove the display, or the group with its contents."""
-        self._row()
-        self._viewer.do(RemoveDisplay(self.id))
+        self._do(RemoveDisplay(self.id))
 
     def focus(self) -> None:
         """Point the cameras of all browsers at the display, or at the contents of the group.
@@ -96,8 +96,7 @@ class DisplayHandle:
         Raises:
             Error: no browser is connected, or the display draws nothing.
         """
-        self._row()
-        self._viewer.do(FocusDisplay(self.id))
+        self._do(FocusDisplay(self.id))
 
     def trace(self, timeout: float = 5.0) -> Trace:
         """Wait for the next sample that the display draws, and return its timing.
@@ -131,9 +130,8 @@ class DisplayHandle:
 
     def duplicate(self) -> DisplayHandle:
         """Add a copy below the display; that of a group includes its contents."""
-        self._row()
         made: list[str] = []
-        self._viewer.do(DuplicateDisplay(self.id, made.append))
+        self._do(DuplicateDisplay(self.id, made.append))
         return DisplayHandle(self._viewer, made[0])
 
     def move(
@@ -197,6 +195,10 @@ class DisplayHandle:
             return "<removed display>"
         status = _worst(row)
         return f"<{row.type or 'unreadable'} {row.name!r}: {status.level.name} {status.text}>"
+
+    def _do(self, command: Command) -> None:
+        self._row()  # raises if it was removed
+        self._viewer.do(command)
 
     def _find(self) -> Row | None:
         return next((row for row in self._viewer.state.rows if row.id == self.id), None)

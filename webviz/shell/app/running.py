@@ -78,14 +78,11 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
             from webviz.edges.page.pages import Pages
-            from webviz.edges.scene import CannotListen, Scene, open_server
+            from webviz.edges.scene import Scene, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
-            try:
-                server = open_server(host, port, allow_hosts)
-            except CannotListen as error:
-                raise Error(str(error)) from error
+            server = open_server(host, port, allow_hosts)
             stack.callback(_end, "The server of the page", server.stop)
             control = None
             if source is None:

@@ -70,7 +70,7 @@ def serve(
 def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
-    import webviz.edges.gui
+    import webviz.edges.page.pages
     import webviz.edges.scene
     import webviz.shell.pictures.snapshots
 

@@ -16,6 +16,7 @@ import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
+from webviz.api.errors import Error
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -37,6 +38,8 @@ FLAGS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
+    # The processor composes the page itself: a graphics card in software would take twice as long.
+    "--disable-gpu-compositing",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
@@ -47,16 +50,28 @@ HOW_TO_GET_ONE = (
     f" or set {VARIABLE} to the path of a browser."
 )
 
+SMALLEST, LARGEST = 16, 8192
+"""Edges of a picture in pixels; browsers without a GPU cannot draw larger ones."""
+
 Pixels = NDArray[np.uint8]
 T = TypeVar("T")
 
 
-class NoBrowser(Exception):
+class NoBrowser(Error):
     """No working browser was found; the message says how to get one."""
 
 
-class BrowserDied(Exception):
+class BrowserDied(Error):
     """The browser or its tab crashed or was closed."""
+
+
+def check_size(size: tuple[int, int]) -> None:
+    """Raise `Error` if a picture would be too small or too large."""
+    if not all(SMALLEST <= edge <= LARGEST for edge in size):
+        width, height = size
+        raise Error(
+            f"A picture must have {SMALLEST} to {LARGEST} pixels per side, not {width} x {height}."
+        )
 
 
 @contextmanager

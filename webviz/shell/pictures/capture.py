@@ -13,16 +13,14 @@ from pathlib import Path
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.api.views import View
-from webviz.edges.scene import CannotListen
 from webviz.engine import plugins
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
 from webviz.engine.sources.bag_extras import Extra
 from webviz.files.config import Config, nearest
 from webviz.files.opening import load, parse
-from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Pixels, launched
+from webviz.shell.pictures.browser import Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
-from webviz.shell.pictures.sizes import check_size
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.shell.ros_source import ros_source
@@ -248,10 +246,10 @@ def opened(
 
 @contextlib.contextmanager
 def one_sentence() -> Iterator[None]:
-    """Turn exceptions of browser and server into `Error`."""
+    """Turn time-outs into `Error`."""
     try:
         yield
-    except (BrowserDied, CannotListen, NoBrowser, TimeoutError) as error:
+    except TimeoutError as error:
         raise Error(str(error)) from error
 
 

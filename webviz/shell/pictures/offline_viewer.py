@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 
 import msgspec
@@ -78,7 +77,8 @@ class OfflineViewer:
         Raises:
             Error: the deadline passed before.
         """
-        with self._unwatched():
+        self._studio.scene.is_watched = False
+        try:
             while source.position_ns < until_ns:
                 if time.monotonic() > deadline:
                     reached, wanted = (
@@ -91,6 +91,8 @@ class OfflineViewer:
                     )
                 source.play_step(until_ns)
                 self._viewer.turn()
+        finally:
+            self._studio.scene.is_watched = True
 
     def wait(self, names: Collection[str], deadline: float) -> Readiness:
         """Draw until nothing is loading and the named displays are OK, or the deadline passes.
@@ -152,14 +154,6 @@ class OfflineViewer:
         if isinstance(self._source, BagSource):
             return self._source.position_ns / 1e9
         return time.monotonic()
-
-    @contextmanager
-    def _unwatched(self) -> Iterator[None]:
-        self._studio.scene.is_watched = False
-        try:
-            yield
-        finally:
-            self._studio.scene.is_watched = True
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:

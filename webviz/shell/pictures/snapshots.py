@@ -10,9 +10,8 @@ from webviz.api.errors import Error
 from webviz.api.views import View
 from webviz.edges.scene import Scene
 from webviz.engine.state import State
-from webviz.shell.pictures.browser import BrowserDied, NoBrowser, Page, Pixels, launched
+from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import LOADING
-from webviz.shell.pictures.sizes import check_size
 
 PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
@@ -69,7 +68,7 @@ class Snapshots:
                 self._scene.link.acknowledge(PATIENCE_S, client)
                 page.settle(PATIENCE_S)
                 return page.pixels()
-        except (NoBrowser, BrowserDied, TimeoutError) as error:
+        except TimeoutError as error:
             raise Error(str(error)) from error
 
     def _is_loaded(self) -> bool:

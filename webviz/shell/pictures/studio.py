@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING
 
 from webviz.api.nodes import Rgb
@@ -43,30 +44,21 @@ class Studio:
     def __init__(
         self, browser: playwright.Browser, width: int, height: int, background: Rgb = BACKGROUND
     ) -> None:
-        self.server = open_server(port=0)
-        self._page: Page | None = None
-        try:
+        with contextlib.ExitStack() as stack:
+            self.server = open_server(port=0)
+            stack.callback(self.server.stop)
             self.scene = StudioScene(self.server)
             self.scene.set_background(background)
-            self._page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
-            self._page.wait_for(self.server.get_clients, "the page is connected")
-            self._page.hold()
+            self.page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
+            stack.callback(self.page.close)
+            self.page.wait_for(self.server.get_clients, "the page is connected")
+            self.page.hold()
             self.capture()  # the first picture of a tab is smoothed differently
-        except BaseException:
-            self.close()
-            raise
-
-    @property
-    def page(self) -> Page:
-        """The tab."""
-        assert self._page is not None, "the studio is not open yet"
-        return self._page
+            self._stack = stack.pop_all()
 
     def close(self) -> None:
-        """Close the tab and end the server."""
-        if self._page is not None:
-            self._page.close()
-        self.server.stop()
+        """Close the tab and stop the server."""
+        self._stack.close()
 
     def look(self, view: View) -> None:
         """Show a view."""

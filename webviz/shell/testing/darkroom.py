@@ -40,7 +40,12 @@ class Darkroom:
             self._thread = None
 
     def capture(
-        self, scene: RecordingScene, view: View, size: Size, transparent: bool = False
+        self,
+        scene: RecordingScene,
+        view: View,
+        size: Size,
+        transparent: bool = False,
+        hidden: str | None = None,
     ) -> Pixels:
         """The picture of a scene.
 
@@ -49,6 +54,7 @@ class Darkroom:
             view: of the camera.
             size: width and height in pixels.
             transparent: omit the background.
+            hidden: prefix of the names of groups to omit.
 
         Returns:
             uint8 (height, width, 3), or (height, width, 4) if transparent.
@@ -60,22 +66,13 @@ class Darkroom:
 
         def capture() -> Pixels:
             studio = self._show(scene, view, size)
-            pixels = studio.capture(transparent)
+            with self._hidden(studio, scene, hidden):
+                pixels = studio.capture(transparent)
             if errors := studio.page.errors:
                 text = " ".join(errors)
                 errors.clear()
                 raise AssertionError(f"Scripts of the page failed: {text}")
             return pixels
-
-        return self._call(capture)
-
-    def capture_without(self, scene: RecordingScene, view: View, size: Size, prefix: str) -> Pixels:
-        """The picture of a scene without the groups whose names start with `prefix`."""
-
-        def capture() -> Pixels:
-            studio = self._show(scene, view, size)
-            with self._hidden(studio, scene, prefix):
-                return studio.capture()
 
         return self._call(capture)
 
@@ -118,7 +115,10 @@ class Darkroom:
         return self._studio
 
     @contextlib.contextmanager
-    def _hidden(self, studio: Studio, scene: RecordingScene, prefix: str) -> Iterator[None]:
+    def _hidden(self, studio: Studio, scene: RecordingScene, prefix: str | None) -> Iterator[None]:
+        if prefix is None:
+            yield
+            return
         with scene.lock:  # nothing moves meanwhile
             groups = [g for g in scene.groups if g.startswith(prefix) and g not in scene.hidden]
             try:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-PATIENCE_S = 10.0
+PATIENCE_S = 30.0
 """Far more than DDS and the frame loop need on an idle machine."""
 LOADING_S = 60.0
 """For the meshes of large robots."""

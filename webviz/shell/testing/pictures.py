@@ -121,7 +121,7 @@ class Photographer:
         """Raise AssertionError if a display makes no visible difference."""
         unseen: list[str] = []
         for prefix, display in displays.items():
-            rest = self.darkroom.capture_without(self.scene, self.view, self.album.size, prefix)
+            rest = self.darkroom.capture(self.scene, self.view, self.album.size, hidden=prefix)
             if share_of_difference(masked(rest, mask), whole) <= tolerance:
                 unseen.append(display)
         if unseen:

@@ -6,20 +6,15 @@ import itertools
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from webviz.api.bounds import Box, bounds, union
 from webviz.api.frames import compose
 from webviz.api.nodes import Node, Pose, Rgb
-from webviz.engine.scene import Cameras, NoCameras, Scene
+from webviz.engine.scene import Cameras, NoCameras
 
-
-class Target(Scene, Protocol):
-    """A scene to forward everything to; see `webviz.edges.scene.Scene`."""
-
-    def clear(self) -> None:
-        """Remove everything."""
-        ...
+if TYPE_CHECKING:
+    from webviz.edges.scene import Scene
 
 
 @dataclass
@@ -38,10 +33,10 @@ class RecordingScene:
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
-    _targets: list[Target] = field(default_factory=list)
+    _targets: list[Scene] = field(default_factory=list)
     """The attached scene, if any."""
 
-    def attach(self, target: Target) -> None:
+    def attach(self, target: Scene) -> None:
         """Draw everything in another scene as well, from now on."""
         with self.lock:
             self._targets = [target]

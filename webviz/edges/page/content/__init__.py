@@ -17,6 +17,7 @@ from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.tools import tool
 from webviz.edges.page.content.topics import message, topics, traffic
+from webviz.edges.page.content.transforms import between, transforms
 from webviz.edges.page.content.types import addable, types
 from webviz.edges.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.edges.page.content.views import view, views
@@ -24,6 +25,7 @@ from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "addable": addable,
+    "between": between,
     "clock": clock,
     "displays": displays,
     "file": file,
@@ -31,12 +33,10 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "graph": graph,
     "history": history,
     "legend": legend,
+    "message": message,
     "properties": properties,
     "rate": rate,
     "settings": settings,
-    "types": types,
-    "view_type": view_type,
-    "message": message,
     "tool": tool,
     "topics": topics,
     "traffic": traffic,
@@ -44,5 +44,8 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "topics_of": topics_of,
     "view": view,
     "views": views,
+    "transforms": transforms,
+    "types": types,
+    "view_type": view_type,
     "watchers": watchers,
 }

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.display import inputs
 from webviz.api.status import Level
 from webviz.engine.state import Row, State
+
+_CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
+"""Ages and rates in sentences."""
 
 
 def displays(state: State, _: str) -> Mapping[str, Any]:
@@ -42,12 +46,18 @@ def _worst(row: Row) -> str:
     if row.level < Level.WARN:
         return ""
     key, status = next((k, s) for k, s in row.statuses.items() if s.level == row.level)
-    return f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
+    text = f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
+    return _CHANGING.sub(lambda found: f"{_steady(float(found[1])):.9g}{found[2]}", text)
 
 
 def _topics(row: Row | None) -> list[str]:
     display = row.display if row else None
     return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []
+
+
+def _steady(value: float) -> float:
+    """An age or a rate with so few digits that it does not change all the time."""
+    return value if value < 1.0 else _rounded(value) if value >= 10.0 else float(round(value))
 
 
 def _rounded(value: float) -> float:

@@ -45,6 +45,11 @@ def leaves(properties: Iterator[Property] | tuple[Property, ...]) -> Iterator[Pr
             yield each
 
 
+def brief(text: str, most: int = 300) -> str:
+    """A text that JSON can hold, of so many characters at most."""
+    return sendable(text if len(text) <= most else f"{text[: most - 1]}…")
+
+
 def sendable(value: Any) -> Any:
     """A value that JSON can hold: without halves of letters, and no endless texts."""
     if isinstance(value, str):

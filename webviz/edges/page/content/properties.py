@@ -9,7 +9,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import inputs
 from webviz.api.status import Status
 from webviz.edges.page.content.displays import level_name
-from webviz.edges.page.content.forms import form, sendable, values_of
+from webviz.edges.page.content.forms import brief, form, sendable, values_of
 from webviz.engine.sources import Offer
 from webviz.engine.state import Row, State
 
@@ -72,7 +72,7 @@ def lines(statuses: Mapping[str, Status]) -> Mapping[str, Any]:
 
 
 def _line(key: str, status: Status) -> list[Any]:
-    line = [sendable(key), level_name(status.level), sendable(status.text)]
+    line = [brief(key), level_name(status.level), brief(status.text)]
     remedy = status.remedy
     return [*line, {"path": remedy.path, "value": sendable(remedy.value)}] if remedy else line
 
@@ -81,8 +81,8 @@ def _worst(row: Row) -> Mapping[str, Any] | None:
     """The first of the worst statuses; its text, if all is well, changes all the time: none."""
     for key, status in row.statuses.items():
         if status.level == row.level:
-            text = sendable(status.text) if status.level else ""
-            return {"key": sendable(key), "level": level_name(status.level), "text": text}
+            text = brief(status.text) if status.level else ""
+            return {"key": brief(key), "level": level_name(status.level), "text": text}
     return None
 
 

@@ -15,6 +15,8 @@ NO_CONTROL = ("version", "view", "views", "rviz")
 """Settings that have another place on the page, or none."""
 
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
+OWN_NODE = "/webviz"
+"""Unless it is remapped, which nobody does before there is something to see."""
 
 
 def settings(state: State, _: str) -> Mapping[str, Any]:
@@ -51,8 +53,10 @@ def file(state: State, _: str) -> Mapping[str, Any]:
 
 
 def graph(state: State, _: str) -> Mapping[str, Any]:
-    """Whether anybody publishes anything besides what every ROS node does."""
-    return {"is_empty": not (state.topics.keys() - OF_EVERY_NODE)}
+    """Whether nobody publishes anything, besides what every node and webviz itself do."""
+    published = (offer for topic, offer in state.offers.items() if topic not in OF_EVERY_NODE)
+    nodes = {publisher.node for offer in published for publisher in offer.publishers}
+    return {"is_empty": not nodes - {OWN_NODE}}
 
 
 def view_type(state: State, browser: str) -> Mapping[str, Any]:

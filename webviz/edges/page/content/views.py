@@ -15,22 +15,23 @@ DIGITS = 3
 
 
 def view(state: State, browser: str) -> Mapping[str, Any]:
-    """What the browser with this id looks at: "type", "declared", and its values, rounded."""
+    """What the browser with this id looks at: "declared" and the values, rounded; all "types"."""
     shown = state.views.get(int(browser)) if browser.isdecimal() else None
     if shown is None:
         return {}
     values = {key: _rounded(value) for key, value in values_of(shown).items()}
-    return {"type": type_of(shown), "declared": form(type(shown)), **values}
+    told = {"declared": form(type(shown)), "types": list(VIEW_TYPES), "value.type": type_of(shown)}
+    return told | values
 
 
 def views(state: State, _: str) -> Mapping[str, Any]:
-    """The "types" of views; "saved": name and type of each, and whether browsers begin with it."""
+    """The "saved" ones: name and type of each, and whether browsers begin with it."""
     settings = state.settings
     saved = [
         {"name": sendable(name), "type": type_of(view), "is_start": view == settings.view}
         for name, view in settings.views.items()
     ]
-    return {"types": list(VIEW_TYPES), "saved": saved}
+    return {"saved": saved}
 
 
 def _rounded(value: Any) -> Any:

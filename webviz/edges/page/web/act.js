@@ -20,12 +20,25 @@ channel.onOpen(() => waiting.clear());
  * as a toast, unless `quiet`; errors always are, unless the "caller" shows them itself.
  */
 export function act(command, fields = {}, { quiet = false, errors = "toast" } = {}) {
-  count += 1;
-  channel.send({ type: "Do", number: count, command, arguments: fields });
-  const answer = new Promise((resolve) => waiting.set(count, resolve));
+  const answer = request({ type: "Do", command, arguments: fields });
   answer.then(({ level, text }) => {
     const isShown = level === "error" ? errors === "toast" : !quiet;
     if (text && isShown) toast(text, { level });
   });
   return answer;
+}
+
+/** Tells what somebody did with a widget of a plug-in's panel; as `act` does. */
+export function use(panel, widget, value = null) {
+  const answer = request({ type: "Use", panel, widget, value });
+  answer.then(({ level, text }) => {
+    if (text) toast(text, { level });
+  });
+  return answer;
+}
+
+function request(message) {
+  count += 1;
+  channel.send({ ...message, number: count });
+  return new Promise((resolve) => waiting.set(count, resolve));
 }

@@ -14,14 +14,13 @@ import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
 import * as tiles from "./scene/tiles.js";
 import * as toolbar from "./shell/toolbar.js";
-import * as typing from "./typing.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
 
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact, typing]) part.install();
+  for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, saveImage, overlay]) part.install();
   toolbar.install(shell.places);

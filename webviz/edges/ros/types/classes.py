@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+from collections.abc import Callable
 from typing import Any
 
 from rclpy.serialization import deserialize_message, serialize_message
@@ -45,7 +46,7 @@ def message_class(type_name: str) -> type:
             raise MessageTypeError(
                 f"{type_name!r} is not a message type name. Write package/msg/Name."
             )
-    return installed or _composed(type_name)
+    return installed or _composed(type_name, describe, composed_message)
 
 
 def service_class(type_name: str) -> Any:
@@ -70,7 +71,7 @@ def service_class(type_name: str) -> Any:
             raise MessageTypeError(
                 f"{type_name!r} is not a service type name. Write package/srv/Name."
             )
-    return installed or _composed_service(type_name)
+    return installed or _composed(type_name, interfaces.service, composed_service)
 
 
 def from_cdr(cdr: bytes, cls: Any) -> Any:
@@ -94,30 +95,16 @@ def _installed(package: str, kind: str, name: str) -> Any:
 
 
 @functools.cache
-def _composed(type_name: str) -> type:
+def _composed(
+    type_name: str, check: Callable[[str], object], compose: Callable[[str], type]
+) -> type:
     try:
-        describe(type_name)
+        check(type_name)
+    except UnknownTypeError as error:
+        remedy = "Install its package, or source the workspace that contains it."
+        raise MessageTypeError(f"{error} {remedy}") from error
     except MessageError as error:
-        raise _refusal(error) from error
-    _need_fastrtps(type_name)
-    return composed_message(type_name)
-
-
-def _composed_service(type_name: str) -> type:
-    try:
-        interfaces.service(type_name)
-    except MessageError as error:
-        raise _refusal(error) from error
-    _need_fastrtps(type_name)
-    return composed_service(type_name)
-
-
-def _refusal(error: MessageError) -> MessageTypeError:
-    remedy = " Install its package, or source the workspace that contains it."
-    return MessageTypeError(f"{error}{remedy if isinstance(error, UnknownTypeError) else ''}")
-
-
-def _need_fastrtps(type_name: str) -> None:
+        raise MessageTypeError(str(error)) from error
     rmw = get_rmw_implementation_identifier()
     if rmw != "rmw_fastrtps_cpp":
         package = type_name.partition("/")[0].replace("_", "-")
@@ -125,3 +112,4 @@ def _need_fastrtps(type_name: str) -> None:
             f"{type_name} needs its package with {rmw}: install ros-jazzy-{package} with apt, or "
             "set RMW_IMPLEMENTATION=rmw_fastrtps_cpp."
         )
+    return compose(type_name)

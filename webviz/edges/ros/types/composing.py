@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 from webviz.data.messages import interfaces
@@ -77,9 +78,16 @@ def _class(type_name: str, base: type, bases: tuple[type, ...], attributes: dict
     return metaclass(name, bases, {"__module__": f"{package}.{kind}"})
 
 
-def _handle(type_name: str, identifier: str, data: int, others: dict[str, int]) -> int:
-    """A `rosidl_message_type_support_t`."""
-    support = TypeSupport(text(identifier), data, 0, *getters(type_name))
+def _handle(
+    type_name: str, identifier: str, data: int, others: dict[str, int], messages: Sequence[int] = ()
+) -> int:
+    """A `rosidl_message_type_support_t`, or with `messages` a `rosidl_service_type_support_t`."""
+    support: Any
+    if messages:
+        more = (*messages, 0, 0, *getters(type_name))
+        support = ServiceTypeSupport(text(identifier), data, 0, *more)
+    else:
+        support = TypeSupport(text(identifier), data, 0, *getters(type_name))
     own = address(support)
     support.func = finder({**others, identifier: own})
     return own
@@ -139,18 +147,10 @@ def _service(type_name: str) -> int:
     package, kind, name = type_name.split("/")
     parts = interfaces.service(type_name)
     supports = [_message_support(part) for part in (*parts, f"{type_name}_Event")]
-
-    def handle(identifier: str, data: int, others: dict[str, int]) -> int:
-        support = ServiceTypeSupport(
-            text(identifier), data, 0, *supports, 0, 0, *getters(type_name)
-        )
-        own = address(support)
-        support.func = finder({**others, identifier: own})
-        return own
-
     members = [
         _handle(part, _FASTRTPS, TypeSupport.from_address(support).data, {})
         for part, support in zip(parts, supports[:2], strict=True)
     ]
     data = address(ServiceCallbacks(text(f"{package}::{kind}"), text(name), *members))
-    return handle(_C, data, {_FASTRTPS: handle(_FASTRTPS, data, {})})
+    others = {_FASTRTPS: _handle(type_name, _FASTRTPS, data, {}, supports)}
+    return _handle(type_name, _C, data, others, supports)

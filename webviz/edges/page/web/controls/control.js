@@ -19,10 +19,11 @@ const MAKERS = {
   vector,
 };
 
+const WIDEST = 1000; // a slider over more than that hits nothing
+
 /** The control for a property. */
 export function control(property, options) {
   const { kind, low, high } = property;
-  const isBounded = low !== undefined && high !== undefined;
-  const isSlider = (kind === "float" || kind === "int") && isBounded;
+  const isSlider = (kind === "float" || kind === "int") && high - low <= WIDEST;
   return (isSlider ? slider : MAKERS[kind] ?? text)(property, options);
 }

@@ -9,10 +9,11 @@ import { row } from "./property_row.js";
  * Rows for properties as `content/forms.py` declares them.
  *
  * `send(path, value)` tells the viewer what was entered and returns the promise of `act`. `name` is
- * what this browser remembers by which sections are folded. Returns `{element, update(values,
- * changed)}`: values of a store with "value." and "topic." before the paths, and which are new.
+ * what this browser remembers by which sections are folded. `marks`: whether what differs from the
+ * default is marked. Returns `{element, update(values, changed)}`: values of a store with "value." and
+ * "topic." before the paths, and which are new.
  */
-export function form(declared, { send, name }) {
+export function form(declared, { send, name, marks = true }) {
   const rows = new Map();
   const parts = []; // what is hidden while it does not apply
   const lives = new Map();
@@ -35,7 +36,7 @@ export function form(declared, { send, name }) {
   function build(property) {
     if (property.kind === "topic") return topic(property);
     if (property.kind === "group") return section(property);
-    const made = row(property, send);
+    const made = row(property, send, marks);
     rows.set(property.path, made);
     return made.element;
   }
@@ -43,7 +44,7 @@ export function form(declared, { send, name }) {
   function topic(property) {
     const [named, ...rest] = property.children;
     const { label, help, type } = property;
-    const made = row({ ...named, kind: "topic", label, help, type }, send);
+    const made = row({ ...named, kind: "topic", label, help, type }, send, marks);
     rows.set(named.path, made);
     const qos = el("span");
     const note = el("div", { class: "wv-section-note" }, qos);
@@ -60,7 +61,7 @@ export function form(declared, { send, name }) {
   function section({ path, label, help, children }) {
     const own = children.find((child) => child.path === `${path}.value`);
     const rest = children.filter((child) => child !== own);
-    const made = own && row({ ...own, help: own.help || help }, send);
+    const made = own && row({ ...own, help: own.help || help }, send, marks);
     if (made) rows.set(own.path, made);
     const inner = deeper(() => rest.map(add));
     return foldable(path, label, made ? made.element : null, inner, true, help);

@@ -9,9 +9,10 @@ let count = 0;
 
 /**
  * A row for a property as `content/forms.py` declares it. `send(path, value)` tells the viewer, and
- * returns the promise of `act`. Returns `{element, update(value), live(known)}`.
+ * returns the promise of `act`. `marks`: whether it shows what differs from the default. Returns
+ * `{element, update(value), live(known)}`.
  */
-export function row(property, send) {
+export function row(property, send, marks = true) {
   count += 1;
   const id = `wv-refused-${count}`;
   const { path, label, kind, default: standard } = property;
@@ -44,7 +45,7 @@ export function row(property, send) {
     element,
     update(value) {
       made.update(value);
-      const isChanged = JSON.stringify(value) !== JSON.stringify(standard);
+      const isChanged = marks && JSON.stringify(value) !== JSON.stringify(standard);
       set(element, { "data-changed": isChanged });
       if (reset.hidden === isChanged) reset.hidden = !isChanged;
     },

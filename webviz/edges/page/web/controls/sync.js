@@ -5,7 +5,8 @@
 // outside waits while somebody edits, and a moment longer; then the newest is shown.
 
 export const SETTLE_MS = 500;
-const ANSWER_MS = 5000; // an answer that was lost with the connection
+const ANSWER_MS = 8000; // then it was lost with the connection
+const LOST = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
 
 /**
  * `show(value)` makes the control show a value. `send(value)` tells the viewer; it may return a promise
@@ -38,7 +39,7 @@ export function sync({ show, send, refused = () => {} }) {
   // One at a time: of a drag, the viewer gets as many values as it can take.
   async function next(value) {
     isUnderWay = true;
-    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS));
+    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
     const answer = await Promise.race([send(value), lost]);
     isUnderWay = false;
     if (waiting) {

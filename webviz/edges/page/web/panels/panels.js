@@ -6,5 +6,7 @@
 import { displays } from "./displays/displays.js";
 import { toolsPanel } from "./tools.js";
 import { topics } from "./topics.js";
+import { transforms } from "./transforms.js";
+import { views } from "./views.js";
 
-export const panels = [displays, topics, toolsPanel];
+export const panels = [displays, views, topics, transforms, toolsPanel];

@@ -59,7 +59,7 @@ export function inspector(place, name, dismiss) {
 
   function update(topic) {
     fits = topic?.show ?? [];
-    set(show, { disabled: fits.length === 0, title: fits.length ? "Add a display" : topic?.why });
+    set(show, { disabled: fits.length === 0, "data-tip": fits.length ? "Add a display" : topic?.why });
     setText(why, topic?.why ?? "");
     set(why, { hidden: !topic?.why });
     const texts = topic
@@ -129,7 +129,7 @@ function updateRow(element, row) {
   set(fold, { "data-open": row.isOpen ? "" : null, "data-none": row.isOpen === null ? "" : null });
   setText(name, row.name);
   setText(value, row.value);
-  set(value, { title: row.value.length > 30 ? row.value : null });
+  set(value, { "data-tip": row.value.length > 30 ? row.value : null });
   set(element, {
     "aria-level": row.depth + 1,
     "aria-expanded": row.isOpen === null ? null : String(row.isOpen),

@@ -64,9 +64,9 @@ export function makeRow() {
 /** Fills in a row. */
 export function updateRow(row, topic) {
   COLUMNS.forEach(({ text }, index) => setText(row.children[index], text(topic)));
-  set(row.children[0], { title: topic.key });
-  set(row.children[1], { title: topic.types.join("\n") });
-  set(row.children[2], { title: topic.nodes.slice(0, 20).join("\n") });
+  set(row.children[0], { "data-tip": topic.key });
+  set(row.children[1], { "data-tip": topic.types.join("\n") });
+  set(row.children[2], { "data-tip": topic.nodes.slice(0, 20).join("\n") });
   set(row, { "data-silent": topic.types.length ? null : "" });
 }
 

@@ -11,44 +11,84 @@ import { fold } from "./layout.js";
 import { setTheme } from "./theme.js";
 
 /**
- * Keys are RViz's where a browser leaves them to a page. Not those of RViz that open a window, reload or
- * close a tab in a browser (Ctrl+N, R, X), nor W, A, S, D, Q, E and arrows, which move the camera.
+ * Keys are RViz's where a browser leaves them to a page. Not those of RViz that open a window,
+ * reload or close a tab in a browser (Ctrl+N, R, X), nor W, A, S, D, Q, E and arrows, which move
+ * the camera.
  */
 export const actions = {
   save: { name: "Save", icon: "save", key: "Ctrl+s", inFields: true, run: () => files.save() },
   saveAs: {
-    name: "Save as…", icon: "save", key: "Ctrl+Shift+s", inFields: true, run: () => files.saveAs(),
+    name: "Save as…",
+    icon: "save",
+    key: "Ctrl+Shift+s",
+    inFields: true,
+    run: () => files.saveAs(),
   },
   open: { name: "Open…", icon: "folder", key: "Ctrl+o", inFields: true, run: () => files.open() },
   yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
   rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
-  undo: { name: "Undo", icon: "arrow-back", key: "Ctrl+z", group: "Edit", run: () => history.undo() },
+  undo: {
+    name: "Undo",
+    icon: "arrow-back",
+    key: "Ctrl+z",
+    group: "Edit",
+    run: () => history.undo(),
+  },
   redo: {
-    name: "Redo", icon: "arrow-forward", key: ["Ctrl+Shift+z", "Ctrl+y"], group: "Edit",
+    name: "Redo",
+    icon: "arrow-forward",
+    key: ["Ctrl+Shift+z", "Ctrl+y"],
+    group: "Edit",
     run: () => history.redo(),
   },
   add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", run: () => openAdd() },
-  reset: { name: "Reset", icon: "refresh", key: "r", group: "Time", run: () => act("Reset") },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
-  fold: { name: "Show or hide the panels", icon: "sidebar", key: "Ctrl+b", group: "View", run: () => fold() },
+  fold: {
+    name: "Show or hide the panels",
+    icon: "sidebar",
+    key: "Ctrl+b",
+    group: "View",
+    run: () => fold(),
+  },
   dark: { name: "Theme: dark", icon: "moon", group: "View", run: () => setTheme("dark") },
   light: { name: "Theme: light", icon: "sun", group: "View", run: () => setTheme("light") },
-  system: { name: "Theme: as the system", icon: "screen", group: "View", run: () => setTheme("system") },
-  commands: {
-    name: "Commands", icon: "search", key: ["Ctrl+k", "Ctrl+Shift+p"], inFields: true, isHidden: true,
-    group: "Help", run: () => openCommandList(),
+  system: {
+    name: "Theme: as the system",
+    icon: "screen",
+    group: "View",
+    run: () => setTheme("system"),
   },
-  keys: { name: "Keyboard shortcuts", icon: "keyboard", key: "?", group: "Help", run: () => openKeys() },
+  commands: {
+    name: "Commands",
+    icon: "search",
+    key: ["Ctrl+k", "Ctrl+Shift+p"],
+    inFields: true,
+    isHidden: true,
+    group: "Help",
+    run: () => openCommandList(),
+  },
+  keys: {
+    name: "Keyboard shortcuts",
+    icon: "keyboard",
+    key: "?",
+    group: "Help",
+    run: () => openKeys(),
+  },
 };
 
 export function install() {
-  for (const action of Object.values(actions)) command(Object.assign(action, { group: action.group ?? "File" }));
+  for (const action of Object.values(actions))
+    command(Object.assign(action, { group: action.group ?? "File" }));
 }
 
 /** An action as an item of a menu, with what is different there. */
 export const item = ({ name, icon, key, run }, more = {}) => ({
-  label: name, icon, key: [key].flat()[0], run, ...more,
+  label: name,
+  icon,
+  key: [key].flat()[0],
+  run,
+  ...more,
 });
 
 function toggleFullScreen() {

@@ -11,32 +11,38 @@ import { typeIcon } from "./type_icons.js";
 const MAX_SHOWN = 200;
 const WAYS = { type: "By type", topic: "By topic" };
 
-const listeners = new Set();
-
-/** Calls `listener(id)` with each display that was added here. */
-export const onAdded = (listener) => listeners.add(listener);
-
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
-  if (document.querySelector(".wv-add")) return;
+  if (document.querySelector(".wv-add[open]")) return;
   const state = { way: recall("add", "type"), types: null, topics: null };
   const checked = new Map();
   const input = el("input", {
-    class: "wv-field wv-search", type: "text", "aria-label": "Search", placeholder: "Search",
+    class: "wv-field wv-search",
+    type: "text",
+    "aria-label": "Search",
+    placeholder: "Search",
   });
   const note = el("p", { class: "wv-quiet wv-nothing", hidden: true });
   let show = () => {};
 
   const tabs = Object.entries(WAYS).map(([way, label]) =>
-    el("button", {
-      type: "button", class: "wv-tab", role: "tab", "data-way": way,
-      onclick: () => {
-        state.way = way;
-        remember("add", way);
-        show();
-        input.focus();
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-tab",
+        role: "tab",
+        "data-way": way,
+        onclick: () => {
+          state.way = way;
+          remember("add", way);
+          show();
+          input.focus();
+        },
       },
-    }, label));
+      label,
+    ),
+  );
   const ends = [
     watch("types", (types) => {
       state.types = [...types];
@@ -68,7 +74,10 @@ export function openAdd({ group = "" } = {}) {
           set(tab, { "aria-selected": String(isShown) });
         }
         const all = rows(state, checked);
-        found = search(all, input.value, ({ title, line, note: more }) => [title, `${line} ${more}`]);
+        found = search(all, input.value, ({ title, line, note: more }) => [
+          title,
+          `${line} ${more}`,
+        ]);
         list.show(found.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row));
         setText(note, remark(state, all, found.length));
         note.hidden = note.textContent === "";
@@ -81,8 +90,12 @@ export function openAdd({ group = "" } = {}) {
         const active = found.find(({ id, disabled }) => !disabled && id === list.active());
         return checked.size ? [...checked.values()] : active ? [active.pick] : null;
       };
-      return [input, el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Add" }, tabs),
-        list.element, note];
+      return [
+        input,
+        el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Add" }, tabs),
+        list.element,
+        note,
+      ];
     },
     buttons: [
       { label: "Cancel", value: null },
@@ -91,19 +104,18 @@ export function openAdd({ group = "" } = {}) {
   }).then((chosen) => {
     ends.forEach((end) => end());
     const picks = chosen === "add" ? input.taken() : chosen;
-    for (const { type, values } of picks ?? []) add(type, values, group);
+    for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group });
   });
-}
-
-async function add(type, values, group) {
-  const { display } = await act("AddDisplay", { type, values, group });
-  if (display) for (const listener of listeners) listener(display);
 }
 
 function rows({ way, types, topics }, checked) {
   if (way === "type") {
     return (types ?? []).map(([name, { help, topics: takes }]) => ({
-      id: name, title: name, icon: typeIcon(name), line: help, note: takes.join(", "),
+      id: name,
+      title: name,
+      icon: typeIcon(name),
+      line: help,
+      note: takes.join(", "),
       pick: { type: name, values: {} },
     }));
   }
@@ -112,13 +124,23 @@ function rows({ way, types, topics }, checked) {
   return [...all.filter(fits), ...all.filter((one) => !fits(one))].flatMap(([topic, offer]) => {
     const about = { title: topic, note: noteOf(offer) };
     if (!offer.displays.length) {
-      return [{
-        ...about, id: topic, icon: "file", line: offer.why, disabled: true, group: "Not shown by any display",
-      }];
+      return [
+        {
+          ...about,
+          id: topic,
+          icon: "file",
+          line: offer.why,
+          disabled: true,
+          group: "Not shown by any display",
+        },
+      ];
     }
     return offer.displays.map(([display, input]) => ({
-      ...about, id: `${topic} ${display}`, icon: typeIcon(display),
-      line: `${display} · ${offer.types.join(", ")}`, checked: checked.has(`${topic} ${display}`),
+      ...about,
+      id: `${topic} ${display}`,
+      icon: typeIcon(display),
+      line: `${display} · ${offer.types.join(", ")}`,
+      checked: checked.has(`${topic} ${display}`),
       pick: { type: display, values: { [input]: topic } },
     }));
   });
@@ -132,7 +154,7 @@ function noteOf({ rate, publishers }) {
 function remark({ way, types, topics }, all, count) {
   if ((way === "type" ? types : topics) === null) return "Loading…";
   if (!all.length) {
-    return "No topic is published. Start the robot, a simulator or a bag; topics appear here by themselves.";
+    return "No topic is published. Start the robot, a simulator or a bag; topics appear by themselves.";
   }
   if (!count) return "Nothing with these words.";
   return count > MAX_SHOWN ? `… and ${count - MAX_SHOWN} more: type a part of the name.` : "";

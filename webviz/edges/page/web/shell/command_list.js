@@ -9,7 +9,7 @@ import { optionList, search } from "./option_list.js";
 
 const MAX_SHOWN = 60;
 const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
-const STORES = ["settings", "frames", "commands"];
+const STORES = ["settings", "frames"];
 
 const makers = new Set();
 
@@ -22,14 +22,21 @@ export function provideFrom(stores, make) {
 }
 
 export function openCommandList() {
-  if (document.querySelector(".wv-command-list")) return;
+  if (document.querySelector(".wv-command-list[open]")) return;
   const input = el("input", {
-    class: "wv-field wv-search", type: "text", "aria-label": "Command", placeholder: "Type a command",
+    class: "wv-field wv-search",
+    type: "text",
+    "aria-label": "Command",
+    placeholder: "Type a command",
   });
   const values = {};
   const stores = new Set([...STORES, ...[...makers].flatMap((maker) => maker.stores)]);
   const ends = [];
-  const nothing = el("p", { class: "wv-quiet wv-nothing", hidden: true }, "No command with these words.");
+  const nothing = el(
+    "p",
+    { class: "wv-quiet wv-nothing", hidden: true },
+    "No command with these words.",
+  );
 
   openDialog({
     title: "Commands",
@@ -41,17 +48,25 @@ export function openCommandList() {
       const show = () => {
         found = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
         found.length = Math.min(found.length, MAX_SHOWN);
-        list.show(found.map((one, id) => ({
-          id, title: one.name, icon: one.icon ?? "chevron", note: one.note, key: keysOf(one)[0],
-          group: input.value.trim() ? "" : one.group,
-        })));
+        list.show(
+          found.map((one, id) => ({
+            id,
+            title: one.name,
+            icon: one.icon ?? "chevron",
+            note: one.note,
+            key: keysOf(one)[0],
+            group: input.value.trim() ? "" : one.group,
+          })),
+        );
         nothing.hidden = found.length > 0;
       };
       for (const name of stores) {
-        ends.push(watch(name, (store) => {
-          values[name] = store;
-          show();
-        }));
+        ends.push(
+          watch(name, (store) => {
+            values[name] = store;
+            show();
+          }),
+        );
       }
       input.addEventListener("input", show);
       show();
@@ -64,25 +79,28 @@ export function openCommandList() {
 }
 
 function commands(values) {
-  const { settings, frames, commands: ofPanels } = values;
+  const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
-    stores.every((name) => values[name]) ? make(values) : []);
+    stores.every((name) => values[name]) ? make(values) : [],
+  );
   const place = ({ group }) => (ORDER.indexOf(group) + ORDER.length) % ORDER.length;
   return [
-    ...all().filter(({ isHidden }) => !isHidden).sort((a, b) => place(a) - place(b)),
+    ...all()
+      .filter(({ isHidden }) => !isHidden)
+      .sort((a, b) => place(a) - place(b)),
     ...more,
     ...(settings?.get("views") ?? []).map((name) => ({
-      name: `Show view ${name}`, icon: "eye", group: "Saved views",
+      name: `Show view ${name}`,
+      icon: "eye",
+      group: "Saved views",
       run: () => act("ShowView", { view: name }),
     })),
     ...(frames?.get("frames") ?? []).map((frame) => ({
-      name: `Fixed frame: ${frame}`, icon: "axes", group: "Fixed frame",
+      name: `Fixed frame: ${frame}`,
+      icon: "axes",
+      group: "Fixed frame",
       note: frame === settings?.get("fixed_frame") ? "now" : "",
       run: () => act("SetFixedFrame", { frame }),
-    })),
-    ...[...(ofPanels?.values() ?? [])].filter((one) => one?.name).map((one) => ({
-      name: one.name, icon: one.icon, key: one.key, group: one.panel ?? "Panels",
-      run: () => act("RunPanelCommand", { panel: one.panel, command: one.name }),
     })),
   ];
 }

@@ -2,8 +2,9 @@
 
 import { keyOf } from "./keys.js";
 
-const TYPED = "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, "
-  + "[contenteditable]:not([contenteditable=false])";
+const TYPED =
+  "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +
+  "[contenteditable]:not([contenteditable=false])";
 
 const fixed = new Set();
 const makers = new Set();
@@ -11,10 +12,11 @@ const makers = new Set();
 /**
  * Adds a command; returns what takes it away.
  *
- * `{name, run}`, and if there are: `icon`; `key`, or several in a list, such as "Ctrl+Shift+s", "g",
- * "Delete", in the words of `keyOf`; `group` in the list of keys; `note`, which stands quietly behind
- * the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`, whether it
- * can be done now. A key with Ctrl that means nothing in a field is marked with `inFields`.
+ * `{name, run}`, and if there are: `icon`; `key`, or several in a list, such as "Ctrl+Shift+s",
+ * "g", "Delete", in the words of `keyOf`; `group` in the list of keys; `note`, which stands quietly
+ * behind the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`,
+ * whether it can be done now. A key with Ctrl that means nothing in a field is marked with
+ * `inFields`.
  */
 export function command(wanted) {
   fixed.add(wanted);

@@ -9,9 +9,10 @@ let count = 0;
  * Opens a dialog; resolves with the value of the button that was chosen, null on Escape.
  *
  * `content`: a string, an element or several, or what makes them when it is told how to close the
- * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary, danger,
- * focused, accept}`; Enter in a field is the primary one. `accept()`, which may be asynchronous, is
- * asked first: unless it returns true the dialog stays. `isLight`: a click beside it closes it, too.
+ * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary,
+ * danger, focused, accept}`; Enter in a field is the primary one. `accept()`, which may be
+ * asynchronous, is asked first: unless it returns true the dialog stays. `isLight`: a click beside
+ * it closes it, too.
  */
 export function openDialog({ title, content, buttons = [], isLight = false, className = "" }) {
   count += 1;
@@ -20,8 +21,11 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
   let isBusy = false;
 
   function close(value = null) {
+    if (!dialog.open) return;
     answer = value;
     dialog.close();
+    // At once, so that no key goes to what had the focus in it.
+    dialog.remove();
   }
 
   async function choose({ value, accept }) {
@@ -52,9 +56,16 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
         "header",
         { class: "wv-dialog-head" },
         el("h2", { id }, title),
-        el("button", {
-          type: "button", class: "wv-icon", "aria-label": "Close", onclick: () => close(),
-        }, icon("close")),
+        el(
+          "button",
+          {
+            type: "button",
+            class: "wv-icon",
+            "aria-label": "Close",
+            onclick: () => close(),
+          },
+          icon("close"),
+        ),
       ),
       el(
         "div",
@@ -66,18 +77,28 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
             "footer",
             { class: "wv-dialog-buttons" },
             buttons.map((button) =>
-              el("button", {
-                type: button.primary ? "submit" : "button", autofocus: button.focused,
-                class: `wv-button${button.primary ? " wv-primary" : ""}${button.danger ? " wv-danger" : ""}`,
-                onclick: button.primary ? null : () => choose(button),
-              }, button.label),
+              el(
+                "button",
+                {
+                  type: button.primary ? "submit" : "button",
+                  autofocus: button.focused,
+                  class: classOf(button),
+                  onclick: button.primary ? null : () => choose(button),
+                },
+                button.label,
+              ),
             ),
           )
         : null,
     ),
   );
   // viser's page and the commands have keys that are letters.
-  dialog.addEventListener("keydown", (event) => event.stopPropagation());
+  dialog.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    if (event.key !== "Escape" || event.defaultPrevented) return;
+    event.preventDefault();
+    close();
+  });
   if (isLight) {
     dialog.addEventListener("pointerdown", (event) => {
       if (event.target === dialog) close();
@@ -96,6 +117,9 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
     });
   });
 }
+
+const classOf = ({ primary, danger }) =>
+  ["wv-button", primary && "wv-primary", danger && "wv-danger"].filter(Boolean).join(" ");
 
 /** Asks a question; resolves with true if it was confirmed. The focus is on Cancel. */
 export async function ask(text, { confirm = "OK", title = "Are you sure?", danger = false } = {}) {

@@ -4,10 +4,15 @@ import { el } from "../dom.js";
 import * as files from "./files.js";
 
 export function install(page) {
-  const cover = el("div", { class: "wv-drop", hidden: true }, el("p", {}, "Drop a config to open it"));
+  const cover = el(
+    "div",
+    { class: "wv-drop", hidden: true },
+    el("p", {}, "Drop a config to open it"),
+  );
   page.append(cover);
   const hasFiles = ({ dataTransfer }) => [...(dataTransfer?.types ?? [])].includes("Files");
-  const on = (name, act) => window.addEventListener(name, (event) => hasFiles(event) && act(event), true);
+  const on = (name, act) =>
+    window.addEventListener(name, (event) => hasFiles(event) && act(event), true);
   on("dragenter", () => (cover.hidden = false));
   on("dragover", (event) => event.preventDefault());
   on("dragleave", (event) => {

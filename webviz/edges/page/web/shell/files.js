@@ -49,7 +49,8 @@ export const exportAs = (suffix) =>
 /** A plain file name of what somebody entered, or why it is none: `{name, problem}`. */
 export function checkedName(entered) {
   const name = entered.trim();
-  if (!name || name === "." || name === "..") return { problem: "Enter a file name, such as lab.yaml." };
+  if (!name || name === "." || name === "..")
+    return { problem: "Enter a file name, such as lab.yaml." };
   if (/[/\\\0]/.test(name)) {
     return { problem: "Enter a name without folders; the file is saved in the folder above." };
   }
@@ -61,7 +62,12 @@ const hasSuffix = (name) =>
   SUFFIXES.some((suffix) => name.toLowerCase().endsWith(suffix) && name.length > suffix.length);
 
 export function saveAs() {
-  const input = el("input", { class: "wv-field", type: "text", "aria-label": "File name", autofocus: true });
+  const input = el("input", {
+    class: "wv-field",
+    type: "text",
+    "aria-label": "File name",
+    autofocus: true,
+  });
   input.value = fileName() || NEW_NAME;
   const problem = el("p", { class: "wv-problem", role: "alert" });
   let confirmed = "";
@@ -103,7 +109,10 @@ export function saveAs() {
 export function open() {
   const list = el("div", { class: "wv-files", role: "group", "aria-label": "Files" });
   const upload = el("input", {
-    type: "file", accept: SUFFIXES.join(","), hidden: true, "aria-label": "File of this computer",
+    type: "file",
+    accept: SUFFIXES.join(","),
+    hidden: true,
+    "aria-label": "File of this computer",
   });
   let end = () => {};
 
@@ -111,24 +120,42 @@ export function open() {
     title: "Open",
     content(close) {
       const row = (name) =>
-        el("button", {
-          type: "button", class: "wv-file-row", disabled: name === fileName() && !file.is_changed,
-          onclick: () => close({ name }),
-        }, icon("file"), el("span", {}, name));
+        el(
+          "button",
+          {
+            type: "button",
+            class: "wv-file-row",
+            disabled: name === fileName() && !file.is_changed,
+            onclick: () => close({ name }),
+          },
+          icon("file"),
+          el("span", {}, name),
+        );
       end = onFile(() => {
         if (list.dataset.names === JSON.stringify(file.others)) return;
         list.dataset.names = JSON.stringify(file.others);
         list.replaceChildren(...file.others.map(row));
-        if (!file.others.length) list.append(el("p", { class: "wv-quiet" }, "No config files there."));
+        if (!file.others.length)
+          list.append(el("p", { class: "wv-quiet" }, "No config files there."));
       });
-      upload.addEventListener("change", () => upload.files[0] && close({ upload: upload.files[0] }));
+      upload.addEventListener(
+        "change",
+        () => upload.files[0] && close({ upload: upload.files[0] }),
+      );
       return [
         el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
         list,
         upload,
-        el("button", {
-          type: "button", class: "wv-button wv-upload", onclick: () => upload.click(),
-        }, icon("upload"), "Upload from this computer"),
+        el(
+          "button",
+          {
+            type: "button",
+            class: "wv-button wv-upload",
+            onclick: () => upload.click(),
+          },
+          icon("upload"),
+          "Upload from this computer",
+        ),
       ];
     },
     buttons: [{ label: "Cancel", value: null }],
@@ -143,7 +170,8 @@ export function open() {
 export async function load(upload) {
   const fail = (text) => toast(text, { level: "error" });
   const name = baseName(upload.name);
-  if (!hasSuffix(name)) return fail(`Not opened: ${name} is no config; those end with .yaml or .rviz.`);
+  if (!hasSuffix(name))
+    return fail(`Not opened: ${name} is no config; those end with .yaml or .rviz.`);
   const large = `Not opened: ${name} is larger than 2 MB, which no config is.`;
   if (upload.size > MAX_BYTES) return fail(large);
   let text;

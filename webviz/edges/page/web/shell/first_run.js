@@ -14,17 +14,32 @@ export function install(scene) {
     card.remove();
     end();
   };
-  const copy = el("button", {
-    type: "button", class: "wv-icon", "aria-label": "Copy the command", "data-tip": "Copy",
-    onclick: () => navigator.clipboard?.writeText(COMMAND),
-  }, icon("copy"));
+  const copy = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": "Copy the command",
+      "data-tip": "Copy",
+      onclick: () => navigator.clipboard?.writeText(COMMAND),
+    },
+    icon("copy"),
+  );
   const card = el(
     "section",
     { class: "wv-first-run", "aria-label": "Nothing is published", hidden: true },
-    el("div", { class: "wv-card" },
-      el("header", {},
+    el(
+      "div",
+      { class: "wv-card" },
+      el(
+        "header",
+        {},
         el("h2", {}, "Nothing is published yet"),
-        el("button", { type: "button", class: "wv-icon", "aria-label": "Close", onclick: close }, icon("close")),
+        el(
+          "button",
+          { type: "button", class: "wv-icon", "aria-label": "Close", onclick: close },
+          icon("close"),
+        ),
       ),
       el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
       el("p", {}, "For a robot to try things with, run this in a terminal:"),

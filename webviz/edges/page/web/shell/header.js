@@ -10,18 +10,30 @@ import { openMenuBelow } from "./menu.js";
 import { theme } from "./theme.js";
 
 export function build() {
-  const name = el("button", {
-    type: "button", class: "wv-file", "aria-haspopup": "menu", onclick: () => openMenuBelow(name, fileMenu()),
-  }, "Connecting…");
+  const name = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-file",
+      "aria-haspopup": "menu",
+      onclick: () => openMenuBelow(name, fileMenu()),
+    },
+    "Connecting…",
+  );
   const mark = el("span", {
-    class: "wv-mark", role: "img", "aria-label": "Unsaved changes", "data-tip": "Unsaved changes", hidden: true,
+    class: "wv-mark",
+    role: "img",
+    "aria-label": "Unsaved changes",
+    "data-tip": "Unsaved changes",
+    hidden: true,
   });
   files.onFile(() => {
     if (!files.isThere()) return;
     setText(name, files.fileName() || "webviz");
     set(name, { "data-tip": files.path() || "Not yet saved in a file" });
     mark.hidden = !files.isChanged();
-    document.title = `${mark.hidden ? "" : "* "}${files.fileName() ? `${files.fileName()} · ` : ""}webviz`;
+    const title = [files.fileName(), "webviz"].filter(Boolean).join(" · ");
+    document.title = files.isChanged() ? `* ${title}` : title;
   });
   const more = button("dots", "Menu", null, () => openMenuBelow(more, menu(more)));
   set(more, { "aria-haspopup": "menu" });
@@ -41,12 +53,21 @@ export function build() {
 }
 
 function button(iconName, label, key, run) {
-  return el("button", {
-    type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, "data-key": key, onclick: run,
-  }, icon(iconName));
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": label,
+      "data-tip": label,
+      "data-key": key,
+      onclick: run,
+    },
+    icon(iconName),
+  );
 }
 
-// What it would undo is in its tooltip; all steps are in a menu: by a right click, or the arrow key.
+// What it would undo is in its tooltip; all steps are in a menu, by a right click or the arrow key.
 function step(way, action) {
   const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
   made.classList.add("wv-edits");
@@ -68,7 +89,12 @@ function step(way, action) {
 }
 
 const fileMenu = () => [
-  item(actions.save), item(actions.saveAs), item(actions.open), null, item(actions.yaml), item(actions.rviz),
+  item(actions.save),
+  item(actions.saveAs),
+  item(actions.open),
+  null,
+  item(actions.yaml),
+  item(actions.rviz),
 ];
 
 function menu(owner) {
@@ -78,7 +104,6 @@ function menu(owner) {
     null,
     item(actions.image),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
-    item(actions.reset),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

@@ -35,10 +35,14 @@ export const redo = (count = 1) => steps.redo.length && act("Redo", { steps: cou
 /** A menu of steps below a button: the one that is chosen, and all that came after it. */
 export function openSteps(button) {
   const redos = steps.redo.slice(0, MAX_LISTED).map(({ label }, index) => ({
-    label: `Redo ${label}`, icon: "arrow-forward", run: () => redo(index + 1),
+    label: `Redo ${label}`,
+    icon: "arrow-forward",
+    run: () => redo(index + 1),
   }));
   const undos = steps.undo.slice(0, MAX_LISTED).map(({ label }, index) => ({
-    label: `Undo ${label}`, icon: "arrow-back", run: () => undo(index + 1),
+    label: `Undo ${label}`,
+    icon: "arrow-back",
+    run: () => undo(index + 1),
   }));
   const all = [...redos.reverse(), ...(redos.length && undos.length ? [null] : []), ...undos];
   openMenuBelow(button, all.length ? all : [{ label: "Nothing to undo", disabled: true }]);

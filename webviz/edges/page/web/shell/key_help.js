@@ -19,12 +19,15 @@ const SCENE = [
 ];
 
 export function openKeys() {
-  if (document.querySelector(".wv-keys")) return;
+  if (document.querySelector(".wv-keys[open]")) return;
   const groups = new Map(ORDER.map((name) => [name, []]));
   for (const one of all()) {
     if (!keysOf(one).length) continue;
     const group = one.group ?? "Tools";
-    groups.set(group, [...(groups.get(group) ?? []), [one.name.replace("…", ""), keysOf(one).map(keyText)]]);
+    groups.set(group, [
+      ...(groups.get(group) ?? []),
+      [one.name.replace("…", ""), keysOf(one).map(keyText)],
+    ]);
   }
   groups.set("Scene", SCENE);
   openDialog({
@@ -48,7 +51,17 @@ function group(name, rows) {
       "dl",
       {},
       rows.map(([does, keys]) =>
-        el("div", {}, el("dt", {}, does), el("dd", {}, keys.map((key) => el("kbd", {}, key))))),
+        el(
+          "div",
+          {},
+          el("dt", {}, does),
+          el(
+            "dd",
+            {},
+            keys.map((key) => el("kbd", {}, key)),
+          ),
+        ),
+      ),
     ),
   );
 }

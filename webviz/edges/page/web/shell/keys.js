@@ -1,7 +1,8 @@
 // How keys are called, for people.
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
-const NAMES = { Escape: "Esc", ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
+const ARROWS = { ArrowUp: "↑", ArrowDown: "↓", ArrowLeft: "←", ArrowRight: "→" };
+const NAMES = { Escape: "Esc", ...ARROWS };
 
 /** A key as people read it: "Ctrl+Shift+S" of "Ctrl+Shift+s"; Ctrl is the command key of a Mac. */
 export function keyText(key) {
@@ -22,5 +23,7 @@ export function keyOf(event) {
     // "?" is what is written on the key; which others it takes to type it differs.
     event.shiftKey && isLetter ? "Shift" : null,
     name,
-  ].filter(Boolean).join("+");
+  ]
+    .filter(Boolean)
+    .join("+");
 }

@@ -43,8 +43,13 @@ export function border(side) {
     remember("width", setWidth(side.offsetWidth + change));
   };
   const bar = el("div", {
-    class: "wv-border", role: "separator", tabindex: 0, "aria-orientation": "vertical",
-    "aria-label": "Width of the panels", onkeydown: step, onpointermove: drag,
+    class: "wv-border",
+    role: "separator",
+    tabindex: 0,
+    "aria-orientation": "vertical",
+    "aria-label": "Width of the panels",
+    onkeydown: step,
+    onpointermove: drag,
     onpointerdown: (event) => bar.setPointerCapture(event.pointerId),
     onpointerup: () => remember("width", side.offsetWidth),
     ondblclick: () => remember("width", setWidth(320)),

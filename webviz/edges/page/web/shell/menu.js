@@ -7,18 +7,21 @@ import { keyText } from "./keys.js";
 const GAP = 4;
 
 /**
- * Opens a menu with its corner at (x, y), in pixels of the window, or beside that if it does not fit.
+ * Opens a menu with its corner at (x, y), in pixels of the window, or beside that if it does not
+ * fit.
  *
- * `items`: `{label, icon, key, run, disabled, danger, checked}`, or null for a line; `checked` is true or
- * false for an item that shows a choice. `run` is called when the menu is closed and the focus is back
- * where it was. Returns what closes the menu.
+ * `items`: `{label, icon, key, run, disabled, danger, checked}`, or null for a line; `checked` is
+ * true or false for an item that shows a choice. `run` is called when the menu is closed and the
+ * focus is back where it was. Returns what closes the menu.
  */
 export function openMenu(x, y, items) {
   const before = document.activeElement;
   const menu = el(
     "div",
     { class: "wv-menu", role: "menu", popover: "auto", tabindex: -1 },
-    items.map((item) => (item ? entry(item) : el("div", { class: "wv-menu-line", role: "separator" }))),
+    items.map((item) =>
+      item ? entry(item) : el("div", { class: "wv-menu-line", role: "separator" }),
+    ),
   );
   const entries = [...menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")];
 
@@ -27,8 +30,10 @@ export function openMenu(x, y, items) {
     return el(
       "div",
       {
-        class: `wv-menu-item${danger ? " wv-danger" : ""}`, tabindex: -1,
-        role: isChoice ? "menuitemradio" : "menuitem", "aria-checked": isChoice ? checked : null,
+        class: `wv-menu-item${danger ? " wv-danger" : ""}`,
+        tabindex: -1,
+        role: isChoice ? "menuitemradio" : "menuitem",
+        "aria-checked": isChoice ? checked : null,
         "aria-disabled": disabled ? "true" : null,
         onclick: () => disabled || choose(run),
         onpointermove: (event) => event.currentTarget.focus({ preventScroll: true }),
@@ -61,7 +66,10 @@ export function openMenu(x, y, items) {
 
   function startingWith(letter, at) {
     const starts = (entry) =>
-      entry.querySelector(".wv-menu-label").textContent.toLowerCase().startsWith(letter.toLowerCase());
+      entry
+        .querySelector(".wv-menu-label")
+        .textContent.toLowerCase()
+        .startsWith(letter.toLowerCase());
     return letter.length === 1 ? [...entries.slice(at + 1), ...entries].find(starts) : undefined;
   }
 
@@ -70,7 +78,8 @@ export function openMenu(x, y, items) {
   menu.addEventListener("toggle", ({ newState }) => {
     if (newState === "open") return;
     // The focus is nowhere when its entry is gone; it stays where a click has put it.
-    if (menu.contains(document.activeElement) || document.activeElement === document.body) before?.focus();
+    if (menu.contains(document.activeElement) || document.activeElement === document.body)
+      before?.focus();
     menu.remove();
   });
   // In a dialog, what is outside of it cannot be clicked.
@@ -78,7 +87,7 @@ export function openMenu(x, y, items) {
   menu.showPopover();
   const { width, height } = menu.getBoundingClientRect();
   menu.style.left = `${Math.max(GAP, Math.min(x, innerWidth - width - GAP))}px`;
-  menu.style.top = `${Math.max(GAP, y + height + GAP > innerHeight ? innerHeight - height - GAP : y)}px`;
+  menu.style.top = `${Math.max(GAP, Math.min(y, innerHeight - height - GAP))}px`;
   // Who opened it by a key goes on by keys.
   (before?.matches?.(":focus-visible") && entries[0] ? entries[0] : menu).focus();
   return close;

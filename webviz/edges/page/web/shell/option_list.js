@@ -9,21 +9,30 @@ let count = 0;
 /**
  * A list of rows that a field searches; `choose(row)` is called by Enter and by a click.
  *
- * Rows are `{id, title}`, and if there are: `icon`, `line` below the title, `note` at its right, `key`,
- * `group` above the first of several, `checked` for rows of which several are taken, and `disabled`.
- * Returns `{element, show(rows), active()}`, the last of which is an id.
+ * Rows are `{id, title}`, and if there are: `icon`, `line` below the title, `note` at its right,
+ * `key`, `group` above the first of several, `checked` for rows of which several are taken, and
+ * `disabled`. Returns `{element, show(rows), active()}`, the last of which is an id.
  */
 export function optionList(input, label, choose) {
   count += 1;
   const prefix = `wv-options-${count}-`;
-  const element = el("div", { class: "wv-picks", role: "listbox", id: prefix, "aria-label": label });
+  const element = el("div", {
+    class: "wv-picks",
+    role: "listbox",
+    id: prefix,
+    "aria-label": label,
+  });
   let rows = [];
   let made = new Map();
   let active = null;
 
   set(input, {
-    role: "combobox", "aria-controls": prefix, "aria-expanded": "true", "aria-autocomplete": "list",
-    autocomplete: "off", spellcheck: "false",
+    role: "combobox",
+    "aria-controls": prefix,
+    "aria-expanded": "true",
+    "aria-autocomplete": "list",
+    autocomplete: "off",
+    spellcheck: "false",
   });
   input.addEventListener("keydown", (event) => {
     const usable = rows.filter((row) => !row.disabled);
@@ -32,9 +41,10 @@ export function optionList(input, label, choose) {
     if (event.key === "Enter" && !event.isComposing) {
       if (at >= 0) choose(usable[at], event);
     } else if (step && usable.length) {
-      const next = Math.abs(step) > 1
-        ? Math.max(0, Math.min(at + step, usable.length - 1))
-        : (at + step + usable.length) % usable.length;
+      const next =
+        Math.abs(step) > 1
+          ? Math.max(0, Math.min(at + step, usable.length - 1))
+          : (at + step + usable.length) % usable.length;
       mark(usable[next].id);
       made.get(active).element.scrollIntoView({ block: "nearest" });
     } else {
@@ -56,7 +66,10 @@ export function optionList(input, label, choose) {
     return el(
       "div",
       {
-        class: "wv-pick", role: "option", id: prefix + number, "aria-selected": "false",
+        class: "wv-pick",
+        role: "option",
+        id: prefix + number,
+        "aria-selected": "false",
         "aria-disabled": disabled ? "true" : null,
         "aria-checked": checked === undefined ? null : String(checked),
         onpointermove: () => disabled || active === row.id || mark(row.id),
@@ -64,7 +77,9 @@ export function optionList(input, label, choose) {
         onpointerdown: (event) => event.preventDefault(),
         onclick: (event) => disabled || choose(row, event),
       },
-      checked === undefined ? null : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
+      checked === undefined
+        ? null
+        : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
       name ? el("span", { class: "wv-pick-icon" }, icon(name)) : null,
       el(
         "span",

@@ -1,9 +1,9 @@
 // A bar that is as long as there is space: what does not fit goes into a menu.
 
 /**
- * Lets a bar fit. `parts`, `{element, items()}`, go one after the other, the first one first, when there
- * is not enough space; before that, names beside icons go. `more` is the button that is shown then.
- * Returns `{layout, watch(around), hiddenItems}`.
+ * Lets a bar fit. `parts`, `{element, items()}`, go one after the other, the first one first, when
+ * there is not enough space; before that, names beside icons go. `more` is the button that is shown
+ * then. Returns `{layout, watch(around), hiddenItems}`.
  */
 export function fit(bar, more, parts) {
   let around = null;
@@ -23,8 +23,13 @@ export function fit(bar, more, parts) {
   }
 
   function hiddenItems() {
-    const groups = parts.filter(({ element }) => element.hidden).map(({ items }) => items()).reverse();
-    return groups.flatMap((items, index) => (index && items.length + groups[index - 1].length > 2 ? [null, ...items] : items));
+    const groups = parts
+      .filter(({ element }) => element.hidden)
+      .map(({ items }) => items())
+      .reverse();
+    return groups.flatMap((items, index) =>
+      index && items.length + groups[index - 1].length > 2 ? [null, ...items] : items,
+    );
   }
 
   return {

@@ -1,11 +1,10 @@
 // Everything around the scene: the side with its tabs, the places over the scene, the bar below it.
 
 import * as channel from "../channel.js";
-import { panels } from "../panels/panels.js";
-import { el, set } from "../dom.js";
-import { recall, remember } from "../remember.js";
+import { el } from "../dom.js";
 import * as actions from "./actions.js";
 import * as commands from "./commands.js";
+import * as displayCommands from "./display_commands.js";
 import * as drop from "./drop.js";
 import * as files from "./files.js";
 import * as firstRun from "./first_run.js";
@@ -14,6 +13,7 @@ import * as history from "./history.js";
 import * as layout from "./layout.js";
 import * as theme from "./theme.js";
 import * as timeBar from "./time_bar.js";
+import { tabs } from "./tabs.js";
 import * as toasts from "./toasts.js";
 import * as tooltips from "./tooltips.js";
 
@@ -25,8 +25,6 @@ export const places = {
   legend: el("div", { class: "wv-bottom-right" }),
   time: el("footer", { class: "wv-time" }),
 };
-
-let close = () => {};
 
 export function install() {
   channel.on("Shell", ({ debug }) => {
@@ -41,6 +39,7 @@ function build() {
   actions.install();
   files.install();
   history.install();
+  displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
   toasts.install(scene);
@@ -63,38 +62,4 @@ export const { fold } = layout;
 export function openPanel(name) {
   layout.fold(false);
   document.getElementById(`wv-tab-${name}`)?.click();
-}
-
-function tabs() {
-  const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
-  const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
-  const buttons = panels.map((panel) => {
-    const id = `wv-tab-${panel.name}`;
-    return el("button", {
-      type: "button", role: "tab", id, "aria-controls": "wv-panel", onclick: () => show(panel),
-    }, panel.title);
-  });
-  list.append(...buttons);
-  list.addEventListener("keydown", ({ key }) => {
-    const change = { ArrowLeft: -1, ArrowRight: 1 }[key];
-    if (!change) return;
-    const next = buttons.indexOf(document.activeElement) + change;
-    buttons.at(next % buttons.length).focus();
-    buttons.at(next % buttons.length).click();
-  });
-
-  function show(panel) {
-    close();
-    content.replaceChildren();
-    panels.forEach((other, index) => {
-      const isShown = other === panel;
-      set(buttons[index], { "aria-selected": String(isShown), tabindex: isShown ? 0 : -1 });
-    });
-    set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
-    remember("tab", panel.name);
-    close = panel.open(content) ?? (() => {});
-  }
-
-  show(panels.find(({ name }) => name === recall("tab", "")) ?? panels[0]);
-  return [list, content];
 }

@@ -54,7 +54,7 @@ export function build(place) {
     const isRunning = clock.get("pace")[2] !== 0;
     const format = inSeconds ? (time) => time.toFixed(isRunning ? 1 : 3) : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
-    set(ros, { title: hintOf(isKnown, isSimulated, inSeconds) });
+    set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
     setText(badge, badgeOf(isSimulated, clock.get("hz")));
     set(badge, { "data-simulated": isSimulated });
     const [beganRos, beganWall] = clock.get("began");
@@ -71,7 +71,7 @@ export function build(place) {
     const name = paused ? "Resume" : "Pause";
     set(pause, {
       "aria-label": name, "aria-pressed": String(paused),
-      title: `${name} the scene in all browsers; messages wait meanwhile`,
+      "data-tip": `${name} the scene in all browsers; messages wait meanwhile`,
     });
     pause.replaceChildren(icon(paused ? "play" : "pause"));
     place.classList.toggle("wv-paused", paused);

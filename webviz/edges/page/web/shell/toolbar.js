@@ -21,10 +21,18 @@ const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
 
 export function install(places) {
   tools.install();
-  const open = el("button", {
-    type: "button", class: "wv-icon wv-unfold", "aria-label": "Show the panels",
-    "data-tip": "Show the panels", "data-key": "Ctrl+b", onclick: () => fold(false),
-  }, icon("menu"));
+  const open = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-unfold",
+      "aria-label": "Show the panels",
+      "data-tip": "Show the panels",
+      "data-key": "Ctrl+b",
+      onclick: () => fold(false),
+    },
+    icon("menu"),
+  );
   const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
   const views = button("eye", "Views", "Saved views", () => openMenuBelow(views, savedMenu()));
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
@@ -35,19 +43,47 @@ export function install(places) {
   const line = el("span", { class: "wv-bar-line" });
   const element = el(
     "div",
-    { class: "wv-toolbar wv-card", role: "toolbar", "aria-label": "Tools and view", onkeydown: walk },
-    open, tools.buttons, line, type, views, fixed.element, target.element, image, full, more,
+    {
+      class: "wv-toolbar wv-card",
+      role: "toolbar",
+      "aria-label": "Tools and view",
+      onkeydown: walk,
+    },
+    open,
+    tools.buttons,
+    line,
+    type,
+    views,
+    fixed.element,
+    target.element,
+    image,
+    full,
+    more,
   );
   const bar = fit(element, more, [
+    {
+      element: target.element,
+      items: () => [
+        {
+          label: "Follow…",
+          icon: "follow",
+          run: () => choose("Follow", () => shown.target, targetOptions, setTarget),
+        },
+      ],
+    },
+    {
+      element: fixed.element,
+      items: () => [
+        {
+          label: "Fixed frame…",
+          icon: "axes",
+          run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed),
+        },
+      ],
+    },
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
-    { element: target.element, items: () => [
-      { label: "Follow…", icon: "follow", run: () => choose("Follow", () => shown.target, targetOptions, setTarget) },
-    ] },
     { element: views, items: () => savedMenu() },
-    { element: fixed.element, items: () => [
-      { label: "Fixed frame…", icon: "axes", run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed) },
-    ] },
     { element: type, items: () => viewMenu() },
   ]);
   places.toolbar.append(element, tools.hint);
@@ -76,7 +112,13 @@ export function install(places) {
     update();
   });
   watchView(update);
-  command({ name: "Zero view", icon: "reset", key: "z", group: "View", run: () => act("ResetView") });
+  command({
+    name: "Zero view",
+    icon: "reset",
+    key: "z",
+    group: "View",
+    run: () => act("ResetView"),
+  });
   command({ name: "Save view…", icon: "save", group: "View", run: saveView });
   for (const name of VIEW_TYPES) {
     command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });
@@ -103,14 +145,22 @@ const setTarget = (value) => act("ChangeView", { key: "target_frame", value: val
 const setFixed = (frame) => act("SetFixedFrame", { frame });
 const fixedOptions = () => shown.frames.map((value) => ({ value }));
 const targetOptions = () => [
-  { value: FIXED, label: "Follow nothing" },
+  { value: FIXED, label: "No target" },
   ...shown.frames.map((value) => ({ value })),
 ];
 
 function button(iconName, label, tip, run) {
-  const made = el("button", {
-    type: "button", class: "wv-icon wv-bar-button", "aria-label": tip, "data-tip": tip, onclick: run,
-  }, icon(iconName));
+  const made = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon wv-bar-button",
+      "aria-label": tip,
+      "data-tip": tip,
+      onclick: run,
+    },
+    icon(iconName),
+  );
   if (label !== null) made.append(el("span", { class: "wv-bar-name" }, label));
   return made;
 }
@@ -125,17 +175,29 @@ function frameField(label, iconName, value, options, change) {
 
 function choose(title, value, options, change) {
   const field = combobox({ label: title, value: value(), options: options(), change });
-  openDialog({ title, content: field.element, buttons: [{ label: "Done", primary: true, value: null }] });
+  openDialog({
+    title,
+    content: field.element,
+    buttons: [{ label: "Done", primary: true, value: null }],
+  });
 }
 
 const viewMenu = () => [
-  ...VIEW_TYPES.map((name) => ({ label: name, checked: shown.type === name, run: () => setType(name) })),
+  ...VIEW_TYPES.map((name) => ({
+    label: name,
+    checked: shown.type === name,
+    run: () => setType(name),
+  })),
   null,
   { label: "Zero", icon: "reset", key: "z", run: () => act("ResetView") },
 ];
 
 const savedMenu = () => [
-  ...shown.views.map((name) => ({ label: name, icon: "eye", run: () => act("ShowView", { view: name }) })),
+  ...shown.views.map((name) => ({
+    label: name,
+    icon: "eye",
+    run: () => act("ShowView", { view: name }),
+  })),
   ...(shown.views.length ? [null] : []),
   { label: "Save this view…", icon: "save", run: saveView },
   { label: "Start with this view", icon: "play", run: () => act("StartWithView") },
@@ -143,14 +205,25 @@ const savedMenu = () => [
 
 async function saveView() {
   const numbers = Array.from({ length: shown.views.length + 1 }, (_, index) => `View ${index + 1}`);
-  const input = el("input", { class: "wv-field", type: "text", "aria-label": "Name", autofocus: true });
+  const input = el("input", {
+    class: "wv-field",
+    type: "text",
+    "aria-label": "Name",
+    autofocus: true,
+  });
   input.value = numbers.find((name) => !shown.views.includes(name));
   input.select();
   const accept = async () => {
     const name = input.value.trim();
-    return name !== "" && (!shown.views.includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" }));
+    return (
+      name !== "" &&
+      (!shown.views.includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" }))
+    );
   };
-  const buttons = [{ label: "Cancel", value: null }, { label: "Save", value: true, primary: true, accept }];
+  const buttons = [
+    { label: "Cancel", value: null },
+    { label: "Save", value: true, primary: true, accept },
+  ];
   if (await openDialog({ title: "Save this view", content: input, buttons })) {
     act("SaveView", { name: input.value.trim() });
   }
@@ -162,6 +235,8 @@ function walk(event) {
   if (!step || event.target.matches("input")) return;
   event.preventDefault();
   event.stopPropagation();
-  const all = [...event.currentTarget.querySelectorAll("button, input")].filter((one) => one.offsetParent);
+  const all = [...event.currentTarget.querySelectorAll("button, input")].filter(
+    (one) => one.offsetParent,
+  );
   all.at((all.indexOf(event.target) + step) % all.length).focus();
 }

@@ -1,4 +1,4 @@
-// Tooltips: what an element's `data-tip` or `title` says, after a moment under the mouse and on focus.
+// Tooltips: what `data-tip` or `title` says, after a moment under the mouse and on focus.
 
 import { el, setText } from "../dom.js";
 import { keyText } from "./keys.js";
@@ -29,7 +29,8 @@ export function install(page) {
     timer = setTimeout(() => show(owner)); // not while a dialog or a menu is just being opened
   });
   page.addEventListener("focusout", hide);
-  for (const name of ["pointerdown", "keydown", "scroll"]) window.addEventListener(name, hide, true);
+  for (const name of ["pointerdown", "keydown", "scroll"])
+    window.addEventListener(name, hide, true);
 }
 
 // A `title` would show the browser's own tooltip beside this one.
@@ -64,7 +65,8 @@ function show(owner) {
 function hide() {
   clearTimeout(timer);
   if (!shown) return;
-  if (shown.getAttribute("aria-describedby") === "wv-tip") shown.removeAttribute("aria-describedby");
+  if (shown.getAttribute("aria-describedby") === "wv-tip")
+    shown.removeAttribute("aria-describedby");
   shown = null;
   if (tip.matches(":popover-open")) tip.hidePopover();
   setText(tip, "");

@@ -1,8 +1,16 @@
 // The icon of each type of display.
 
 const ICONS = {
-  Axes: "axes", Grid: "grid", Group: "folder", LaserScan: "laser", Map: "map", Odometry: "odometry",
-  Path: "path", PointCloud2: "cloud", RobotModel: "robot", TF: "tree",
+  Axes: "axes",
+  Grid: "grid",
+  Group: "folder",
+  LaserScan: "laser",
+  Map: "map",
+  Odometry: "odometry",
+  Path: "path",
+  PointCloud2: "cloud",
+  RobotModel: "robot",
+  TF: "tree",
 };
 
 /** The name of the icon of a display type; a plug-in's has a plain one. */

@@ -75,20 +75,23 @@ function clear() {
 // A ray through a large cloud takes long: the next one waits as long as four of them.
 function move(event) {
   pointer = [event.clientX, event.clientY];
-  if (!open || isWaiting) return;
-  isWaiting = true;
-  requestAnimationFrame(() => {
-    const before = performance.now();
-    const point = open && pointer && surfaceAt(pointer);
-    if (point) {
-      open.to = point;
-      tellLive(words(open));
-      draw();
-    }
-    setTimeout(() => {
-      isWaiting = false;
-    }, Math.min(4 * (performance.now() - before), MAX_WAIT_MS));
-  });
+  if (open && !isWaiting) requestAnimationFrame(look);
+  isWaiting ||= open !== null;
+}
+
+function look() {
+  const [before, at] = [performance.now(), pointer];
+  const point = open && at && surfaceAt(at);
+  if (point) {
+    open.to = point;
+    tellLive(words(open));
+    draw();
+  }
+  const next = () => {
+    isWaiting = open !== null && pointer !== at;
+    if (isWaiting) requestAnimationFrame(look);
+  };
+  setTimeout(next, Math.min(4 * (performance.now() - before), MAX_WAIT_MS));
 }
 
 function makeLine(from) {

@@ -8,7 +8,7 @@ import { provide, select } from "./registry.js";
 import * as stroke from "./stroke.js";
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
-const POSE = "drag towards the heading; with Ctrl, up and down lifts. Esc cancels.";
+const POSE = "drag towards the heading. Ctrl lifts. Esc cancels.";
 const HINTS = {
   point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
   pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
@@ -53,7 +53,8 @@ function follow(event, tool) {
     history.send(tool, made);
   };
   if (!stroke.begin(event, tool, { done, live: tellLive })) {
-    tell("warn", tool.surface ? "Nothing is there. Press on a surface." : "There is no ground. Press below the horizon.");
+    const surface = "Nothing is there. Press on a surface.";
+    tell("warn", tool.surface ? surface : "There is no ground. Press below the horizon.");
   }
   return true;
 }

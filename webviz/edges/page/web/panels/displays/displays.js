@@ -1,16 +1,97 @@
-// The panel "Displays".
+// The panel "Displays": the search field, the tree, and the properties of what is selected.
 
-import { el, setChildren } from "../../dom.js";
-import { watch } from "../../stores.js";
+import { el } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { openAdd } from "../../shell/add.js";
+import { command } from "../../shell/commands.js";
+import { keyText } from "../../shell/keys.js";
+import { openMenuBelow } from "../../shell/menu.js";
+import * as actions from "./actions.js";
+import { buildDetails } from "./details.js";
+import * as folding from "./folding.js";
+import { topmost } from "./model.js";
+import * as selection from "./selection.js";
+import { buildTree } from "./tree.js";
 
 export const displays = {
   name: "displays",
   title: "Displays",
-  open(element) {
-    const tree = el("div", { class: "wv-tree", role: "tree", "aria-label": "Displays" });
-    element.append(tree);
-    return watch("displays", (rows) => {
-      setChildren(tree, rows.get("order").map((id) => el("div", {}, rows.get(id).name)));
+  open(panel) {
+    const field = el("input", {
+      type: "search", class: "wv-field", placeholder: "Filter displays", spellcheck: "false",
+      "aria-label": "Filter displays", autocomplete: "off",
     });
+    const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
+    const more = el("button", {
+      type: "button", class: "wv-icon", "aria-label": "More", "aria-haspopup": "menu", "data-tip": "More",
+      onclick: () => openMenuBelow(more, menu()),
+    }, icon("dots"));
+    const add = el("button", { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
+      icon("plus", 14), "Add display", el("kbd", { "aria-hidden": "true" }, keyText("Insert")));
+    const details = buildDetails(panel);
+    const tree = buildTree({
+      after: add,
+      changed({ item, search }) {
+        details.update(item);
+        if (field.value !== search) field.value = search;
+      },
+    });
+    panel.append(
+      el("div", { class: "wv-tree-filter" }, el("div", { class: "wv-tree-search" }, field, hint), more),
+      tree.element, details.element,
+    );
+
+    function menu() {
+      const choose = (isOpen) => () => details.setOpen(isOpen);
+      const fold = (isOpen) => () => {
+        for (const item of tree.model().items) if (item.isGroup) folding.setOpen(item, isOpen);
+        tree.refresh();
+      };
+      return [
+        { label: "Properties below the tree", checked: details.isOpen(), run: choose(true) },
+        { label: "Properties in the tree only", checked: !details.isOpen(), run: choose(false) },
+        null,
+        { label: "Unfold all groups", run: fold(true) },
+        { label: "Fold all groups", run: fold(false) },
+      ];
+    }
+
+    field.addEventListener("input", () => tree.setSearch(field.value));
+    field.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && field.value) tree.setSearch((field.value = ""));
+      else if (event.key === "ArrowDown") tree.showActive();
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+    const isHere = () => {
+      const side = panel.closest(".wv-side") ?? panel;
+      return side.matches(":hover") || side.contains(document.activeElement);
+    };
+    const about = (name, wanted) => command({
+      name, group: "Displays", isThere: () => chosen().length > 0, ...wanted,
+    });
+    const chosen = () => topmost(tree.model(), selection.ids());
+    const one = () => (chosen().length === 1 ? chosen()[0] : null);
+    const ends = [
+      about("Focus on display", { icon: "focus", isThere: one, run: () => actions.focus(one()) }),
+      about("Duplicate display", { icon: "copy", run: () => actions.duplicate(chosen()) }),
+      about("Rename display", {
+        key: "F2", isThere: () => isHere() && one(), run: () => tree.rename(one().id),
+      }),
+      about("Remove display", {
+        icon: "trash", key: "Delete", isThere: () => isHere() && chosen().length > 0,
+        run: () => actions.remove(tree.model(), tree.rows(), chosen()),
+      }),
+      command({
+        name: "Filter displays", icon: "search", key: "Ctrl+f", group: "Displays", inFields: true,
+        isThere: isHere, run: () => field.select(),
+      }),
+    ];
+    return () => {
+      for (const end of ends) end();
+      tree.close();
+      details.close();
+    };
   },
 };

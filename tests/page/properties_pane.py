@@ -1,0 +1,56 @@
+"""The properties of one display, beside the panel."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import playwright.sync_api as playwright
+
+from tests.page.conftest import Tab
+from webviz.engine.commands import SetProperty
+
+MOUNT = """async (id) => {
+  const { properties } = await import("/webviz/panels/displays/properties.js");
+  const bench = document.createElement("div");
+  bench.id = "bench";
+  bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
+  document.querySelector("#webviz").append(bench);
+  window.ended = properties(bench, id);
+}"""
+
+
+class Pane:
+    """The properties of the display "a"."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        self.page = tab.page
+        self.keyboard = tab.page.keyboard
+        self.element = tab.page.locator("#bench")
+
+    def mount(self, id_: str = "a") -> Pane:
+        self.page.evaluate(MOUNT, id_)
+        self.tab.wait_for(lambda: self.element.locator(".wv-property").count() > 0)
+        return self
+
+    def row(self, path: str) -> playwright.Locator:
+        return self.element.locator(f"[data-path='{path}']")
+
+    def field(self, path: str) -> playwright.Locator:
+        return self.row(path).locator("input, select, textarea").first
+
+    def enter(self, path: str, text: str, key: str = "Enter") -> None:
+        self.field(path).fill(text)
+        self.keyboard.press(key)
+
+    def wait_for_set(self, path: str, value: Any) -> None:
+        self.tab.wait_for_command(SetProperty("a", path, value))
+
+    def wait_for_value(self, path: str, text: str) -> None:
+        self.tab.wait_for(lambda: self.field(path).input_value() == text)
+
+    def labels(self) -> list[str]:
+        return self.element.locator(".wv-property-label:visible").all_inner_texts()
+
+    def text(self) -> str:
+        return self.element.inner_text()

@@ -1,0 +1,118 @@
+"""The dialog that adds displays."""
+
+from __future__ import annotations
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.commands import AddDisplay
+from webviz.edges.page.content.types import addable, types
+from webviz.edges.scene.server import Server
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import State, Traffic
+
+SCAN, IMU = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Imu"
+TOPICS = {
+    "/back": (SCAN,),
+    "/front": (SCAN,),
+    "/imu": (IMU,),
+    "/map": ("nav_msgs/msg/OccupancyGrid",),
+}
+
+
+def commands(loop: Loop) -> list[tuple[str, object]]:
+    """What was added, with its properties."""
+    return [
+        (command.type, command.values)
+        for command in loop.commands
+        if isinstance(command, AddDisplay)
+    ]
+
+
+@pytest.fixture
+def dialog(tab: Tab) -> playwright.Locator:
+    """The dialog by type, while four topics are live."""
+    publisher = Publisher("/driver", SCAN, "reliable", "volatile")
+    tab.loop.show(
+        topics=TOPICS,
+        offers={"/front": Offer((publisher,))},
+        traffic={"/front": Traffic(39.84, 1e4)},
+    )
+    tab.page.keyboard.press("Insert")
+    dialog = tab.page.get_by_role("dialog", name="Add display")
+    dialog.get_by_role("tab", name="By type").click()
+    tab.wait_for(lambda: dialog.get_by_role("option").count() >= 8)
+    return dialog
+
+
+def test_enter_adds_the_best_match_and_closes(tab: Tab, dialog: playwright.Locator) -> None:
+    playwright.expect(dialog.get_by_label("Search")).to_be_focused()
+    tab.page.keyboard.type("scan")
+    playwright.expect(dialog.get_by_role("option")).to_have_count(1)
+    tab.page.keyboard.press("Enter")
+    tab.wait_for(lambda: commands(tab.loop) == [("LaserScan", {})])
+    playwright.expect(dialog).to_have_count(0)
+
+
+def test_each_type_has_a_line_of_help(dialog: playwright.Locator) -> None:
+    playwright.expect(dialog.get_by_role("option").filter(has_text="Grid").first).to_contain_text(
+        "A grid of lines for judging distances."
+    )
+    dialog.press("Escape")
+
+
+def test_topics_are_shown_with_rate_and_why_not(tab: Tab, dialog: playwright.Locator) -> None:
+    dialog.get_by_role("tab", name="By topic").click()
+    front = dialog.get_by_role("option").filter(has_text="/front")
+    playwright.expect(front).to_contain_text("40 Hz · 1 publisher")
+    imu = dialog.get_by_role("option").filter(has_text="/imu")
+    playwright.expect(imu).to_contain_text(f"No display for {IMU}.")
+    playwright.expect(imu).to_be_disabled()
+    dialog.press("Escape")
+
+
+def test_several_topics_are_added_at_once(tab: Tab, dialog: playwright.Locator) -> None:
+    dialog.get_by_role("tab", name="By topic").click()
+    for topic in ("/front", "/back"):
+        dialog.get_by_role("option").filter(has_text=topic).click()
+    dialog.get_by_role("button", name="Add 2 displays").click()
+    added = [("LaserScan", {"topic": "/front"}), ("LaserScan", {"topic": "/back"})]
+    tab.wait_for(lambda: commands(tab.loop) == added)
+
+
+def test_enter_adds_the_best_topic(tab: Tab, dialog: playwright.Locator) -> None:
+    dialog.get_by_role("tab", name="By topic").click()
+    tab.page.keyboard.type("ma")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for(lambda: commands(tab.loop) == [("Map", {"topic": "/map"})])
+
+
+def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
+    tab: Tab, dialog: playwright.Locator
+) -> None:
+    dialog.get_by_role("tab", name="By topic").click()
+    dialog.get_by_role("option").filter(has_text="/front").click()
+    tab.loop.show(topics={**TOPICS, "/a": (SCAN,)})
+    first = dialog.get_by_role("option").first
+    tab.wait_for(lambda: first.inner_text().startswith("/a"))
+    front = dialog.get_by_role("option").filter(has_text="/front")
+    playwright.expect(front).to_have_attribute("aria-checked", "true")
+    dialog.get_by_role("button", name="Cancel").click()
+    assert tab.loop.commands == []
+
+
+def test_types_have_their_help_and_topics_what_fits() -> None:
+    assert types(State(), "")["LaserScan"]["topics"] == [SCAN]
+    offers = addable(State(topics=TOPICS), "")
+    assert [tuple(pick) for pick in offers["/front"]["displays"]] == [("LaserScan", "topic")]
+    assert offers["/imu"]["why"] == f"No display for {IMU}."
+
+
+def test_a_closed_dialog_costs_nothing(
+    tab: Tab, server: Server, dialog: playwright.Locator
+) -> None:
+    assert {"addable", "types"} <= server.channel.watched()
+    dialog.get_by_role("button", name="Cancel").click()
+    tab.wait_for(lambda: not {"addable", "types"} & server.channel.watched())
+    assert dialog.count() == 0

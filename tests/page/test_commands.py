@@ -1,0 +1,241 @@
+"""The list of commands, keys, and undo and redo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.api.views import Orbit
+from webviz.commands import (
+    ChangeView,
+    FocusDisplay,
+    Redo,
+    Reset,
+    ResetView,
+    Save,
+    SaveImage,
+    Sender,
+    SetFixedFrame,
+    ShowView,
+    Undo,
+)
+from webviz.engine.commands import Command
+from webviz.engine.state import File, History, Row, Step
+from webviz.files.config import Settings
+
+LAB = File("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
+
+
+def open_list(tab: Tab) -> playwright.Locator:
+    tab.page.keyboard.press("Control+k")
+    return tab.page.get_by_role("dialog", name="Commands")
+
+
+def run(tab: Tab, words: str) -> None:
+    """Do what the list finds by these words."""
+    open_list(tab).get_by_role("combobox").fill(words)
+    tab.page.keyboard.press("Enter")
+
+
+@pytest.mark.parametrize(
+    ("words", "command"),
+    [
+        ("reset", Reset()),
+        ("image", SaveImage()),
+        ("topdown", ChangeView("type", "TopDownOrtho")),
+        ("odom", SetFixedFrame("odom")),
+        ("view kitchen", ShowView("kitchen")),
+    ],
+)
+def test_the_list_finds_commands_frames_and_views_by_their_words(
+    tab: Tab, loop: Loop, words: str, command: Command
+) -> None:
+    loop.show(frames=("map", "odom"), settings=Settings(views={"kitchen": Orbit()}))
+    tab.turn()
+    open_list(tab)
+    tab.wait_for(lambda: "Fixed frame: odom" in tab.text())
+    tab.page.get_by_role("dialog").get_by_role("combobox").fill(words)
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(command)
+
+
+def test_arrow_keys_choose_in_the_list_while_the_field_has_the_focus(tab: Tab) -> None:
+    dialog = open_list(tab)
+    dialog.get_by_role("combobox").fill("theme")
+    tab.page.keyboard.press("ArrowDown")
+    playwright.expect(dialog.get_by_role("option", selected=True)).to_have_text("Theme: light")
+    playwright.expect(dialog.get_by_role("combobox")).to_be_focused()
+    tab.page.keyboard.press("Escape")
+
+
+def test_every_command_of_the_list_has_an_icon(tab: Tab) -> None:
+    dialog = open_list(tab)
+    dialog.get_by_role("option").first.wait_for()
+    without = dialog.get_by_role("option").filter(has_not=tab.page.locator("svg"))
+    assert without.count() == 0
+    tab.page.keyboard.press("Escape")
+
+
+def test_the_list_opens_once_and_visers_does_not(tab: Tab) -> None:
+    open_list(tab)
+    tab.page.keyboard.press("Control+k")
+    tab.turn()
+    assert tab.page.get_by_role("dialog").count() == 1
+    tab.page.keyboard.press("Escape")
+    assert tab.page.locator(".mantine-Spotlight-root").count() == 0
+
+
+@pytest.mark.parametrize(
+    ("keys", "command"), [("Control+s", Save()), ("r", Reset()), ("z", ResetView())]
+)
+def test_keys_do_what_rviz_does(tab: Tab, loop: Loop, keys: str, command: Command) -> None:
+    loop.show(file=LAB)
+    tab.wait_for(lambda: "lab.yaml" in tab.text())
+    tab.page.keyboard.press(keys)
+    tab.wait_for_command(command)
+
+
+@pytest.mark.parametrize(
+    ("keys", "title"),
+    [
+        ("Control+o", "Open"),
+        ("Control+Shift+s", "Save as"),
+        ("Insert", "Add display"),
+        ("?", "Keyboard and mouse"),
+    ],
+)
+def test_keys_open_dialogs(tab: Tab, keys: str, title: str) -> None:
+    tab.page.keyboard.press(keys)
+    playwright.expect(tab.page.get_by_role("dialog", name=title)).to_be_visible()
+    tab.page.keyboard.press("Escape")
+    playwright.expect(tab.page.get_by_role("dialog")).to_have_count(0)
+
+
+def test_the_dialog_of_keys_has_those_of_all_commands(tab: Tab) -> None:
+    tab.page.keyboard.press("?")
+    text = tab.page.get_by_role("dialog").inner_text()
+    for name in ("Save as", "Undo", "Add display", "Zero view", "Look at what is under the mouse"):
+        assert name in text
+    tab.page.keyboard.press("Escape")
+
+
+def test_keys_do_nothing_in_a_dialog_and_letters_nothing_in_a_field(tab: Tab, loop: Loop) -> None:
+    tab.page.keyboard.press("?")
+    for key in ("r", "z", "Control+s"):
+        tab.page.keyboard.press(key)
+    tab.page.keyboard.press("Escape")
+    field = tab.page.get_by_role("combobox", name="Fixed frame")
+    field.click()
+    tab.page.keyboard.type("rz")
+    tab.page.keyboard.press("Control+z")
+    tab.page.keyboard.press("Escape")
+    field.blur()
+    tab.turn()
+    assert loop.commands == []
+
+
+def test_the_camera_stays_when_a_key_is_a_command(tab: Tab) -> None:
+    eye = "window.__viserMutable.cameraControl.getPosition().toArray().join()"
+    before = tab.page.evaluate(eye)
+    for key in ("Control+s", "Control+o"):
+        tab.page.keyboard.press(key)
+        tab.page.keyboard.press("Escape")
+    tab.page.wait_for_timeout(200)
+    assert tab.page.evaluate(eye) == before
+
+
+def test_an_image_is_of_the_browser_that_asks(
+    tab: Tab, loop: Loop, open_tab: Callable[[], Tab]
+) -> None:
+    other = open_tab()
+    run(other, "save image")
+    other.wait_for_command(SaveImage())
+    browser = other.page.evaluate("window.webviz.browser")
+    assert loop.senders[-1] == Sender(browser)
+    assert browser != tab.page.evaluate("window.webviz.browser")
+
+
+def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[Step, ...]:
+    """Steps with these labels, the newest first."""
+    made = [Step(first + index, label, browser) for index, label in enumerate(labels)]
+    return tuple(reversed(made))
+
+
+def show_history(tab: Tab, history: History) -> None:
+    tab.loop.show(history=history)
+    wanted = f"Undo: {history.undo[0].label}" if history.undo else "Undo"
+    undo = tab.page.locator(".wv-head [aria-label=Undo]")
+    tab.wait_for(lambda: undo.get_attribute("data-tip") == wanted)
+
+
+def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:
+    show_history(tab, History(steps("Move Path"), steps("Hide Map")))
+    for act, command in [
+        (tab.button("Undo").click, Undo()),
+        (tab.button("Redo").click, Redo()),
+        (lambda: tab.page.keyboard.press("Control+z"), Undo()),
+        (lambda: tab.page.keyboard.press("Control+Shift+z"), Redo()),
+        (lambda: tab.page.keyboard.press("Control+y"), Redo()),
+    ]:
+        tab.loop.commands.clear()
+        act()
+        tab.wait_for_command(command)
+
+
+def test_nothing_can_be_undone_at_first(tab: Tab) -> None:
+    show_history(tab, History())
+    assert tab.button("Undo").is_disabled()
+    assert tab.button("Redo").is_disabled()
+
+
+def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
+    show_history(tab, History(steps("Add Grid", "Move Path", "Hide Map")))
+    tab.button("Undo").click(button="right")
+    items = tab.page.get_by_role("menuitem")
+    assert items.all_inner_texts() == ["Undo Hide Map", "Undo Move Path", "Undo Add Grid"]
+    items.nth(1).click()
+    tab.wait_for_command(Undo(2))
+
+
+def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
+    show_history(tab, History())
+    browser = tab.page.evaluate("window.webviz.browser")
+    show_history(tab, History(steps("Remove Path", browser=browser, first=1001)))
+    toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
+    toast.get_by_role("button", name="Undo").click()
+    tab.wait_for_command(Undo())
+
+
+def test_what_others_change_is_told_once(tab: Tab) -> None:
+    show_history(tab, History())
+    show_history(tab, History(steps("Move <b>Path", browser=10**6, first=2001)))
+    text = "Changed in another browser: Move <b>Path"
+    tab.wait_for(lambda: text in tab.text())
+    for number in range(2002, 2010):
+        show_history(tab, History(steps("Move <b>Path", browser=10**6, first=number)))
+        tab.turn()
+    assert tab.text().count(text) == 1
+
+
+def test_a_page_that_joins_is_not_told_of_old_steps(
+    tab: Tab, loop: Loop, open_tab: Callable[[], Tab], make_row: Callable[..., Row]
+) -> None:
+    loop.show(make_row("a"), history=History(steps("Move Path", browser=10**6, first=3001)))
+    other = open_tab()
+    other.wait_for(lambda: not other.button("Undo").is_disabled())
+    assert "in another browser" not in other.text()
+
+
+def test_displays_are_selected_and_looked_at_by_name(
+    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+) -> None:
+    loop.show(make_row("a", "Front scan"), make_row("b", "Map"))
+    tab.wait_for(lambda: "Front scan" in tab.text())
+    run(tab, "focus front")
+    tab.wait_for_command(FocusDisplay("a"))
+    run(tab, "select map")
+    row = tab.page.get_by_role("treeitem", name="Map")
+    playwright.expect(row).to_have_attribute("aria-selected", "true")

@@ -1,0 +1,151 @@
+"""How the page looks: themes, contrast, tooltips, and states in which something is missing."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Tab
+from webviz.edges.page.messages import Shell
+from webviz.edges.scene.server import Server
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import State
+
+SURFACES = ("back", "raised", "field", "chosen", "hover")
+LETTERS = ("text", "quiet", "accent", "ok", "warn", "error")
+COLOR = """(name) => {
+  const probe = document.createElement("i");
+  probe.style.color = `var(--wv-${name})`;
+  document.getElementById("webviz").append(probe);
+  const color = getComputedStyle(probe).color;
+  probe.remove();
+  return color.match(/[\\d.]+/g).slice(0, 3).map(Number);
+}"""
+
+
+def theme(tab: Tab) -> str:
+    return tab.page.evaluate("document.documentElement.dataset.wvTheme")
+
+
+def choose_theme(tab: Tab, name: str) -> None:
+    tab.button("Menu").click()
+    tab.page.get_by_role("menuitemradio", name=f"Theme: {name}").click()
+
+
+def luminance(color: list[float]) -> float:
+    """As WCAG defines it, of sRGB from 0 to 255."""
+    linear = [c / 3294.6 if c <= 10 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in color]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def test_the_theme_is_the_systems_until_another_is_chosen(tab: Tab) -> None:
+    try:
+        tab.page.emulate_media(color_scheme="light")
+        tab.wait_for(lambda: theme(tab) == "light")
+        tab.page.emulate_media(color_scheme="dark")
+        tab.wait_for(lambda: theme(tab) == "dark")
+        choose_theme(tab, "light")
+        assert theme(tab) == "light"
+    finally:
+        choose_theme(tab, "as the system")
+    assert theme(tab) == "dark"
+
+
+@pytest.mark.parametrize("name", ["dark", "light"])
+def test_all_letters_can_be_read_on_all_surfaces(tab: Tab, name: str) -> None:
+    choose_theme(tab, name)
+    colors = {each: luminance(tab.page.evaluate(COLOR, each)) for each in SURFACES + LETTERS}
+    choose_theme(tab, "as the system")
+    too_faint = []
+    for letters, surface in itertools.product(LETTERS, SURFACES):
+        low, high = sorted((colors[letters], colors[surface]))
+        if (high + 0.05) / (low + 0.05) < 4.5:
+            too_faint.append((letters, surface))
+    assert too_faint == []
+
+
+def test_nothing_published_is_explained_until_a_topic_appears(tab: Tab) -> None:
+    card = tab.page.get_by_role("region", name="Nothing is published")
+    tab.loop.show(offers={"/rosout": offer("/driver"), "/goal_pose": offer("/webviz")})
+    tab.wait_for(card.is_visible)
+    assert "webviz-sim" in card.inner_text()
+    tab.loop.show(offers={"/scan": offer("/driver")})
+    tab.wait_for(card.is_hidden)
+
+
+def offer(node: str) -> Offer:
+    return Offer((Publisher(node, "std_msgs/msg/String", "reliable", "volatile"),))
+
+
+def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(
+    tab: Tab, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab()
+    card = tab.page.get_by_role("region", name="Nothing is published")
+    tab.wait_for(card.is_visible)
+    box = card.get_by_text("Start your robot").bounding_box()
+    assert box is not None
+    hit = "([x, y]) => document.elementFromPoint(x, y).tagName"
+    assert tab.page.evaluate(hit, [box["x"] + 5, box["y"] + 5]) == "CANVAS"
+    card.get_by_role("button", name="Close").click()
+    playwright.expect(card).to_have_count(0)
+    tab.page.reload()
+    tab.page.get_by_role("tablist").first.wait_for()
+    tab.wait_for(lambda: tab.page.locator(".wv-file").inner_text() == "webviz")
+    assert card.count() == 0
+
+
+def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: Tab) -> None:
+    tip = tab.page.get_by_role("tooltip")
+    tab.button("Commands").hover()
+    playwright.expect(tip).to_have_text("CommandsCtrl+K")
+    tab.page.mouse.move(500, 400)
+    playwright.expect(tip).to_be_hidden()
+
+
+def test_a_title_becomes_a_tooltip_and_stays_a_name(tab: Tab) -> None:
+    make = """() => {
+      const button = document.createElement("button");
+      button.title = "Turn <b>";
+      button.id = "titled";
+      button.innerHTML = "<svg width=9 height=9></svg>";
+      document.querySelector(".wv-head").append(button);
+    }"""
+    tab.page.evaluate(make)
+    button = tab.page.locator("#titled")
+    button.hover()
+    playwright.expect(tab.page.get_by_role("tooltip")).to_have_text("Turn <b>")
+    playwright.expect(button).to_have_accessible_name("Turn <b>")
+    button.evaluate("(button) => button.remove()")
+
+
+def test_visers_panel_is_hidden_but_for_debugging(tab: Tab, server: Server) -> None:
+    panel = tab.page.locator("#root .mantine-Paper-root").first
+    playwright.expect(panel).to_be_hidden()
+    server.channel.send(Shell(debug=True))
+    playwright.expect(panel).to_be_visible()
+    server.channel.send(Shell())
+    playwright.expect(panel).to_be_hidden()
+
+
+def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
+    tab.loop.state = State(offers={"/scan": offer("/driver")})
+    for _ in range(10):
+        tab.turn()
+    watch = """() => {
+      window.changes = [];
+      const observer = new MutationObserver((records) => {
+        window.changes.push(...records.map(({ target }) => target.className));
+      });
+      for (const part of document.querySelectorAll(".wv-side, .wv-toolbar")) {
+        observer.observe(part, { subtree: true, childList: true, attributes: true,
+          characterData: true });
+      }
+    }"""
+    tab.page.evaluate(watch)
+    for _ in range(40):
+        tab.turn()
+    assert tab.page.evaluate("window.changes") == []

@@ -1,0 +1,74 @@
+"""The page on a phone, which is touched and has little space."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Tab
+from webviz.commands import Save
+from webviz.engine.state import File, Row
+
+WIDTH, HEIGHT = 390, 844
+FINGER_PX = 40
+
+
+@pytest.fixture
+def phone(open_tab: Callable[..., Tab]) -> Tab:
+    return open_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+
+
+def side(phone: Tab) -> playwright.Locator:
+    return phone.page.get_by_role("complementary", name="Panels")
+
+
+def test_the_scene_is_free_until_the_side_is_opened_over_it(
+    phone: Tab, make_row: Callable[..., Row]
+) -> None:
+    phone.loop.show(make_row("a"), file=File("/home/me/lab.yaml"))
+    playwright.expect(side(phone)).to_be_hidden()
+    assert phone.page.locator(".mantine-Paper-root:visible").count() == 0
+    canvas = phone.page.locator("#root canvas").first.bounding_box()
+    phone.button("Show the panels").tap()
+    phone.wait_for(lambda: "lab.yaml" in side(phone).inner_text())
+    sheet = side(phone).bounding_box()
+    assert sheet is not None
+    assert (sheet["x"], sheet["width"]) == (0, WIDTH)
+    assert 0.25 * HEIGHT < sheet["y"] < 0.45 * HEIGHT
+    assert phone.page.locator("#root canvas").first.bounding_box() == canvas
+    phone.page.touchscreen.tap(200, 200)  # beside it
+    playwright.expect(side(phone)).to_be_hidden()
+
+
+def test_buttons_can_be_hit_with_a_finger(phone: Tab) -> None:
+    phone.loop.show(file=File("/home/me/lab.yaml"))
+    phone.button("Show the panels").tap()
+    for name in ("Menu", "Commands", "Hide the panels", "Show the panels"):
+        box = phone.button(name).bounding_box()
+        assert box is not None
+        assert box["height"] >= FINGER_PX, name
+        assert box["width"] >= FINGER_PX, name
+        assert box["x"] >= 0, name
+        assert box["x"] + box["width"] <= WIDTH, name
+    phone.button("Menu").tap()
+    item = phone.page.get_by_role("menuitem", name="Save Ctrl+S")
+    box = item.bounding_box()
+    assert box is not None
+    assert box["height"] >= FINGER_PX
+    item.tap()
+    phone.wait_for_command(Save())
+
+
+def test_dialogs_fit(phone: Tab) -> None:
+    phone.loop.show(file=File(folder="/home/me/a folder/" + "with_a_long_name" * 10))
+    phone.button("Show the panels").tap()
+    phone.wait_for(lambda: "webviz" in side(phone).inner_text())
+    phone.button("Menu").tap()
+    phone.page.get_by_role("menuitem", name="Save as…").tap()
+    box = phone.page.get_by_role("dialog").bounding_box()
+    assert box is not None
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= WIDTH
+    assert phone.page.evaluate("document.documentElement.scrollWidth") == WIDTH

@@ -1,0 +1,296 @@
+"""Panels of plug-ins, which record widgets that pages draw."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, ClassVar
+
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from webviz.api import registry
+from webviz.api.panel import Panel, Send, Ui
+from webviz.api.registry import plugin_types
+from webviz.edges.page.plugin_panels import MAX_WAITING
+from webviz.edges.page.widgets import MAX_HTML, MAX_LINES, RecordedUi
+from webviz.engine.commands import InspectTopic, Reset
+from webviz.engine.plugins import load
+from webviz.engine.state import State, Traffic
+
+EXAMPLE = Path(__file__).parents[2] / "displays/docs/examples/quiet_topics.py"
+HOSTILE = "<img src=x onerror=alert(1)>"
+
+
+class Frames(Panel):
+    """The frames in a table."""
+
+    def build(self, ui: Ui, send: Send) -> None:
+        ui.button("Forget all", lambda browser: send(Reset(), browser), "All of it", width=0.5)
+        ui.button("Break", lambda browser: 1 / 0, width=0.5)
+        ui.command("Forget frames", lambda browser: send(Reset(), browser), "j")
+        self.table = ui.area()
+
+    def show(self, state: State) -> None:
+        self.table.table([(frame, str(len(frame))) for frame in state.frames])
+
+
+class Form(Panel):
+    """A widget of each kind."""
+
+    entered: ClassVar[list[Any]] = []
+
+    def build(self, ui: Ui, send: Send) -> None:
+        def note(value: Any, browser: int | None) -> None:
+            self.entered.append(value)
+
+        self.text = ui.area()
+        self.lines = ui.area()
+        self.html = ui.area()
+        self.live = ui.checkbox("Live", False, note)
+        self.robot = ui.field("Name", "robot", note, "Of the robot")
+        self.color = ui.choice("Color", "red", note)
+        self.color.offer(["red", "green", ""], "red")
+        self.pause = ui.button("Pause", lambda browser: None)
+
+    def show(self, state: State) -> None:
+        self.text.text(f"a text {HOSTILE}")
+        self.lines.lines("one\n  two")
+        self.html.html("<b id='bold'>bold</b>")
+        self.pause.label = "Resume" if state.clock.is_paused else "Pause"
+        if state.frames:
+            self.robot.show(state.frames[0])
+
+
+class Moody(Panel):
+    """A panel that fails while there is no frame."""
+
+    def build(self, ui: Ui, send: Send) -> None:
+        ui.button("Half", lambda browser: None, width=0.5)
+        ui.button("Other half", lambda browser: None, width=0.5)
+
+    def show(self, state: State) -> None:
+        if not state.frames:
+            raise ValueError("no frames, sorry")
+
+
+class Unbuilt(Panel):
+    """A panel that cannot be built."""
+
+    def build(self, ui: Ui, send: Send) -> None:
+        raise SystemExit("not today")
+
+
+class Slow(Panel):
+    """A panel whose button takes its time."""
+
+    go_on: ClassVar[threading.Event] = threading.Event()
+
+    def build(self, ui: Ui, send: Send) -> None:
+        ui.button("Wait", lambda browser: self.go_on.wait(30))
+
+
+@pytest.fixture(autouse=True)
+def _register(tab: Tab) -> Iterator[None]:
+    yield
+    registry.register("tests", {})
+    tab.show_tab("Displays")
+
+
+def tabs(tab: Tab) -> list[str]:
+    """The titles of the tabs."""
+    return tab.page.get_by_role("tab").all_inner_texts()
+
+
+def open_panel(tab: Tab, type_: type[Panel]) -> None:
+    registry.register("tests", {type_.__name__: type_})
+    tab.wait_for(lambda: type_.__name__ in tabs(tab))
+    tab.show_tab(type_.__name__)
+    tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
+
+
+def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: Tab) -> None:
+    before = tabs(tab)
+    loop.show(frames=("map", HOSTILE))
+    open_panel(tab, Frames)
+    assert tabs(tab) == [*before, "Frames"]
+    tab.wait_for(lambda: HOSTILE in tab.text())
+    assert tab.button("Forget all").get_attribute("data-tip") == "All of it"
+    tab.button("Forget all").click()
+    tab.wait_for_command(Reset())
+    assert loop.senders[-1].browser is not None
+    registry.register("tests", {})
+    tab.wait_for(lambda: tabs(tab) == before)
+    assert tab.page.locator("[role=tab][aria-selected=true]").count() == 1
+
+
+def test_every_kind_of_widget_is_drawn_and_heard(loop: Loop, tab: Tab) -> None:
+    Form.entered.clear()
+    loop.show()
+    open_panel(tab, Form)
+    tab.wait_for(lambda: f"a text {HOSTILE}" in tab.text())
+    assert tab.page.locator("pre").inner_text() == "one\n  two"
+    assert tab.page.locator("#bold").inner_text() == "bold"
+    tab.page.get_by_label("Live", exact=True).check()
+    tab.wait_for(lambda: Form.entered == [True])
+    name = tab.page.get_by_label("Name", exact=True)
+    assert name.input_value() == "robot"
+    name.fill("turtle")
+    tab.wait_for(lambda: Form.entered == [True, "turtle"])
+    color = tab.page.get_by_role("combobox", name="Color")
+    color.click()
+    tab.page.get_by_role("option", name="green").click()
+    tab.wait_for(lambda: Form.entered == [True, "turtle", "green"])
+
+
+def test_what_somebody_types_stays_while_the_panel_shows_something_else(
+    loop: Loop, tab: Tab
+) -> None:
+    loop.show()
+    open_panel(tab, Form)
+    name = tab.page.get_by_label("Name", exact=True)
+    name.click()
+    name.press("End")
+    name.press("x")
+    loop.show(frames=("map",))
+    tab.page.wait_for_timeout(300)
+    tab.turn()
+    assert name.input_value() == "robotx"
+    name.blur()
+    tab.wait_for(lambda: name.input_value() == "map")
+
+
+def test_a_button_that_fails_says_so_in_the_browser(
+    loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
+) -> None:
+    loop.show()
+    open_panel(tab, Frames)
+    tab.button("Break").click()
+    sentence = "The panel Frames failed: ZeroDivisionError: division by zero"
+    tab.wait_for(lambda: sentence in tab.text())
+    assert [record.message for record in caplog.records] == [sentence]
+
+
+def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
+    loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
+) -> None:
+    registry.register("tests", {"Moody": Moody, "Unbuilt": Unbuilt})
+    with caplog.at_level(logging.WARNING):
+        loop.show()
+    unbuilt, moody = (
+        "The panel Unbuilt failed: SystemExit: not today",
+        "The panel Moody failed: ValueError: no frames, sorry",
+    )
+    assert sorted(r.message.partition("\n")[0] for r in caplog.records) == [moody, unbuilt]
+    tab.wait_for(lambda: "Unbuilt" in tabs(tab))
+    tab.show_tab("Unbuilt")
+    tab.wait_for(lambda: unbuilt in tab.text())
+    tab.show_tab("Moody")
+    tab.wait_for(lambda: moody in tab.text())
+    note, half, other = (
+        tab.page.get_by_text(text, exact=True).bounding_box() or {}
+        for text in (moody, "Half", "Other half")
+    )
+    assert note["y"] < half["y"] == other["y"], "the sentence is on top, the rest as it was"
+    loop.show(frames=("map",))
+    tab.wait_for(lambda: moody not in tab.text())
+
+
+def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> None:
+    Slow.go_on.clear()
+    try:
+        registry.register("tests", {"Slow": Slow, "Frames": Frames})
+        tab.wait_for(lambda: "Slow" in tabs(tab))
+        tab.show_tab("Slow")
+        tab.wait_for(lambda: tab.button("Wait").count() > 0)
+        for _ in range(MAX_WAITING + 2):
+            tab.button("Wait").click()
+        tab.wait_for(lambda: "Not done: the panel Slow is busy." in tab.text())
+        tab.show_tab("Frames")
+        tab.wait_for(lambda: tab.button("Forget all").count() > 0)
+        tab.button("Forget all").click()
+        tab.wait_for_command(Reset())
+    finally:
+        Slow.go_on.set()
+
+
+def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(loop: Loop, tab: Tab) -> None:
+    loop.show()
+    open_panel(tab, Frames)
+    tab.wait_for(lambda: "Forget all" in tab.text())
+    tab.page.wait_for_timeout(200)
+    tab.turn()
+    tab.page.keyboard.press("j")
+    tab.wait_for_command(Reset())
+    loop.commands.clear()
+    tab.page.keyboard.press("Control+k")
+    tab.page.get_by_role("dialog").get_by_text("Forget frames").click()
+    tab.wait_for_command(Reset())
+
+
+def test_what_is_shown_already_is_not_sent_again(loop: Loop, tab: Tab) -> None:
+    loop.show(frames=("map",))
+    open_panel(tab, Frames)
+    tab.wait_for(lambda: tab.page.locator("td").count() == 2)
+    tab.page.evaluate(
+        "window.changes = 0; new MutationObserver(() => { changes += 1 }).observe("
+        "document.querySelector('.wv-plugin'), {subtree: true, childList: true, attributes: true})"
+    )
+    for _ in range(5):
+        tab.turn()
+    assert tab.page.evaluate("changes") == 0
+
+
+def test_a_panel_is_the_same_in_a_browser_that_comes_late(
+    loop: Loop, tab: Tab, open_tab: Callable[[], Tab]
+) -> None:
+    loop.show(frames=("late_frame",))
+    open_panel(tab, Frames)
+    late = open_tab()
+    late.wait_for(lambda: "Frames" in tabs(late))
+    late.show_tab("Frames")
+    late.wait_for(lambda: "late_frame" in late.text())
+
+
+def test_the_example_of_the_docs_works_from_its_file(loop: Loop, tab: Tab) -> None:
+    types = load(EXAMPLE)
+    try:
+        loop.show(traffic={"/scan": Traffic(0.0, 0.0), "/map": Traffic(2.0, 10.0)})
+        tab.wait_for(lambda: "Quiet topics" in tabs(tab))
+        tab.show_tab("Quiet topics")
+        tab.wait_for(lambda: "no messages" in tab.text())
+        assert "/scan" in tab.text()
+        assert "/map" not in tab.text()
+        tab.button("Look into none").click()
+        tab.wait_for_command(InspectTopic(""))
+        load(EXAMPLE)  # after a save: the same tab, of the new class
+        loop.show(traffic={})
+        assert plugin_types(Panel)["QuietTopics"] is not types["QuietTopics"]
+        tab.wait_for(lambda: "has messages" in tab.text())
+    finally:
+        registry.register(str(EXAMPLE), {})
+
+
+def test_what_is_endless_is_cut() -> None:
+    area = RecordedUi().area()
+    area.lines("\n".join(f"line {i}" for i in range(MAX_LINES + 7)))
+    assert area.values["lines"][-1] == "… and 7 more lines"
+    area.table([("x" * 100_000,)] * (MAX_LINES + 7))
+    assert len(area.values["table"]) == MAX_LINES
+    assert len(area.values["table"][0][0]) <= 1000
+    with pytest.raises(ValueError, match="the limit is"):
+        area.html("x" * (MAX_HTML + 1))
+    area.text("half a character \ud800")
+    assert area.values["text"].isprintable()
+
+
+@pytest.mark.parametrize("value", [None, True, 3, "x" * 100_000])
+def test_a_value_that_does_not_fit_is_refused(value: Any) -> None:
+    ui = RecordedUi()
+    field = ui.field("Name", "a", lambda *_: None)
+    choice = ui.choice("Color", "red", lambda *_: None)
+    for widget in (field, choice, ui.area()):
+        with pytest.raises(ValueError, match=r"fit|characters|available|input"):
+            widget.use(value, 1)

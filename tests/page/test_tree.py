@@ -1,0 +1,454 @@
+"""The tree of displays: what it shows, by mouse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from tests.page.trees import Tree, group, height_of
+from webviz.api.declared import Topic
+from webviz.api.status import Level, Status
+from webviz.edges.scene.server import Server
+from webviz.engine.commands import (
+    AddDisplay,
+    DuplicateDisplay,
+    FocusDisplay,
+    MoveDisplay,
+    RemoveDisplay,
+    ResetDisplay,
+    SetProperty,
+    WriteDisplays,
+)
+from webviz.engine.state import Row, Traffic
+
+MakeRow = Callable[..., Row]
+LOST = {"Topic": Status(Level.ERROR, "No publisher on /scan. Start the laser driver.")}
+FEW = {"Points": Status(Level.WARN, "No points.")}
+
+
+@pytest.fixture
+def tree(tab: Tab) -> Tree:
+    return Tree(tab)
+
+
+def test_rows_stand_in_order_below_the_global_options(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    a, b, c = make_row("a"), make_row("b"), make_row("c", enabled=False)
+    loop.show(a, b, fixed_frame="odom")
+    tree.wait_for_names("a", "b")
+    loop.show(c, b, a)
+    tree.wait_for_names("c", "b", "a")
+    assert [tree.box(name).is_checked() for name in "cba"] == [False, True, True]
+    assert "map, 60 Hz" in tree.row("Global Options").inner_text()
+
+
+def test_a_problem_is_a_line_under_the_name_and_a_disabled_display_has_none(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a", statuses=LOST), make_row("b", statuses=FEW), make_row("c"))
+    tree.wait_for_names("a", "b", "c")
+    text = LOST["Topic"].text
+    assert tree.row("a").inner_text().split("\n") == ["a", text]
+    assert tree.row("a").get_by_text(text).get_attribute("data-tip") == text
+    levels = [tree.row(name).get_attribute("data-level") for name in "abc"]
+    assert levels == ["error", "warn", "ok"]
+    loop.show(make_row("a", statuses=LOST, enabled=False))
+    tree.tab.wait_for(lambda: tree.row("a").inner_text() == "a")
+    assert tree.row("a").get_attribute("data-level") is None
+
+
+def test_a_long_line_takes_two_lines_and_the_others_move(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    tree.wait_for_names("a", "b")
+    below = tree.top("b")
+    loop.show(make_row("a", statuses={"x": Status(Level.WARN, "word " * 200)}), make_row("b"))
+    tree.tab.wait_for(lambda: tree.top("b") > below)
+    assert below + 30 < tree.top("b") < below + 45
+
+
+def test_a_check_box_enables_its_display_and_shows_what_the_viewer_says(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    tree.box("b").uncheck()
+    tree.tab.wait_for_command(SetProperty("b", "enabled", False))
+    tree.tab.wait_for(lambda: tree.row("b").get_attribute("data-off") is not None)
+    assert tree.row("a").get_attribute("data-off") is None
+    loop.show(make_row("a"), make_row("b"))
+    tree.tab.wait_for(lambda: tree.box("b").is_checked())
+
+
+def test_what_is_refused_is_set_back(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    loop.show(group("g"), replace(make_row("a"), display=None))
+    tree.wait_for_names("g", "a")
+    assert tree.box("a").is_disabled()
+    loop.answer = ValueError("Not changed: no.")
+    tree.box("g").click()
+    loop.turn()
+    tree.tab.wait_for(lambda: "Not changed: no." in tree.tab.text())
+
+
+def test_a_click_selects_and_ctrl_and_shift_select_several(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(*(make_row(name) for name in "abcde"))
+    tree.wait_for_names(*"abcde")
+    assert tree.selected() == []
+    tree.click("b")
+    assert tree.selected() == ["b"]
+    tree.click("d", modifiers=["Control"])
+    assert tree.selected() == ["b", "d"]
+    tree.click("b", modifiers=["Control"])
+    assert tree.selected() == ["d"]
+    tree.click("d", modifiers=["Shift"])
+    assert tree.selected() == ["b", "c", "d"]
+    tree.click("a")
+    assert tree.selected() == ["a"]
+    assert loop.commands == []
+
+
+def test_groups_fold_and_a_folded_one_says_what_is_wrong_inside(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    inner = replace(make_row("a", statuses=LOST), depth=1)
+    loop.show(group("g", statuses={"a": LOST["Topic"]}), inner, make_row("b"))
+    tree.wait_for_names("g", "a", "b")
+    assert tree.row("g").inner_text() == "g"
+    tree.fold("g")
+    tree.wait_for_names("g", "b")
+    assert tree.row("g").inner_text() == f"g\na: {LOST['Topic'].text}"
+    assert tree.row("g").get_attribute("aria-expanded") == "false"
+    tree.fold("g")
+    tree.wait_for_names("g", "a", "b")
+
+
+def test_a_display_unfolds_its_properties_below_it(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    tree.wait_for_names("a", "b")
+    before = tree.top("b")
+    inside = tree.tab.page.get_by_role("group", name="Properties of a")
+    tree.fold("a")
+    inside.wait_for()
+    tree.tab.wait_for(lambda: tree.top("b") > before)
+    tree.fold("a")
+    tree.tab.wait_for(lambda: tree.top("b") == before and inside.count() == 0)
+
+
+def test_the_selected_display_is_shown_below_until_that_is_closed(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a", statuses=LOST), make_row("b"))
+    tree.click("a")
+    details = tree.details
+    tree.tab.wait_for(lambda: LOST["Topic"].text in details.inner_text())
+    tree.tab.button("Close properties").click()
+    tree.click("b")
+    assert not details.is_visible()
+    tree.tab.button("More").click()
+    tree.tab.page.get_by_text("Properties below the tree").click()
+    assert details.get_by_role("heading").inner_text() == "b"
+    loop.show(make_row("a"))
+    tree.tab.wait_for(lambda: not details.is_visible())
+
+
+def test_the_border_is_dragged_and_its_place_is_remembered(
+    loop: Loop, tree: Tree, make_row: MakeRow, open_tab: Callable[..., Tab]
+) -> None:
+    loop.show(make_row("a"))
+    tree.click("a")
+    border = tree.tab.page.get_by_role("separator", name="Height of the properties")
+    height = height_of(tree.details)
+    tree.drag_by(border, 0, -60)
+    assert height_of(tree.details) == pytest.approx(height + 60, abs=2)
+    border.press("ArrowDown")
+    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
+    tree.tab.page.reload()
+    tree.wait_for_names("a")
+    tree.tab.wait_for(tree.details.is_visible)
+    assert tree.selected() == ["a"]
+    assert height_of(tree.details) == pytest.approx(height + 36, abs=2)
+    border.dblclick()
+    assert not tree.details.is_visible()
+    tree.tab.page.evaluate("localStorage.removeItem('webviz.displays.details')")
+
+
+def test_a_double_click_renames_and_escape_does_not(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    field = tree.tab.page.get_by_label("Name", exact=True)
+    tree.row("a").dblclick()
+    field.fill("Front laser")
+    field.press("Enter")
+    tree.tab.wait_for_command(SetProperty("a", "name", "Front laser"))
+    assert field.count() == 0
+    loop.commands.clear()
+    tree.row("b").dblclick()
+    field.fill("other")
+    field.press("Escape")
+    tree.tab.turn()
+    assert field.count() == 0
+    assert loop.commands == []
+    assert tree.row("b").evaluate("row => row === document.activeElement")
+
+
+def test_somebody_who_renames_is_not_disturbed_by_what_others_do(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    field = tree.tab.page.get_by_label("Name", exact=True)
+    tree.row("b").dblclick()
+    field.fill("lab")
+    loop.show(make_row("new"), make_row("b", statuses=LOST), make_row("a"))
+    tree.tab.wait_for(lambda: tree.names()[-1] == "a")
+    field.press_sequentially(" 2")
+    field.press("Enter")
+    tree.tab.wait_for_command(SetProperty("b", "name", "lab 2"))
+
+
+@pytest.mark.parametrize(
+    ("label", "command"),
+    [
+        ("Focus", FocusDisplay),
+        ("Duplicate", DuplicateDisplay),
+        ("Reset to defaults", ResetDisplay),
+        ("Remove", RemoveDisplay),
+    ],
+)
+def test_the_menu_does_what_it_says(
+    loop: Loop, tree: Tree, make_row: MakeRow, label: str, command: type[Any]
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    tree.row("b").click(button="right")
+    tree.item(label).click()
+    tree.tab.wait_for(lambda: loop.commands)
+    done: Any = loop.commands[-1]
+    assert len(loop.commands) == 1
+    assert isinstance(done, command)
+    assert done.display == "b"
+
+
+def test_the_button_of_a_row_opens_its_menu_which_renames(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    tree.row("b").hover()
+    tree.tab.button("Actions for b").click()
+    assert tree.selected() == ["b"]
+    tree.item("Rename").click()
+    tree.tab.page.get_by_label("Name", exact=True).fill("c")
+    tree.click("a")
+    tree.tab.wait_for_command(SetProperty("b", "name", "c"))
+
+
+def test_several_are_copied_as_yaml(
+    loop: Loop, make_row: MakeRow, open_tab: Callable[..., Tab]
+) -> None:
+    tree = Tree(open_tab(permissions=["clipboard-read", "clipboard-write"]))
+    loop.show(make_row("a"), make_row("b"), make_row("c"))
+    tree.click("a")
+    tree.click("b", modifiers=["Control"])
+    loop.answer = "- {type: Grid}\n"
+    tree.row("b").click(button="right")
+    tree.item("Copy as YAML").click()
+    tree.tab.wait_for_command(WriteDisplays(("a", "b")))
+    tree.tab.wait_for(lambda: "Copied 2 displays as YAML." in tree.tab.text())
+    assert tree.tab.page.evaluate("navigator.clipboard.readText()") == loop.answer
+
+
+def test_several_are_put_into_a_new_group(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    loop.show(make_row("a"), make_row("b"), make_row("c"), make_row("d"))
+    loop.made = "g"
+    tree.click("b")
+    tree.click("c", modifiers=["Shift"])
+    tree.row("c").click(button="right")
+    tree.item("Put into a new group").click()
+    tree.tab.wait_for(lambda: len(loop.commands) == 4)
+    add, *moves = loop.commands
+    assert isinstance(add, AddDisplay)
+    assert (add.type, add.group) == ("Group", "")
+    assert moves == [MoveDisplay("b", "g"), MoveDisplay("c", "g"), MoveDisplay("g", "", "d")]
+    inner = [replace(make_row(name), depth=1) for name in "bc"]
+    loop.show(make_row("a"), group("g"), *inner, make_row("d"))
+    tree.tab.page.get_by_label("Name", exact=True).wait_for()
+    assert tree.selected() == ["g"]
+
+
+def test_an_added_display_is_selected_and_scrolled_into_view(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    rows = [make_row(f"row{i}") for i in range(60)]
+    loop.show(*rows)
+    tree.click("row1")
+    loop.made = "new"
+    tree.row("row1").click(button="right")
+    tree.item("Duplicate").click()
+    tree.tab.wait_for(lambda: loop.commands)
+    loop.show(*rows, make_row("new"))
+    tree.tab.wait_for(lambda: tree.selected() == ["new"])
+    playwright.expect(tree.row("new")).to_be_in_viewport()
+
+
+def test_the_search_ends_when_something_else_is_added(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"))
+    field = tree.tab.page.get_by_label("Filter displays")
+    field.fill("b")
+    tree.wait_for_names("b")
+    tree.row("b").click(button="right")
+    loop.made = "new"
+    tree.item("Duplicate").click()
+    tree.tab.wait_for(lambda: loop.commands)
+    loop.show(make_row("a"), make_row("b"), make_row("new"))
+    tree.wait_for_names("a", "b", "new")
+    assert field.input_value() == ""
+
+
+def test_the_search_finds_by_name_type_and_topic(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    scan = replace(make_row("scan", topic=Topic("/front/laser")), depth=1)
+    loop.show(group("Sensors"), scan, replace(make_row("Cloud"), depth=1), make_row("Map"))
+    tree.wait_for_names("Sensors", "scan", "Cloud", "Map")
+    field = tree.tab.page.get_by_label("Filter displays")
+    tree.fold("Sensors")
+    for text, found in (
+        ("LASER", ["Sensors", "scan"]),
+        ("group", ["Sensors", "scan", "Cloud"]),
+        ("cloud every", ["Sensors", "Cloud"]),
+        ("nothing", []),
+    ):
+        field.fill(text)
+        tree.wait_for_names(*found)
+    assert "No display has this" in tree.tab.text()
+    field.press("Escape")
+    tree.wait_for_names("Sensors", "Map")
+    tree.fold("Sensors")
+
+
+def test_ctrl_f_searches_while_the_pointer_is_in_the_side(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"))
+    field = tree.tab.page.get_by_label("Filter displays")
+    tree.row("a").hover()
+    tree.tab.page.keyboard.press("Control+f")
+    assert field.evaluate("field => field === document.activeElement")
+
+
+def test_the_rate_is_read_at_the_selected_row_only(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(make_row("a"), make_row("b"), traffic={"/scan": Traffic(39.84, 1.0)})
+    tree.click("a")
+    tree.tab.page.mouse.move(800, 400)
+    tree.tab.wait_for(lambda: tree.row("a").inner_text() == "a\n40 Hz")
+    assert tree.row("b").inner_text() == "b"
+
+
+def test_names_of_strangers_are_shown_as_text_on_one_line(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    names = {
+        "<img src=x onerror=alert(1)>": "<img src=x onerror=alert(1)>",
+        "a\u202egnp.\u2066b": "a gnp. b",
+        "two\nlines\x00\x1b": "two lines",
+        "half \ud800 pair": "half   pair",
+        "ש" * 30: "ש" * 30,
+        "x" * 10_000: "x" * 299 + "…",
+    }
+    status = {"<b>": Status(Level.ERROR, "<script>alert(2)</script>\n\u202e")}
+    loop.show(*(make_row(f"r{i}", name=name, statuses=status) for i, name in enumerate(names)))
+    tree.tab.wait_for(lambda: len(tree.names()) == len(names))
+    shown = [name.strip() for name in tree.names()]
+    assert shown == list(names.values())
+    heads = tree.tab.page.locator(".wv-tree-canvas .wv-tree-head").all()
+    boxes = [head.bounding_box() for head in heads]
+    assert {box["height"] for box in boxes if box} == {26}
+    assert tree.tab.page.locator(".wv-tree-canvas img, .wv-tree-canvas script").count() == 0
+
+
+def test_nothing_in_the_page_changes_while_nothing_changes(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(group("g", statuses=LOST), *(make_row(name, statuses=LOST) for name in "abc"))
+    tree.click("a")
+    tree.tab.page.wait_for_timeout(900)
+    tree.tab.page.evaluate(
+        "() => { window.changes = 0;"
+        "new MutationObserver((all) => (window.changes += all.length)).observe("
+        "document.querySelector('.wv-side'), "
+        "{subtree: true, childList: true, attributes: true, characterData: true}); }"
+    )
+    for _ in range(20):
+        tree.tab.turn()
+    assert tree.tab.page.evaluate("window.changes") == 0
+
+
+def test_five_hundred_displays_are_a_few_rows_in_the_page(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    rows = [make_row(f"row{i}", statuses=LOST if i % 3 else {}) for i in range(500)]
+    loop.show(*rows)
+    tree.tab.wait_for(lambda: len(tree.names()) > 10)
+    assert len(tree.names()) < 60
+    tree.click("row2")
+    tree.tab.page.mouse.wheel(0, 4000)
+    tree.tab.wait_for(lambda: int(tree.names()[-1].removeprefix("row")) > 60)
+    assert "row2" in tree.names(), "the row that keys are about stays"
+    tree.tab.page.keyboard.press("End")
+    tree.tab.wait_for(lambda: tree.selected() == ["row499"])
+    playwright.expect(tree.row("row499")).to_be_in_viewport()
+    assert len(tree.names()) < 60
+    loop.show(*rows[:-1])
+    tree.tab.wait_for(lambda: "row499" not in tree.names())
+    assert tree.names()[-1] == "row498"
+
+
+def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
+    server: Server, loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b"))
+    tree.fold("g")
+    tree.click("b")
+    cut_off = set(server.get_clients())
+    for connection in tuple(server._websock_server._live_connections.values()):
+        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    tree.tab.wait_for(lambda: not cut_off & set(server.get_clients()))
+    rows = (make_row("b", name="new"), group("g"), replace(make_row("x", name="a"), depth=1))
+    loop.show(*rows, make_row("a", name="b"))
+    tree.wait_for_names("new", "g", "b")
+    assert tree.selected() == ["b"]
+    tree.fold("g")
+
+
+def test_two_browsers_select_and_fold_for_themselves(
+    loop: Loop, tree: Tree, make_row: MakeRow, open_tab: Callable[..., Tab]
+) -> None:
+    loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b"))
+    other = Tree(open_tab())
+    tree.wait_for_names("g", "a", "b")
+    other.wait_for_names("g", "a", "b")
+    tree.click("b")
+    other.click("a")
+    other.fold("g")
+    other.wait_for_names("g", "b")
+    assert tree.names() == ["g", "a", "b"]
+    assert tree.selected() == ["b"]
+    other.tab.page.reload()
+    other.wait_for_names("g", "b")
+    loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b", name="renamed"))
+    tree.wait_for_names("g", "a", "renamed")
+    assert tree.selected() == ["renamed"]
+    loop.show(group("g"))
+    tree.wait_for_names("g")
+    assert tree.selected() == []

@@ -1,0 +1,178 @@
+"""Displays are dragged to another place, by mouse and by finger."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab
+from tests.page.trees import Tree, group
+from webviz.engine.commands import Command, MoveDisplay
+from webviz.engine.state import Row
+
+MakeRow = Callable[..., Row]
+
+
+@pytest.fixture
+def rows(make_row: MakeRow) -> list[Row]:
+    """A group with two displays, and others around it."""
+    inner = [replace(make_row(name), depth=1) for name in ("b", "c")]
+    return [make_row("a"), group("g"), *inner, make_row("d"), group("empty"), make_row("e")]
+
+
+@pytest.fixture
+def tree(tab: Tab, rows: list[Row]) -> Tree:
+    tab.loop.show(*rows)
+    tree = Tree(tab)
+    tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
+    return tree
+
+
+def at(tree: Tree, name: str, share: float) -> tuple[float, float]:
+    """A place on a row; `share` of its height."""
+    tree.tab.wait_for(lambda: tree.row(name).bounding_box())
+    box = tree.row(name).bounding_box()
+    assert box is not None
+    return box["x"] + 90, box["y"] + share * box["height"]
+
+
+def drag(tree: Tree, name: str, to: str, share: float, dx: float = 0.0) -> None:
+    """Take a row by its middle to a place on another one, and hold it there."""
+    mouse = tree.tab.page.mouse
+    mouse.move(*at(tree, name, 0.5))
+    mouse.down()
+    x, y = at(tree, to, share)
+    mouse.move(x, y + 8)
+    mouse.move(x + dx, y)
+
+
+@pytest.mark.parametrize(
+    ("name", "to", "share", "dx", "command"),
+    [
+        ("e", "a", 0.2, 0, MoveDisplay("e", "", "a")),
+        ("a", "e", 0.8, 0, MoveDisplay("a", "", "")),
+        ("e", "g", 0.5, 0, MoveDisplay("e", "g", "")),
+        ("e", "empty", 0.5, 0, MoveDisplay("e", "empty", "")),
+        ("e", "c", 0.2, 0, MoveDisplay("e", "g", "c")),
+        ("d", "c", 0.8, 20, MoveDisplay("d", "g", "")),
+        ("b", "c", 0.8, -20, MoveDisplay("b", "", "d")),
+        ("b", "c", 0.8, 0, MoveDisplay("b", "g", "")),
+        ("a", "Global Options", 0.9, 0, None),
+        ("g", "c", 0.5, 0, None),
+        ("d", "d", 0.8, 0, None),
+    ],
+)
+def test_a_display_goes_where_the_line_is(
+    loop: Loop, tree: Tree, name: str, to: str, share: float, dx: float, command: Command | None
+) -> None:
+    drag(tree, name, to, share, dx)
+    assert tree.tab.page.locator(".wv-tree-drop").is_visible()
+    tree.tab.page.mouse.up()
+    tree.tab.turn()
+    tree.tab.turn()
+    assert loop.commands == ([command] if command else [])
+    assert not tree.tab.page.locator(".wv-tree-drop").is_visible()
+    assert tree.selected() == [name]
+
+
+def test_all_that_is_selected_goes_together_in_its_order(loop: Loop, tree: Tree) -> None:
+    tree.click("d")
+    tree.click("a", modifiers=["Control"])
+    drag(tree, "d", "g", 0.5)
+    assert "2 displays" in tree.tab.text()
+    tree.tab.page.mouse.up()
+    tree.tab.wait_for(lambda: len(loop.commands) == 2)
+    assert loop.commands == [MoveDisplay("a", "g", ""), MoveDisplay("d", "g", "")]
+    assert tree.selected() == ["a", "d"]
+
+
+def test_escape_cancels_a_drag(loop: Loop, tree: Tree) -> None:
+    tree.click("a")
+    drag(tree, "e", "g", 0.5)
+    tree.tab.page.keyboard.press("Escape")
+    assert not tree.tab.page.locator(".wv-tree-drop").is_visible()
+    tree.tab.page.mouse.up()
+    tree.tab.turn()
+    assert loop.commands == []
+    assert tree.selected() == ["a"]
+
+
+def test_a_folded_group_opens_under_what_is_held_over_it(loop: Loop, tree: Tree) -> None:
+    tree.fold("g")
+    tree.wait_for_names("a", "g", "d", "empty", "e")
+    drag(tree, "e", "g", 0.5)
+    tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
+    tree.tab.page.mouse.up()
+    tree.tab.wait_for_command(MoveDisplay("e", "g", ""))
+
+
+def test_the_list_scrolls_at_its_edges(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    loop.show(*(make_row(f"row{i}") for i in range(80)))
+    tree.tab.wait_for(lambda: "row5" in tree.names())
+    drag(tree, "row1", "row5", 0.5)
+    box = tree.tab.page.locator(".wv-tree").bounding_box()
+    assert box is not None
+    tree.tab.page.mouse.move(100, box["y"] + box["height"] - 6)
+    last = tree.tab.page.get_by_role("button", name="Add display", exact=False)
+    tree.tab.wait_for(lambda: "row79" in tree.names())
+    playwright.expect(last.last).to_be_in_viewport()
+    tree.tab.page.mouse.move(100, at(tree, "row79", 0.8)[1])
+    tree.tab.page.mouse.up()
+    tree.tab.wait_for_command(MoveDisplay("row1", "", ""))
+
+
+class Finger:
+    """One finger on a touch screen."""
+
+    def __init__(self, page: playwright.Page) -> None:
+        self._page = page
+        self._session = page.context.new_cdp_session(page)
+
+    def _send(self, kind: str, *points: tuple[float, float]) -> None:
+        touches: list[dict[str, Any]] = [{"x": x, "y": y} for x, y in points]
+        self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+    def hold(self, x: float, y: float) -> None:
+        """Rest on a place."""
+        self._send("touchStart", (x, y))
+        self._page.wait_for_timeout(600)
+
+    def move(self, x: float, y: float) -> None:
+        """Go to a place."""
+        self._send("touchMove", (x, y))
+
+    def lift(self) -> None:
+        """Leave the screen."""
+        self._send("touchEnd")
+
+
+@pytest.fixture
+def phone(open_tab: Callable[..., Tab], rows: list[Row], loop: Loop) -> Tree:
+    tree = Tree(open_tab(800, 900, has_touch=True))
+    loop.show(*rows)
+    tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
+    return tree
+
+
+def test_a_finger_that_rests_on_a_row_drags_it(loop: Loop, phone: Tree) -> None:
+    finger = Finger(phone.tab.page)
+    x, y = at(phone, "e", 0.5)
+    finger.hold(x, y)
+    for step in (0.3, 0.7, 1.0):
+        finger.move(x, y + step * (at(phone, "g", 0.5)[1] - y))
+    finger.lift()
+    phone.tab.wait_for_command(MoveDisplay("e", "g", ""))
+
+
+def test_a_finger_that_rests_and_leaves_opens_the_menu(phone: Tree) -> None:
+    finger = Finger(phone.tab.page)
+    finger.hold(*at(phone, "d", 0.5))
+    finger.lift()
+    phone.item("Remove").wait_for()
+    assert phone.selected() == ["d"]
+    phone.tab.turn()
+    assert phone.item("Remove").is_visible()

@@ -1,0 +1,52 @@
+"""What a person does with the side of a page, in tests of whole programs."""
+
+from __future__ import annotations
+
+import playwright.sync_api as playwright
+import pytest
+
+from webviz.shell.pictures.browser import Page
+
+GLOBAL_OPTIONS = "Global Options"
+PATIENCE_S = 60.0
+
+
+class Side:
+    """The panel Displays of a page."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.tab = page.tab
+        self.properties = page.tab.get_by_role("region", name="Properties", exact=True)
+
+    def select(self, name: str) -> None:
+        """Click on a display."""
+        self.tab.get_by_role("treeitem", name=name, exact=True).click(timeout=PATIENCE_S * 1000)
+        playwright.expect(self.properties.get_by_role("heading")).to_have_text(name)
+
+    def field(self, path: str) -> playwright.Locator:
+        """The control of a property of the selected display."""
+        return self.properties.locator(f"[data-path='{path}']").locator("input, select").first
+
+    def text(self) -> str:
+        """Statuses, which are folded while all is well, and properties of the selected display."""
+        self.properties.evaluate(
+            "(side) => side.querySelector('.wv-status-head[aria-expanded=false]')?.click()"
+        )
+        return self.properties.inner_text()
+
+    def wait_for(self, *words: str, seconds: float = PATIENCE_S) -> None:
+        """Wait until the statuses and properties say all of this."""
+
+        def missing() -> list[str]:
+            text = self.text()
+            return [each for each in words if each not in text]
+
+        try:
+            self.page.wait_for(lambda: not missing(), "", seconds)
+        except TimeoutError:
+            pytest.fail(f"the page lacks {missing()}: {self.text()}")
+
+    def wait_until_gone(self, words: str) -> None:
+        """Wait until the statuses and properties do not say this any more."""
+        self.page.wait_for(lambda: words not in self.text(), f"{words!r} is gone", PATIENCE_S)

@@ -1,0 +1,101 @@
+// What is done with displays, and the menu of it.
+
+import { act } from "../../act.js";
+import { copy } from "../../clipboard.js";
+import { openMenu } from "../../shell/menu.js";
+import { toast } from "../../shell/toasts.js";
+import { setOpen } from "./folding.js";
+import { siblings, topmost } from "./model.js";
+import { moves, step } from "./places.js";
+import * as selection from "./selection.js";
+
+const switching = new Map();
+
+/** Whether a display is on: as it was just switched here, until the viewer has answered. */
+export const isEnabled = (item) => switching.get(item.id) ?? item.enabled;
+
+/** Switches displays on or off; `refresh` shows what came of it. */
+export async function setEnabled(items, value, refresh) {
+  for (const { id } of items) switching.set(id, value);
+  refresh();
+  await Promise.all(items.map(({ id }) => act("SetProperty", { display: id, path: "enabled", value })));
+  for (const { id } of items) switching.delete(id);
+  refresh();
+}
+
+export const focus = (item) => act("FocusDisplay", { display: item.id });
+
+export const duplicate = (items) => items.map(({ id }) => act("DuplicateDisplay", { display: id }));
+
+export const reset = (items) => items.map(({ id }) => act("ResetDisplay", { display: id }));
+
+/** Removes displays; the row that follows them, or else the one before, is selected then. */
+export function remove(model, rows, items) {
+  const ids = new Set(items.map(({ id }) => id));
+  const stays = (row) => model.byId.has(row.id) && !goes(row);
+  const goes = (row) => row !== null && (ids.has(row.id) || goes(row.parent));
+  const last = rows.findLastIndex(goes);
+  selection.leaveTo((rows.slice(last + 1).find(stays) ?? rows.slice(0, last).findLast(stays))?.id ?? null);
+  for (const { id } of items) act("RemoveDisplay", { display: id });
+}
+
+/** Copies displays as a config file has them. */
+export async function copyAsYaml(items) {
+  const { level, text } = await act(
+    "WriteDisplays", { displays: items.map(({ id }) => id) }, { quiet: true },
+  );
+  if (level === "error") return;
+  const what = items.length === 1 ? items[0].name : `${items.length} displays`;
+  if (await copy(text)) toast(`Copied ${what} as YAML.`);
+  else toast("Not copied: this browser does not allow it.", { level: "error" });
+}
+
+/** Brings displays to a place, and unfolds the group that they go into. */
+export function move(model, ids, place) {
+  if (!place) return;
+  if (place.group) setOpen(model.byId.get(place.group), true);
+  for (const fields of moves(model, ids, place)) act("MoveDisplay", fields);
+}
+
+export const moveBy = (model, ids, way) => move(model, ids, step(model, ids, way));
+
+/** Puts displays into a new group, where the first of them is; resolves with the id of it. */
+export async function group(model, items) {
+  const [first] = items;
+  const parent = first.parent?.id ?? "";
+  const around = siblings(model, first);
+  const next = around.slice(around.indexOf(first)).find((item) => !items.includes(item));
+  const { level, display } = await act("AddDisplay", { type: "Group", group: parent });
+  if (level === "error") return null;
+  for (const { id } of items) act("MoveDisplay", { display: id, group: display });
+  if (next) act("MoveDisplay", { display, group: parent, before: next.id });
+  return display;
+}
+
+/** Opens the menu of the selected displays at a place of the window. */
+export function openActions(x, y, { model, rows, rename, refresh }) {
+  const items = topmost(model, selection.ids());
+  const [first] = items;
+  if (!first) return;
+  const isOne = items.length === 1;
+  const canEdit = items.every((item) => item.can_edit);
+  openMenu(x, y, [
+    { label: "Focus", icon: "focus", disabled: !isOne, run: () => focus(first) },
+    {
+      label: "Rename", icon: "pencil", key: "F2", disabled: !isOne || !first.can_edit,
+      run: () => rename(first.id),
+    },
+    { label: "Duplicate", icon: "copy", run: () => duplicate(items) },
+    { label: "Copy as YAML", icon: "file", key: "Ctrl+c", run: () => copyAsYaml(items) },
+    { label: "Put into a new group", icon: "folder", run: async () => rename(await group(model, items)) },
+    {
+      label: "Reset to defaults", icon: "reset", run: () => reset(items),
+      disabled: !canEdit || items.every((item) => item.isGroup),
+    },
+    null,
+    { label: "Remove", icon: "trash", key: "Delete", danger: true, run: () => {
+      remove(model, rows(), items);
+      refresh();
+    } },
+  ]);
+}

@@ -1,0 +1,51 @@
+// What this browser has folded and unfolded: groups are open at first, displays are not.
+//
+// Ids serve while the viewer runs; names last longer, so they are what is remembered.
+
+import * as channel from "../../channel.js";
+import { recall, remember } from "../../remember.js";
+
+const KEY = "displays.folds";
+const MAX_REMEMBERED = 500;
+
+const stored = new Set(recall(KEY, []));
+const toggled = new Set();
+const paths = new Map();
+
+// After a lost connection, ids may be those of another viewer.
+channel.onOpen(() => {
+  toggled.clear();
+  paths.clear();
+});
+
+/** Whether what is in a group, or the properties of a display, are shown below it. */
+export const isOpen = (item) => item.isGroup !== toggled.has(item.id);
+
+/** Folds or unfolds. */
+export function setOpen(item, open) {
+  if (isOpen(item) === open) return;
+  const isToggled = item.isGroup !== open;
+  toggled[isToggled ? "add" : "delete"](item.id);
+  stored[isToggled ? "add" : "delete"](item.path);
+  save();
+}
+
+/** Knows new displays by their names, and follows those that are renamed or moved. */
+export function follow(items) {
+  for (const { id, path } of items) {
+    const before = paths.get(id);
+    if (before === path) continue;
+    paths.set(id, path);
+    if (before === undefined) {
+      if (stored.has(path)) toggled.add(id);
+    } else if (toggled.has(id)) {
+      stored.delete(before);
+      stored.add(path);
+      save();
+    }
+  }
+}
+
+function save() {
+  remember(KEY, [...stored].slice(-MAX_REMEMBERED));
+}

@@ -1,0 +1,100 @@
+// The keys of the tree, as the pattern for trees of ARIA has them, and those that move displays.
+
+import * as actions from "./actions.js";
+import { isOpen, setOpen } from "./folding.js";
+import { topmost } from "./model.js";
+import * as selection from "./selection.js";
+
+const TYPED_MS = 700;
+const WAYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "out", ArrowRight: "into" };
+
+/** Answers to keys in a tree; see `tree.js` for what is asked of that. */
+export function listenToKeys(element, tree) {
+  let typed = "";
+  let typedAt = 0;
+
+  const rows = () => tree.rows();
+  const here = () => rows().findIndex(({ id }) => id === selection.active());
+  const chosen = () => topmost(tree.model(), selection.ids());
+
+  function go(index, event) {
+    const row = rows()[Math.max(0, Math.min(index, rows().length - 1))];
+    if (!row) return;
+    if (event.shiftKey) selection.extend(row.id, rows());
+    else if (event.ctrlKey || event.metaKey) selection.activate(row.id);
+    else selection.choose(row.id);
+    tree.showActive();
+  }
+
+  function fold(event, item) {
+    if (event.key === "ArrowRight") {
+      if (!isOpen(item)) setOpen(item, true);
+      else if (item.children.length) return go(here() + 1, event);
+    } else if (isOpen(item)) setOpen(item, false);
+    else if (item.parent) return go(rows().indexOf(item.parent), event);
+    tree.refresh();
+  }
+
+  function switchOn(event, item) {
+    if (event.ctrlKey || event.metaKey) {
+      selection.toggle(item.id);
+      tree.refresh();
+      return;
+    }
+    const isOne = !selection.isSelected(item.id);
+    const items = (isOne ? [item] : [...selection.ids()].map((id) => tree.model().byId.get(id)))
+      .filter((each) => each?.can_edit);
+    if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
+  }
+
+  function find(event) {
+    // Over the scene, letters are for its tools.
+    if (document.getElementById("root")?.matches(":hover")) return false;
+    typed = (event.timeStamp - typedAt < TYPED_MS ? typed : "") + event.key.toLowerCase();
+    typedAt = event.timeStamp;
+    const start = here() + (typed.length === 1 ? 1 : 0);
+    const after = [...rows().slice(start), ...rows().slice(0, start)];
+    const found = after.find(({ name }) => name.toLowerCase().startsWith(typed));
+    if (found) go(rows().indexOf(found), {});
+    return true;
+  }
+
+  function onKey(event) {
+    const item = rows()[here()];
+    const { key, altKey, shiftKey } = event;
+    const withCtrl = event.ctrlKey || event.metaKey;
+    const page = Math.max(1, Math.floor(element.clientHeight / 26) - 1);
+    const to = {
+      ArrowDown: here() + 1, ArrowUp: here() - 1, Home: 0, End: Infinity,
+      PageDown: here() + page, PageUp: here() - page,
+    }[key];
+    if (altKey) {
+      if (!WAYS[key] || withCtrl) return false;
+      actions.moveBy(tree.model(), selection.ids(), WAYS[key]);
+    } else if (to !== undefined) go(to, event);
+    else if (!item) return false;
+    else if (key === "ArrowLeft" || key === "ArrowRight") fold(event, item);
+    else if (key === "Enter") tree.setOpen(item, !isOpen(item));
+    else if (key === " ") switchOn(event, item);
+    else if (key === "F2") tree.rename(item.id);
+    else if (key === "Delete" && !shiftKey) actions.remove(tree.model(), rows(), chosen());
+    else if (key === "ContextMenu" || (key === "F10" && shiftKey)) tree.openMenu(item.id);
+    else if (withCtrl && key === "a") selectAll();
+    else if (withCtrl && key === "c" && chosen().length) actions.copyAsYaml(chosen());
+    else if (withCtrl || key.length > 1) return false;
+    else return find(event);
+    return true;
+  }
+
+  function selectAll() {
+    for (const { id } of tree.model().items) selection.ids().add(id);
+    tree.refresh();
+  }
+
+  element.addEventListener("keydown", (event) => {
+    if (event.target.getAttribute("role") !== "treeitem" || event.isComposing) return;
+    if (!onKey(event)) return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+}

@@ -1,0 +1,100 @@
+// The displays and groups as a tree, and which of them are rows of the list.
+
+const NAME_IN_PATH = 80;
+
+export const GLOBAL = "global";
+
+/** The row on top, of what holds for everything; its settings come from another store. */
+export function globalItem(settings) {
+  const statuses = settings.get("statuses") ?? [];
+  const level = ["error", "warn"].find((one) => statuses.some((status) => status[1] === one)) ?? "ok";
+  const line = level === "ok" ? "" : statuses.find((status) => status[1] === level)[2];
+  const rate = settings.get("frame_rate");
+  const note = rate === undefined ? "" : `${settings.get("fixed_frame")}, ${Math.round(rate)} Hz`;
+  return {
+    id: GLOBAL, path: GLOBAL, name: "Global Options", type: "Global", depth: 0, level, line, note,
+    topics: [], enabled: true, isActive: true, isGroup: false, parent: null, children: [],
+  };
+}
+
+/**
+ * The displays of the store "displays": `items` from top to bottom, `byId`, and `top`, those in no group.
+ *
+ * An item has what the store has of it, its `parent` and `children`, whether nothing switches it off
+ * (`isActive`), and a `path` of names that is its own and lasts when the viewer starts anew.
+ */
+export function arrange(values) {
+  const model = { items: [], byId: new Map(), top: [] };
+  const above = [];
+  const paths = new Set();
+  for (const id of values.get("order") ?? []) {
+    const row = values.get(id);
+    above.length = Math.min(row.depth, above.length);
+    const parent = above.at(-1) ?? null;
+    const stem = `${parent?.path ?? ""}/${row.name.slice(0, NAME_IN_PATH)}`;
+    let path = stem;
+    for (let count = 2; paths.has(path); count++) path = `${stem}#${count}`;
+    paths.add(path);
+    const isActive = row.enabled && (parent?.isActive ?? true);
+    const item = { ...row, id, parent, path, isActive, isGroup: row.type === "Group", children: [] };
+    siblings(model, item).push(item);
+    model.items.push(item);
+    model.byId.set(id, item);
+    above.push(item);
+  }
+  return model;
+}
+
+/** What an item is among: the children of its group, or what is in none. */
+export const siblings = (model, item) => item.parent?.children ?? model.top;
+
+/** Whether an item is one of a set of ids, or in one. */
+export function isWithin(item, ids) {
+  for (let one = item; one; one = one.parent) if (ids.has(one.id)) return true;
+  return false;
+}
+
+/** The items of a set of ids from top to bottom, without those that are in others of them. */
+export function topmost(model, ids) {
+  return model.items.filter(({ id, parent }) => ids.has(id) && !(parent && isWithin(parent, ids)));
+}
+
+/** The words of what somebody searches for. */
+export const wordsOf = (search) => search.toLowerCase().split(/\s+/).filter(Boolean);
+
+/** The items that are rows: not those in folded groups; while somebody searches, what matches. */
+export function visible(model, isOpen, search) {
+  const words = wordsOf(search);
+  if (words.length) return matching(model, words);
+  const rows = [];
+  const add = (items) => {
+    for (const item of items) {
+      rows.push(item);
+      if (isOpen(item)) add(item.children);
+    }
+  };
+  add(model.top);
+  return rows;
+}
+
+/** Whether all words are somewhere in the name, the type and the topics of an item. */
+export function matches(item, words) {
+  const text = [item.name, item.type, ...item.topics].join("\n").toLowerCase();
+  return words.every((word) => text.includes(word));
+}
+
+// With the groups that what matches is in, and all that is in groups that match.
+function matching(model, words) {
+  const shown = new Set();
+  for (const item of model.items) {
+    if (!shown.has(item.parent) && !matches(item, words)) continue;
+    if (matches(item, words) || isInMatch(item, words)) {
+      for (let one = item; one; one = one.parent) shown.add(one);
+    }
+  }
+  return model.items.filter((item) => shown.has(item));
+}
+
+function isInMatch({ parent }, words) {
+  return parent !== null && (matches(parent, words) || isInMatch(parent, words));
+}

@@ -1,0 +1,37 @@
+// Renaming where the name is read.
+
+import { act } from "../../act.js";
+import { el } from "../../dom.js";
+
+/** Lets somebody type another name into a row; Enter or leaving keeps it, Escape does not. */
+export function rename(row, item) {
+  if (row.element.querySelector(".wv-tree-rename")) return;
+  const field = el("input", {
+    class: "wv-field wv-tree-rename", "aria-label": "Name", maxlength: 10000, spellcheck: "false",
+  });
+  field.value = item.name;
+  row.name.hidden = true;
+  row.name.after(field);
+  field.focus();
+  field.select();
+  let isDone = false;
+
+  function finish(isKept) {
+    if (isDone) return;
+    isDone = true;
+    const hadFocus = field === document.activeElement;
+    field.remove();
+    row.name.hidden = false;
+    if (hadFocus) row.row.focus({ preventScroll: true });
+    const name = field.value.trim();
+    if (isKept && name !== item.name) act("SetProperty", { display: item.id, path: "name", value: name });
+  }
+
+  field.addEventListener("blur", () => finish(true));
+  field.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    if (event.isComposing) return;
+    if (event.key === "Enter") finish(true);
+    if (event.key === "Escape") finish(false);
+  });
+}

@@ -1,0 +1,100 @@
+// One row of the tree: a display, a group, or the options that hold for everything.
+
+import { el, set, setText } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { plain } from "../../plain.js";
+import { typeIcon } from "../../shell/type_icons.js";
+import { watch } from "../../stores.js";
+import { globalOptions, properties } from "./properties.js";
+
+const LEVELS = { ok: "OK", warn: "Warning", error: "Error" };
+const MAX_TOOLTIP = 1000;
+
+/**
+ * The row of an item. `look(item)` says how it looks: `{isOpen, isSelected, isTabStop, enabled,
+ * hasRate, position, count}`.
+ */
+export function makeRow(first, look) {
+  const { id, type } = first;
+  const isGlobal = type === "Global";
+  const fold = el("button", { type: "button", class: "wv-tree-fold", tabindex: -1, "data-part": "fold" },
+    icon("chevron", 12));
+  const box = el("input", { type: "checkbox", tabindex: -1, "data-part": "box" });
+  const name = el("span", { class: "wv-tree-name" });
+  const note = el("span", { class: "wv-tree-note" });
+  const more = el("button", {
+    type: "button", class: "wv-icon wv-tree-more", tabindex: -1, "data-part": "more",
+    "aria-haspopup": "menu",
+  }, icon("dots"));
+  const dot = el("span", { class: "wv-tree-dot" });
+  const line = el("div", { class: "wv-tree-status", id: `wv-status-${id}` });
+  const head = el("div", { class: "wv-tree-head" },
+    fold,
+    isGlobal ? el("span", { class: "wv-tree-box" }) : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
+    el("span", { class: "wv-tree-type", "data-tip": isGlobal ? null : plain(type) || null },
+      icon(isGlobal ? "gear" : typeIcon(type))),
+    name, note, isGlobal ? null : more, dot,
+  );
+  const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line);
+  const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row);
+  let inside = null;
+  let unwatch = null;
+
+  function showInside(isShown, item) {
+    if (isShown === Boolean(inside)) return;
+    if (isShown) {
+      const label = `Properties of ${plain(item.name)}`;
+      const place = el("div", { class: "wv-tree-inside", role: "group", "aria-label": label });
+      element.append(place);
+      inside = { place, end: isGlobal ? globalOptions(place) : properties(place, id) };
+    } else {
+      inside.end?.();
+      inside.place.remove();
+      inside = null;
+    }
+  }
+
+  function showRate(isShown) {
+    if (isShown === Boolean(unwatch)) return;
+    unwatch?.();
+    unwatch = isShown ? watch(`rate:${id}`, (values) => {
+      setText(note, values.has("hz") ? `${values.get("hz")} Hz` : "");
+    }) : null;
+    if (!isShown) setText(note, "");
+  }
+
+  function update(item) {
+    const { isOpen, isSelected, isTabStop, enabled, hasRate, position, count } = look(item);
+    const text = plain(item.name) || " ";
+    // What a group says is said again by what is in it.
+    const said = item.isActive && !(item.isGroup && isOpen) ? plain(item.line, MAX_TOOLTIP) : "";
+    const level = item.isActive ? item.level : null;
+    set(row, {
+      "aria-level": item.depth + 1, "aria-selected": String(isSelected),
+      "aria-expanded": String(isOpen), "aria-posinset": position, "aria-setsize": count,
+      "aria-label": text, "aria-describedby": said ? line.id : null,
+      "aria-checked": isGlobal ? null : String(enabled), tabindex: isTabStop ? 0 : -1,
+      "data-off": !item.isActive, "data-level": level,
+    });
+    row.style.setProperty("--depth", item.depth);
+    set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
+    set(box, { "aria-label": `Show ${text}`, disabled: !isGlobal && !item.can_edit });
+    if (box.checked !== enabled) box.checked = enabled;
+    setText(name, text);
+    set(more, { "aria-label": `Actions for ${text}` });
+    set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
+    setText(line, said);
+    set(line, { "data-tip": said || null, hidden: !said });
+    if (isGlobal) setText(note, plain(item.note));
+    else showRate(hasRate && item.topics.length > 0);
+    showInside(isOpen && !item.isGroup, item);
+  }
+
+  function close() {
+    showInside(false);
+    showRate(false);
+  }
+
+  update(first);
+  return { element, row, name, update, close };
+}

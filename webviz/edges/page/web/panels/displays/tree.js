@@ -1,0 +1,236 @@
+// The tree: global options, displays and groups, with what this browser has selected and folded.
+
+import { el, set } from "../../dom.js";
+import { watch } from "../../stores.js";
+import { recall, remember } from "../../remember.js";
+import * as actions from "./actions.js";
+import { listenToDrags } from "./drag.js";
+import * as folding from "./folding.js";
+import { listenToKeys } from "./keys.js";
+import { GLOBAL, arrange, globalItem, matches, siblings, visible, wordsOf } from "./model.js";
+import { rename } from "./rename.js";
+import { makeRow } from "./row.js";
+import * as selection from "./selection.js";
+import { virtualList } from "./virtual.js";
+
+const SCROLL_KEY = "displays.scroll";
+const HOVER_MS = 250;
+const SEEN_MS = 400; // a second click must find the row where the first one did
+const GUESS = { status: 18, inside: 240 };
+
+/**
+ * Builds the tree; `after` follows the last row. `changed({item, search})` is called when
+ * something else is shown or selected: `item` is what is selected alone, or null, and `search` what
+ * is searched for, which ends when something else is added.
+ */
+export function buildTree({ after, changed }) {
+  let model = arrange(new Map());
+  let global = globalItem(new Map());
+  let search = "";
+  let rows = [];
+  let hovered = null;
+  let timer = 0;
+  let isThere = false;
+  let toRename = null;
+  const canvas = el("div", {
+    class: "wv-tree-canvas", role: "tree", "aria-label": "Displays", "aria-multiselectable": "true",
+  });
+  const none = el("p", { class: "wv-tree-none", hidden: true });
+  const element = el("div", { class: "wv-tree" }, canvas, none, after);
+  const list = virtualList({
+    scroller: element, canvas, guess, make: (item) => makeRow(item, look),
+    isHeld: (id) => id === selection.active(),
+  });
+
+  function guess(item) {
+    const status = item.line && item.isActive ? GUESS.status : 0;
+    return rowHeight() + status + (folding.isOpen(item) && !item.isGroup ? GUESS.inside : 0);
+  }
+
+  function look(item) {
+    const among = siblings(model, item);
+    const above = item.parent ? 0 : 1; // the global options
+    const isAlone = selection.ids().size === 1 && selection.isSelected(item.id);
+    return {
+      isOpen: search && item.isGroup ? true : folding.isOpen(item),
+      isSelected: selection.isSelected(item.id),
+      isTabStop: item.id === selection.active(),
+      enabled: actions.isEnabled(item),
+      hasRate: item.isActive && (isAlone || item.id === hovered),
+      position: item.id === GLOBAL ? 1 : among.indexOf(item) + 1 + above,
+      count: among.length + above,
+    };
+  }
+
+  function refresh() {
+    const words = wordsOf(search);
+    const isGlobalShown = !words.length || matches(global, words);
+    rows = [...(isGlobalShown ? [global] : []), ...visible(model, folding.isOpen, search)];
+    if (!rows.some(({ id }) => id === selection.active())) {
+      selection.activate(rows.find(({ id }) => selection.isSelected(id))?.id ?? rows[0]?.id ?? null);
+    }
+    list.show(rows);
+    none.hidden = rows.length > 0;
+    none.textContent = rows.length ? "" : "No display has this in its name, type or topic.";
+    const [alone] = selection.ids().size === 1 ? selection.ids() : [null];
+    changed({ item: alone === GLOBAL ? global : model.byId.get(alone) ?? null, search });
+    selection.save([global, ...model.items]);
+  }
+
+  function update() {
+    const items = [global, ...model.items];
+    const hadFocus = canvas.contains(document.activeElement);
+    folding.follow(items);
+    const added = selection.follow(items);
+    if (added) {
+      if (!matches(model.byId.get(added), wordsOf(search))) search = "";
+      for (let one = model.byId.get(added).parent; one; one = one.parent) folding.setOpen(one, true);
+    }
+    refresh();
+    if (added) list.reveal(added);
+    else if (!isThere && model.items.length) element.scrollTop = recall(SCROLL_KEY, 0);
+    isThere ||= model.items.length > 0;
+    if (hadFocus && !canvas.contains(document.activeElement)) focus();
+    if (toRename && model.byId.has(toRename)) startRename(toRename);
+  }
+
+  function focus() {
+    list.row(selection.active())?.row.focus({ preventScroll: true });
+  }
+
+  function showActive() {
+    refresh();
+    list.reveal(selection.active());
+    focus();
+  }
+
+  function startRename(id) {
+    toRename = model.byId.has(id) ? null : id; // when it is there
+    const item = model.byId.get(id);
+    if (!item?.can_edit) return;
+    list.reveal(id);
+    if (list.row(id)) rename(list.row(id), item);
+  }
+
+  const tree = {
+    element,
+    canvas,
+    list,
+    model: () => model,
+    rows: () => rows,
+    refresh,
+    showActive,
+    rename: startRename,
+    itemAt: (target) => {
+      const id = target.closest?.(".wv-tree-node")?.dataset.id;
+      return id && !target.closest(".wv-tree-inside, .wv-tree-rename") ? rows.find((row) => row.id === id) : null;
+    },
+    setOpen(item, open) {
+      folding.setOpen(item, open);
+      refresh();
+    },
+    setSearch(text) {
+      if (text === search) return;
+      search = text;
+      element.scrollTop = 0;
+      refresh();
+    },
+    openMenu(id, x, y) {
+      if (id === GLOBAL) return;
+      if (!selection.isSelected(id)) selection.choose(id);
+      refresh();
+      focus();
+      const { left, bottom } = list.row(id).row.getBoundingClientRect();
+      const shared = { model, rows: tree.rows, rename: startRename, refresh };
+      actions.openActions(x ?? left + 40, y ?? bottom, shared);
+    },
+    close() {
+      clearTimeout(timer);
+      ends.forEach((end) => end());
+      list.close();
+    },
+  };
+
+  function onClick(event) {
+    const item = tree.itemAt(event.target);
+    const part = event.target.closest("[data-part]")?.dataset.part;
+    if (!item || part === "box") return;
+    if (part === "fold") {
+      selection.activate(item.id);
+      tree.setOpen(item, !folding.isOpen(item));
+      return focus();
+    }
+    if (part === "more") return tree.openMenu(item.id, event.clientX, event.clientY);
+    if (event.detail > 1) return;
+    if (event.shiftKey) selection.extend(item.id, rows);
+    else if (event.ctrlKey || event.metaKey) selection.toggle(item.id);
+    else selection.choose(item.id);
+    refresh();
+    focus();
+    setTimeout(() => item.id === selection.active() && list.reveal(item.id), SEEN_MS);
+  }
+
+  function onHover(event) {
+    const name = event.target.closest(".wv-tree-name");
+    if (name) set(name, { "data-tip": name.scrollWidth > name.clientWidth ? name.textContent : null });
+    clearTimeout(timer);
+    const id = event.pointerType === "mouse" ? tree.itemAt(event.target)?.id ?? null : null;
+    if (id === hovered) return;
+    timer = setTimeout(() => {
+      hovered = id;
+      refresh();
+    }, HOVER_MS);
+  }
+
+  set(canvas, {
+    onclick: onClick,
+    ondblclick: (event) => {
+      const item = tree.itemAt(event.target);
+      if (item && !event.target.closest("[data-part]")) startRename(item.id);
+    },
+    onchange: ({ target }) => {
+      const item = target.dataset.part === "box" && tree.itemAt(target);
+      if (!item) return;
+      selection.activate(item.id);
+      actions.setEnabled([item], target.checked, refresh);
+      focus();
+    },
+    oncontextmenu: (event) => {
+      const item = tree.itemAt(event.target);
+      if (!item) return;
+      event.preventDefault();
+      if (event.pointerType !== "touch") tree.openMenu(item.id, event.clientX, event.clientY);
+    },
+    onpointerover: onHover,
+    onpointerleave: onHover,
+    onfocusin: ({ target }) => {
+      const item = target.getAttribute("role") === "treeitem" && tree.itemAt(target);
+      if (item && item.id !== selection.active()) {
+        selection.activate(item.id);
+        refresh();
+      }
+    },
+  });
+  let scrolled = 0;
+  element.addEventListener("scroll", () => {
+    clearTimeout(scrolled);
+    scrolled = setTimeout(() => remember(SCROLL_KEY, Math.round(element.scrollTop)), HOVER_MS);
+  });
+  listenToKeys(canvas, tree);
+  selection.onAdded(update);
+  const ends = [
+    () => selection.onAdded(() => {}),
+    listenToDrags(canvas, tree),
+    watch("settings", (settings) => {
+      global = globalItem(settings);
+      update();
+    }),
+    watch("displays", (values) => {
+      model = arrange(values);
+      update();
+    }),
+  ];
+  return tree;
+}
+
+const rowHeight = () => (matchMedia("(pointer: coarse)").matches ? 40 : 26);

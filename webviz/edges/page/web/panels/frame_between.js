@@ -1,0 +1,118 @@
+// Two frames, and the transform between them.
+
+import { copy } from "../clipboard.js";
+import { combobox } from "../controls/combobox.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { recall, remember } from "../remember.js";
+import { toast } from "../shell/toasts.js";
+import { watch } from "../stores.js";
+import { spanText } from "./units.js";
+
+const ROWS = {
+  Translation: "x, y, z", Quaternion: "x, y, z, w", "Roll, pitch, yaw": "About the fixed axes x, y, z",
+  Distance: "Between the origins",
+};
+
+/** A number with a real minus, and none before a zero. */
+function number(value, digits) {
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+}
+
+const numbers = (values, digits, unit = "") =>
+  values.map((value) => number(value, digits) + unit).join("  ");
+
+/** Returns `{element, offer(names), choose(source), close}`. */
+export function between() {
+  let end = () => {};
+  const chosen = { target: "", source: "", ...recall("tf-between", {}) };
+  let offered = [];
+
+  const pick = (which, label) => combobox({
+    label, value: chosen[which], options: [], placeholder: "Frame", change: (value) => change(which, value),
+  });
+  const boxes = { source: pick("source", "Frame"), target: pick("target", "In frame") };
+  const swap = el("button", {
+    type: "button", class: "wv-icon", title: "Swap the frames", "aria-label": "Swap the frames",
+    onclick: () => {
+      [chosen.target, chosen.source] = [chosen.source, chosen.target];
+      follow();
+    },
+  }, icon("refresh"));
+  const copyButton = el("button", {
+    type: "button", class: "wv-icon", title: "Copy", "aria-label": "Copy transform", onclick: copyAll,
+  }, icon("copy"));
+  const rows = Object.entries(ROWS).map(([name, title]) => {
+    const value = el("dd", { class: "wv-number" });
+    return { name, value, element: el("div", { title }, el("dt", { class: "wv-quiet" }, name), value) };
+  });
+  const list = el("dl", { class: "wv-between-values", "aria-live": "off" }, rows.map((row) => row.element));
+  const note = el("div", { class: "wv-between-note wv-quiet", role: "status" });
+  const element = el("section", { class: "wv-between", "aria-label": "Transform between two frames" },
+    el("div", { class: "wv-between-frames" },
+      boxes.source.element, el("span", { class: "wv-quiet" }, "in"), boxes.target.element, swap, copyButton),
+    list, note);
+
+  function change(which, value) {
+    chosen[which] = value;
+    follow();
+  }
+
+  function follow() {
+    remember("tf-between", chosen);
+    offer(offered);
+    end();
+    end = () => {};
+    show(new Map());
+    if (chosen.target && chosen.source) {
+      end = watch(`between:${JSON.stringify([chosen.target, chosen.source])}`, show);
+    }
+  }
+
+  function show(values) {
+    const isThere = values.has("translation");
+    if (isThere) {
+      const texts = [
+        `${numbers(values.get("translation"), 3)} m`,
+        numbers(values.get("rotation"), 4),
+        numbers(values.get("rpy"), 1, "°"),
+        `${number(values.get("distance"), 3)} m`,
+      ];
+      rows.forEach(({ value }, index) => setText(value, texts[index]));
+    }
+    set(list, { hidden: !isThere });
+    set(copyButton, { disabled: !isThere });
+    setText(note, noteOf(values));
+    set(note, { "data-level": values.get("problem") ? "warn" : null });
+  }
+
+  function noteOf(values) {
+    if (!chosen.target || !chosen.source) return "Choose two frames to read out the transform.";
+    if (values.has("problem")) return values.get("problem");
+    if (!values.has("translation")) return "";
+    const age = values.get("age");
+    return age === null ? "Static." : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
+  }
+
+  async function copyAll() {
+    const text = rows.map(({ name, value }) => `${name}: ${value.textContent}`).join("\n");
+    const isDone = await copy(`${chosen.source} in ${chosen.target}\n${text}\n`);
+    toast(isDone ? "Copied." : "This browser does not allow copying.", { level: isDone ? "ok" : "error" });
+  }
+
+  function offer(names) {
+    offered = names;
+    const options = names.map((value) => ({ value }));
+    for (const which of ["source", "target"]) boxes[which].update({ value: chosen[which], options });
+  }
+
+  follow();
+  return {
+    element,
+    offer(names) {
+      if (names.join("\n") !== offered.join("\n")) offer(names);
+    },
+    close: () => end(),
+  };
+}

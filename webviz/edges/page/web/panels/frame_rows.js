@@ -1,0 +1,89 @@
+// The tree of frames as rows.
+
+import { indent } from "../controls/rows.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { rateText, spanText } from "./units.js";
+
+/**
+ * The rows that are not folded away: `{key, depth, name, isOpen, frame, children}`; `isOpen` is null
+ * without children. Of a search, frames with every word of the text, and those on the way to them.
+ */
+export function frameRows(values, folded, text) {
+  const children = new Map();
+  for (const [name, { parent }] of frames(values)) {
+    children.set(parent, [...(children.get(parent) ?? []), name]);
+  }
+  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const rows = [];
+
+  function add(name, depth, path) {
+    const frame = values.get(name) ?? null;
+    const isLoop = path.has(name);
+    const own = isLoop ? [] : (children.get(name) ?? []);
+    const all = `${name} ${frame?.nodes.join(" ") ?? ""}`.toLowerCase();
+    const isFound = words.every((word) => all.includes(word));
+    const isOpen = own.length ? words.length > 0 || !folded.has(name) : null;
+    const at = rows.length;
+    rows.push({ key: `${[...path].join("\n")}\n${name}`, depth, name, isOpen, frame, isLoop });
+    const inside = new Set(path).add(name);
+    const found = isOpen ? own.filter((child) => add(child, depth + 1, inside)) : [];
+    if (isFound || found.length || !words.length) return true;
+    rows.splice(at);
+    return false;
+  }
+
+  for (const root of values.get("/roots") ?? []) add(root, 0, new Set());
+  return rows;
+}
+
+/** Names and values of all child frames. */
+export const frames = (values) => [...values].filter(([name]) => name !== "/roots" && name !== "/problems");
+
+/** Names of all frames, sorted. */
+export function frameNames(values) {
+  const names = frames(values).flatMap(([name, { parent }]) => [name, parent]);
+  return [...new Set([...names, ...(values.get("/roots") ?? [])])].filter(Boolean).sort();
+}
+
+/** A row without content. */
+export function makeFrame() {
+  return el("div", { class: "wv-frame" },
+    el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
+    el("span", { class: "wv-frame-name wv-ellipsis" }),
+    el("span", { class: "wv-frame-node wv-ellipsis wv-quiet" }),
+    el("span", { class: "wv-frame-fact wv-quiet wv-number" }),
+    el("span", { class: "wv-frame-age wv-quiet wv-number" }),
+    el("span", { class: "wv-dot" }));
+}
+
+/** Fills in a row. */
+export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
+  const [fold, label, node, fact, age, dot] = row.children;
+  set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
+  setText(label, name + (isLoop ? " (loop)" : ""));
+  setText(node, frame?.nodes.join(", ") ?? "");
+  setText(fact, factOf(frame));
+  setText(age, frame && !frame.is_static ? ageText(frame) : "");
+  const problems = frame?.problems ?? [];
+  set(dot, { "data-level": problems.length ? "warn" : null, "data-tip": problems.join("\n") || null });
+  set(row, {
+    "data-tip": [name, ...problems].join("\n"), "aria-level": depth + 1,
+    "aria-expanded": isOpen === null ? null : String(isOpen),
+  });
+  indent(row, depth);
+}
+
+/** How fast a frame comes. */
+export function factOf(frame) {
+  if (!frame) return "";
+  if (frame.is_static) return "static";
+  if (!frame.samples) return "no data";
+  return frame.hz ? rateText(frame.hz) : "one sample";
+}
+
+/** How old the newest transform of a frame is; times of a simulation are no ages for wall time. */
+export function ageText({ age }) {
+  if (age === null) return "";
+  return age < -0.5 ? `${spanText(-age)} ahead` : spanText(Math.max(0, age));
+}

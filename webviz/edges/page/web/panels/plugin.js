@@ -1,0 +1,46 @@
+// The panels of plug-ins: what a Python program has recorded of widgets, drawn.
+
+import { use } from "../act.js";
+import { el, set, setChildren, setText } from "../dom.js";
+import { provide } from "../shell/commands.js";
+import { watch } from "../stores.js";
+import { makeWidget } from "./plugin_widgets.js";
+
+/** Calls `offer(panels)` with the panels of plug-ins whenever they change. */
+export function followPlugins(offer) {
+  watch("panels", (values) => {
+    offer(values.get("/order").map((name) => ({
+      name: `plugin-${name}`, title: values.get(name), open: (element) => open(element, name),
+    })));
+  });
+  let commands = new Map();
+  watch("commands", (values) => {
+    commands = values;
+  });
+  provide(() => [...commands.values()].map(({ panel, widget, label, key }) => ({
+    name: label, key: key || undefined, group: "Panels", run: () => use(panel, widget),
+  })));
+}
+
+function open(element, name) {
+  const failure = el("div", { class: "wv-plugin-failure", role: "alert", hidden: true, "data-level": "error" });
+  const place = el("div", { class: "wv-plugin-widgets" });
+  element.append(el("div", { class: "wv-plugin" }, failure, place));
+  const drawn = new Map();
+
+  return watch(`panel:${name}`, (values, changed) => {
+    const order = values.get("/order") ?? [];
+    for (const id of order) {
+      const widget = values.get(id);
+      // A panel that was loaded again may have another widget under the same id.
+      if (drawn.get(id)?.kind !== widget.kind) {
+        drawn.set(id, makeWidget(widget, (value) => use(name, id, value)));
+        drawn.get(id).update(widget);
+      } else if (changed.has(id)) drawn.get(id).update(widget);
+    }
+    setChildren(place, order.map((id) => drawn.get(id).element));
+    const sentence = values.get("/failure") ?? "";
+    setText(failure, sentence);
+    set(failure, { hidden: !sentence });
+  });
+}

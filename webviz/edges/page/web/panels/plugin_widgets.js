@@ -1,0 +1,108 @@
+// The widgets of plug-ins' panels, by their kind: each `{kind, element, update(values)}`.
+
+import { combobox } from "../controls/combobox.js";
+import { sync } from "../controls/sync.js";
+import { el, set, setText } from "../dom.js";
+
+const TYPING_MS = 600;
+
+const MAKERS = { area, button, checkbox, field, choice };
+
+/** A widget of these values; `send(value)` tells the panel what somebody did with it. */
+export function makeWidget(values, send) {
+  return { kind: values.kind, ...MAKERS[values.kind](values, send) };
+}
+
+function area() {
+  const element = el("div", { class: "wv-plugin-area" });
+  function update({ text = "", lines, table, html }) {
+    // The one place where markup comes to the page: what a plug-in makes is as trusted as its code.
+    if (html !== undefined) element.innerHTML = html;
+    else if (lines) element.replaceChildren(el("pre", {}, lines.join("\n")));
+    else if (table) element.replaceChildren(tableOf(table));
+    else setText(element, text);
+    element.hidden = !element.hasChildNodes();
+  }
+  return { element, update };
+}
+
+function tableOf(rows) {
+  return el("table", {}, el("tbody", {}, rows.map((row) =>
+    el("tr", {}, row.map((cell) => el("td", {}, cell))))));
+}
+
+function button({ width }, send) {
+  const element = el("button", { type: "button", class: "wv-button", onclick: () => send(null) });
+  element.style.setProperty("--wv-share", width);
+  function update({ label, hint }) {
+    setText(element, label);
+    set(element, { "data-tip": hint || null });
+  }
+  return { element, update };
+}
+
+function checkbox(_, send) {
+  const box = el("input", { type: "checkbox", onchange: () => state.edit(box.checked) });
+  const text = el("span");
+  const element = el("label", { class: "wv-plugin-check" }, box, text);
+  const state = sync({
+    show: (value) => {
+      box.checked = value;
+    },
+    send,
+  });
+  function update({ label, hint, value }) {
+    setText(text, label);
+    set(element, { "data-tip": hint || null });
+    state.show(value);
+  }
+  return { element, update };
+}
+
+function field(_, send) {
+  let timer = 0;
+  const name = el("span", { class: "wv-quiet" });
+  const input = el("input", {
+    class: "wv-field", type: "text", onfocus: () => state.hold(),
+    oninput: () => {
+      clearTimeout(timer);
+      timer = setTimeout(enter, TYPING_MS);
+    },
+    onchange: enter,
+    onblur: () => state.release(),
+  });
+  const element = el("label", { class: "wv-plugin-line" }, name, input);
+  let sent = null;
+  const state = sync({
+    show: (value) => {
+      sent = value;
+      if (input.value !== value) input.value = value;
+    },
+    send,
+  });
+  function enter() {
+    clearTimeout(timer);
+    if (input.value === sent) return;
+    sent = input.value;
+    state.edit(sent);
+  }
+  function update({ label, hint, value }) {
+    setText(name, label);
+    set(element, { "data-tip": hint || null });
+    state.show(value);
+  }
+  return { element, update };
+}
+
+function choice({ label, value, options }, send) {
+  const named = (values) => values.map((each) => ({ value: each, label: each || "(none)" }));
+  const box = combobox({ label, value, options: named(options), change: send, free: false });
+  const name = el("span", { class: "wv-quiet" });
+  const element = el("div", { class: "wv-plugin-line" }, name, box.element);
+  function update(values) {
+    setText(name, values.label);
+    set(element, { "data-tip": values.hint || null });
+    box.update({ value: values.value, options: named(values.options) });
+  }
+  return { element, update };
+}

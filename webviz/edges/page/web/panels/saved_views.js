@@ -1,0 +1,110 @@
+// The saved views: show, rename and remove them, let browsers begin with one, save the current one.
+
+import { act } from "../act.js";
+import { el, set, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+
+const NAME = "View"; // of one that nobody named, before its number
+
+/** The list, and below it the field that saves. Returns `{element, update(saved)}`. */
+export function savedViews() {
+  const lines = new Map();
+  const list = el("ul", { class: "wv-saved" });
+  const empty = el("p", { class: "wv-saved-none wv-quiet" }, "No views are saved yet.");
+  const name = el("input", { class: "wv-field", type: "text", "aria-label": "Name of the view to save" });
+  const save = el(
+    "form",
+    {
+      class: "wv-saved-new",
+      onsubmit(event) {
+        event.preventDefault();
+        act("SaveView", { name: name.value.trim() || name.placeholder });
+        name.value = "";
+      },
+    },
+    name, el("button", { type: "submit", class: "wv-button" }, icon("save"), "Save"),
+  );
+  const start = el("button", {
+    type: "button", class: "wv-button", "data-tip": "New browsers and pictures begin with this view",
+    onclick: () => act("StartWithView"),
+  }, icon("flag"), "Start with this");
+  const element = el(
+    "section", { class: "wv-view", "aria-label": "Saved views" },
+    el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Saved views")),
+    list, empty, save, start,
+  );
+
+  return {
+    element,
+    update(saved) {
+      const names = saved.map((view) => view.name);
+      for (const gone of [...lines.keys()].filter((each) => !names.includes(each))) lines.delete(gone);
+      for (const view of saved) {
+        if (!lines.has(view.name)) lines.set(view.name, line(view.name));
+        lines.get(view.name).update(view);
+      }
+      setChildren(list, names.map((each) => lines.get(each).element));
+      empty.hidden = saved.length > 0;
+      const numbers = Array.from({ length: names.length + 1 }, (_, index) => `${NAME} ${index + 1}`);
+      set(name, { placeholder: numbers.find((each) => !names.includes(each)) });
+    },
+  };
+}
+
+function line(name) {
+  const type = el("span", { class: "wv-quiet" });
+  const mark = el("span", { class: "wv-saved-start", title: "Browsers begin with it" }, icon("flag", 12));
+  const show = el("button", {
+    type: "button", class: "wv-saved-show", "aria-label": name, title: `Show ${name}`,
+    onclick: () => act("ShowView", { view: name }),
+    onkeydown: ({ key }) => key === "F2" && rename(),
+  }, el("span", { class: "wv-saved-name" }, name), type, mark);
+  const field = el("input", {
+    class: "wv-field", type: "text", "aria-label": `New name of ${name}`, hidden: true,
+    onblur: () => take(),
+    onkeydown(event) {
+      if (event.key !== "Enter" && event.key !== "Escape") return;
+      event.stopPropagation();
+      event.preventDefault(); // else it presses the button that gets the focus
+      if (event.key === "Escape") field.value = name;
+      show.hidden = false;
+      show.focus(); // which takes what was typed
+    },
+  });
+  const element = el(
+    "li", { class: "wv-saved-line" }, show, field,
+    tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name })),
+    tool("pencil", `Rename ${name}`, rename),
+    tool("trash", `Remove ${name}`, () => act("RemoveView", { name })),
+  );
+
+  function rename() {
+    show.hidden = true;
+    field.hidden = false;
+    field.value = name;
+    field.focus();
+    field.select();
+  }
+
+  function take() {
+    if (field.hidden) return;
+    const newName = field.value.trim();
+    field.hidden = true;
+    show.hidden = false;
+    if (newName && newName !== name) act("RenameView", { name, new_name: newName });
+  }
+
+  return {
+    element,
+    update(view) {
+      setText(type, view.type);
+      mark.hidden = !view.is_start;
+    },
+  };
+}
+
+function tool(iconName, tip, run) {
+  return el("button", {
+    type: "button", class: "wv-icon", "aria-label": tip, "data-tip": tip, onclick: run,
+  }, icon(iconName, 14));
+}

@@ -1,0 +1,104 @@
+// The panel "TF": the tree of frames, and the transform between two of them.
+
+import { act } from "../act.js";
+import { rowList } from "../controls/rows.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { recall, remember } from "../remember.js";
+import { watch } from "../stores.js";
+import { between } from "./frame_between.js";
+import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
+
+const ROW_PX = 26;
+const NOTHING = "No transforms yet on /tf or /tf_static.";
+
+export const transforms = {
+  name: "transforms",
+  title: "TF",
+  open(element) {
+    let values = null;
+    const folded = new Set(recall("tf-folded", []));
+
+    const search = el("input", {
+      class: "wv-field", type: "search", placeholder: "Filter frames", "aria-label": "Filter frames",
+      oninput: show,
+    });
+    const list = rowList({
+      label: "Frames", role: "tree", rowRole: "treeitem", height: ROW_PX, make: makeFrame,
+      update: updateFrame, choose, onKey,
+    });
+    list.element.addEventListener("click", onFold, { capture: true });
+    const problems = el("div", { class: "wv-tf-problems", role: "status", hidden: true, "data-level": "warn" });
+    const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
+    const detail = el("div", { class: "wv-frame-detail", hidden: true });
+    const pair = between();
+    element.append(el("div", { class: "wv-tf" },
+      el("div", { class: "wv-search" }, icon("search"), search),
+      problems, empty, list.element, detail, pair.element));
+
+    function show() {
+      if (!values?.has("/roots")) return;
+      const rows = frameRows(values, folded, search.value);
+      list.show(rows);
+      const hasFrames = values.get("/roots").length > 0;
+      setText(empty, hasFrames ? "No frame with these words." : NOTHING);
+      set(empty, { hidden: rows.length > 0 });
+      const sentences = values.get("/problems").join(" ");
+      setText(problems, sentences);
+      set(problems, { hidden: !sentences });
+      showDetail();
+    }
+
+    function showDetail() {
+      const row = list.marked();
+      set(detail, { hidden: !row });
+      if (row) setText(detail, detailOf(row));
+    }
+
+    function choose(row) {
+      showDetail();
+      act("FocusFrame", { frame: row.name });
+    }
+
+    function toggle(name) {
+      if (!folded.delete(name)) folded.add(name);
+      remember("tf-folded", [...folded]);
+      show();
+    }
+
+    // A click on the mark folds, and leaves the camera where it is.
+    function onFold(event) {
+      const row = event.target.closest(".wv-fold-mark")?.closest(".wv-row");
+      if (!row?.hasAttribute("aria-expanded")) return;
+      event.stopPropagation();
+      toggle(row.wvKey.slice(row.wvKey.lastIndexOf("\n") + 1));
+    }
+
+    function onKey({ key }, row) {
+      const isFold = (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
+      if (isFold) toggle(row.name);
+      else if (key === "ArrowLeft" && row.depth) list.mark(row.key.slice(0, row.key.lastIndexOf("\n")));
+      return isFold || key === "ArrowLeft";
+    }
+
+    const end = watch("transforms", (all) => {
+      values = all;
+      show();
+      pair.offer(frameNames(all));
+    });
+    return () => {
+      end();
+      list.close();
+      pair.close();
+    };
+  },
+};
+
+/** What is known of a frame, in sentences. */
+function detailOf({ name, frame }) {
+  if (!frame) return `${name} is a root: it has no parent.`;
+  const age = frame.is_static || !frame.samples ? "" : `${ageText(frame)} old`;
+  const who = frame.nodes.length ? `from ${frame.nodes.join(", ")}` : "";
+  const facts = [`in ${frame.parent || "no frame"}`, factOf(frame), age, who].filter(Boolean).join(", ");
+  return [`${name}: ${facts}.`, ...frame.problems].join(" ");
+}

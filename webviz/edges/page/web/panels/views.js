@@ -1,0 +1,90 @@
+// The panel "Views": what this browser looks at, and the views that are saved for all.
+
+import { act } from "../act.js";
+import * as channel from "../channel.js";
+import { form } from "../controls/form.js";
+import { FIXED_FRAME } from "../controls/frame.js";
+import { el } from "../dom.js";
+import { icon } from "../icons.js";
+import { openMenuBelow } from "../shell/menu.js";
+import { watch } from "../stores.js";
+import { maker } from "./displays/properties.js";
+import { savedViews } from "./saved_views.js";
+
+const TYPE = {
+  path: "type", label: "Type", kind: "choice", default: "Orbit",
+  help: "How the camera moves; what it looks at stays.",
+};
+const TARGET = {
+  path: "target_frame", label: "Target Frame", kind: "frame", default: FIXED_FRAME,
+  help: "The camera moves with this frame.",
+};
+
+let watchAgain = () => {};
+// viser gives the page another id when it connects again.
+channel.onOpen(() => watchAgain());
+
+export const views = {
+  name: "views",
+  title: "Views",
+  open(element) {
+    let endView = () => {};
+    let head = null;
+    const send = (key, value) => act("ChangeView", { key, value }, { quiet: true, errors: "caller" });
+    const options = { send, name: "view", marks: false };
+    const [common, own] = [el("div"), el("div")];
+    const numbers = maker(own, (declared) =>
+      form(declared.filter(({ path }) => path !== TARGET.path), options));
+    const saved = savedViews();
+    element.append(
+      el(
+        "section", { class: "wv-view", "aria-label": "Current view" },
+        el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Current view"), buttons()),
+        common, own,
+      ),
+      saved.element,
+    );
+    watchAgain = () => {
+      endView();
+      endView = watch(`view:${window.webviz.browser}`, (values, changed) => {
+        if (!values.has("declared")) return;
+        if (!head) {
+          head = form([{ ...TYPE, choices: values.get("types") }, TARGET], options);
+          common.append(head.element);
+        }
+        head.update(values, changed);
+        numbers(values, changed);
+      });
+    };
+    if (channel.isOpen()) watchAgain();
+    const end = watch("views", (values) => saved.update(values.get("saved")));
+    return () => {
+      end();
+      endView();
+      watchAgain = () => {};
+    };
+  },
+};
+
+function buttons() {
+  const focus = el("button", {
+    type: "button", class: "wv-icon", "aria-label": "Focus", "data-tip": "Look at a display",
+    "aria-haspopup": "menu", onclick: () => openDisplays(focus),
+  }, icon("focus"));
+  const zero = el("button", {
+    type: "button", class: "wv-icon", "aria-label": "Zero", "data-tip": "Zero this view", "data-key": "z",
+    onclick: () => act("ResetView"),
+  }, icon("reset"));
+  return [focus, zero];
+}
+
+// The displays as they are now.
+function openDisplays(button) {
+  const end = watch("displays", (rows) => {
+    setTimeout(() => end()); // it may be called before there is an `end`
+    const items = rows.get("order").map((display) => ({
+      label: rows.get(display).name, run: () => act("FocusDisplay", { display }),
+    }));
+    openMenuBelow(button, items.length ? items : [{ label: "No displays", disabled: true }]);
+  });
+}

@@ -1,0 +1,71 @@
+// The tabs of the side: the panels of webviz, and those of plug-ins, which come and go.
+
+import { el, set, setChildren, setText } from "../dom.js";
+import { panels } from "../panels/panels.js";
+import { followPlugins } from "../panels/plugin.js";
+import { recall, remember } from "../remember.js";
+
+/** Elements: the list of tabs, and what the open one shows. */
+export function tabs() {
+  const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
+  const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
+  const buttons = new Map();
+  let all = panels;
+  let shown = null;
+  let close = () => {};
+
+  list.addEventListener("keydown", ({ key }) => {
+    const change = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    if (!change) return;
+    const next = [...list.children].indexOf(document.activeElement) + change;
+    const button = list.children[(next + list.children.length) % list.children.length];
+    button.focus();
+    button.click();
+  });
+
+  function button({ name }) {
+    const id = `wv-tab-${name}`;
+    return el("button", {
+      type: "button", role: "tab", id, "aria-controls": "wv-panel",
+      onclick: () => show(all.find((panel) => panel.name === name)),
+    });
+  }
+
+  function show(panel) {
+    close();
+    content.replaceChildren();
+    shown = panel;
+    mark();
+    set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
+    remember("tab", panel.name);
+    close = panel.open(content) ?? (() => {});
+  }
+
+  function mark() {
+    for (const [name, each] of buttons) {
+      const isShown = name === shown?.name;
+      set(each, { "aria-selected": String(isShown), tabindex: isShown ? 0 : -1 });
+    }
+  }
+
+  function offer(plugins) {
+    const wanted = recall("tab", "");
+    all = [...panels, ...plugins];
+    for (const panel of all) {
+      if (!buttons.has(panel.name)) buttons.set(panel.name, button(panel));
+      setText(buttons.get(panel.name), panel.title);
+    }
+    for (const name of buttons.keys()) if (!all.some((panel) => panel.name === name)) buttons.delete(name);
+    setChildren(list, all.map(({ name }) => buttons.get(name)));
+    mark();
+    const isGone = !all.some(({ name }) => name === shown?.name);
+    // The tab of a plug-in that was open comes after the page.
+    const isWaited = plugins.find(({ name }) => name === wanted && name !== shown?.name);
+    if (isGone || isWaited) show(isWaited ?? panels.find(({ name }) => name === wanted) ?? panels[0]);
+    if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
+  }
+
+  offer([]);
+  followPlugins(offer);
+  return [list, content];
+}

@@ -1,0 +1,208 @@
+"""What panels are built of: widgets that are recorded here and drawn by pages."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
+from typing import Any, TypeVar
+
+from webviz.api.panel import Act, Edit, Modifier
+
+MAX_TEXT = 20_000
+"""Characters of a text, and of what browsers enter."""
+MAX_LINES = 1000
+"""Lines of a text, and rows of a table."""
+MAX_CELL = 1000
+MAX_HTML = 500_000
+SETTLE_S = 0.5
+"""How long a field keeps what a browser entered before it shows what the panel has."""
+
+# Half characters, as bytes of another encoding become, cannot be sent.
+_UNSENDABLE = re.compile("[\ud800-\udfff]")
+
+
+class Widget:
+    """One widget.
+
+    Args:
+        values: what pages need to draw it; replaced as a whole, so that any thread may read them.
+    """
+
+    def __init__(self, **values: Any) -> None:
+        self.values: Mapping[str, Any] = values
+
+    def set(self, **values: Any) -> None:
+        """Change some of the values."""
+        self.values = {**self.values, **values}
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Do what a browser did with it."""
+        raise ValueError("This widget takes no input.")
+
+
+class Area(Widget):
+    """A place for text; see `webviz.api.panel.Area`."""
+
+    def __init__(self) -> None:
+        super().__init__(kind="area")
+
+    def text(self, text: str) -> None:
+        """Show a paragraph."""
+        self.values = {"kind": "area", "text": clean(text)}
+
+    def lines(self, text: str) -> None:
+        """Show lines in letters of one width."""
+        lines = text.split("\n")
+        more = len(lines) - MAX_LINES
+        shown = [clean(line, MAX_CELL) for line in lines[:MAX_LINES]]
+        shown += [f"… and {more} more lines"] if more > 0 else []
+        self.values = {"kind": "area", "lines": shown}
+
+    def table(self, rows: Iterable[Sequence[str]]) -> None:
+        """Show texts in rows and columns."""
+        shown = [[clean(cell, MAX_CELL) for cell in row] for row in islice(rows, MAX_LINES)]
+        self.values = {"kind": "area", "table": shown}
+
+    def html(self, markup: str) -> None:
+        """Show HTML."""
+        if len(markup) > MAX_HTML:
+            raise ValueError(f"HTML of {len(markup)} characters; the limit is {MAX_HTML}.")
+        self.values = {"kind": "area", "html": clean(markup, MAX_HTML)}
+
+
+class Button(Widget):
+    """A button; see `webviz.api.panel.Button`."""
+
+    def __init__(self, label: str, act: Act, hint: str, width: float) -> None:
+        super().__init__(kind="button", label=clean(label), hint=clean(hint), width=width)
+        self._act = act
+
+    @property
+    def label(self) -> str:
+        """What stands on it."""
+        return self.values["label"]
+
+    @label.setter
+    def label(self, label: str) -> None:
+        self.set(label=clean(label))
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Press it."""
+        self._act(browser)
+
+
+class Field(Widget):
+    """A value that browsers edit; see `webviz.api.panel.Field`."""
+
+    def __init__(self, kind: str, label: str, value: Any, edit: Edit, hint: str) -> None:
+        super().__init__(kind=kind, label=clean(label), value=value, hint=clean(hint))
+        self._edit = edit
+        self._entered_s = -SETTLE_S
+
+    @property
+    def value(self) -> Any:
+        """What it holds now."""
+        return self.values["value"]
+
+    def show(self, value: Any) -> None:
+        """Show this value, unless somebody has just entered another one."""
+        if time.monotonic() - self._entered_s > SETTLE_S:
+            self.set(value=clean(value) if isinstance(value, str) else value)
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Enter a value."""
+        if type(value) is not type(self.value):
+            raise ValueError("This value does not fit the widget.")
+        if isinstance(value, str) and len(value) > MAX_TEXT:
+            raise ValueError(f"At most {MAX_TEXT} characters.")
+        self._entered_s = time.monotonic()
+        self.set(value=value)
+        self._edit(value, browser)
+
+
+class Choice(Field):
+    """One of several texts; see `webviz.api.panel.Choice`."""
+
+    def __init__(self, label: str, value: str, edit: Edit, hint: str) -> None:
+        super().__init__("choice", label, value, edit, hint)
+        self.set(options=[value])
+
+    def offer(self, values: Sequence[str], current: str) -> None:
+        """Offer these values, and the current one even if it is not among them."""
+        self.set(options=list(dict.fromkeys(clean(value) for value in (*values, current))))
+        self.show(current)
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Choose a value."""
+        if value not in self.values["options"]:
+            raise ValueError(f"{str(value)[:100]} is no longer available.")
+        super().use(value, browser)
+
+
+class Shortcut(Widget):
+    """A command of the list of commands."""
+
+    def __init__(self, label: str, act: Act, key: str) -> None:
+        super().__init__(label=clean(label), key=key)
+        self._act = act
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Do it."""
+        self._act(browser)
+
+
+_W = TypeVar("_W", bound=Widget)
+
+
+class RecordedUi:
+    """Records what a panel is built of; see `webviz.api.panel.Ui`."""
+
+    def __init__(self) -> None:
+        self.widgets: dict[str, Widget] = {}
+        """In the order of the tab, by id."""
+        self.commands: dict[str, Shortcut] = {}
+
+    def find(self, id_: str) -> Widget | None:
+        """A widget or command."""
+        return self.widgets.get(id_) or self.commands.get(id_)
+
+    def area(self) -> Area:
+        """Add a place for text."""
+        return self._add(Area())
+
+    def button(self, label: str, act: Act, hint: str = "", width: float = 1.0) -> Button:
+        """Add a button."""
+        return self._add(Button(label, act, hint, max(0.1, min(1.0, width))))
+
+    def checkbox(self, label: str, value: bool, edit: Edit, hint: str = "") -> Field:
+        """Add a check box."""
+        return self._add(Field("checkbox", label, bool(value), edit, hint))
+
+    def field(self, label: str, value: str, edit: Edit, hint: str = "") -> Field:
+        """Add a line of text."""
+        return self._add(Field("field", label, clean(value), edit, hint))
+
+    def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
+        """Add a list to choose from."""
+        return self._add(Choice(label, clean(value), edit, hint))
+
+    def command(
+        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None, icon: str = ""
+    ) -> None:
+        """Add a command to the list, for every browser."""
+        before = {None: "", "cmd/ctrl": "Ctrl+", "cmd/ctrl+shift": "Ctrl+Shift+"}[modifier]
+        shortcut = Shortcut(label, act, f"{before}{key.lower()}" if key else "")
+        self.commands[f"command-{len(self.commands)}"] = shortcut
+
+    def _add(self, widget: _W) -> _W:
+        self.widgets[str(len(self.widgets))] = widget
+        return widget
+
+
+def clean(text: str, length: int = MAX_TEXT) -> str:
+    """Text that can be sent and is not endless."""
+    text = str(text)
+    text = text if len(text) <= length else text[: length - 1] + "…"
+    return _UNSENDABLE.sub("\N{REPLACEMENT CHARACTER}", text)

@@ -1,1 +1,0 @@
-"""The panels that come with webviz, one file each."""
