@@ -14,7 +14,7 @@ from webviz.tools.pose_estimate import PoseEstimate
 
 SEND = """async () => {
   const history = await import("/webviz/tools/history.js");
-  const goal = { id: "t1", name: "2D Goal Pose" };
+  const goal = { id: "t1", name: "2D Goal Pose", gesture: "pose" };
   history.send(goal, { points: [[1, 2, 0.5]], yaw: Math.PI / 2, keys: [] });
 }"""
 

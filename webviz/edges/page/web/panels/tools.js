@@ -9,16 +9,19 @@ import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
 import { tell } from "../tools/hint.js";
 import * as history from "../tools/history.js";
+import { fixed } from "../tools/numbers.js";
 import * as registry from "../tools/registry.js";
 import { yaml } from "../tools/yaml.js";
 import { maker } from "./displays/properties.js";
+
+const NONE = "Nothing sent from this page yet. Choose a tool over the scene.";
 
 export const toolsPanel = {
   name: "tools",
   title: "Tools",
   open(element) {
     const sent = el("ol", { class: "wv-sent", "aria-label": "Sent from this page" });
-    const none = el("p", { class: "wv-sent-none" }, "Nothing sent from this page yet. Choose a tool over the scene.");
+    const none = el("p", { class: "wv-sent-none" }, NONE);
     const sections = el("div");
     element.append(
       el("h3", { class: "wv-tools-head" }, "Sent from this page"), none, sent,
@@ -65,9 +68,11 @@ function sentRow() {
     element,
     update(next) {
       entry = next;
-      const [x, y, z] = next.points[0].map((number) => number.toFixed(2));
-      setText(head, `${next.name} · ${next.time.toLocaleTimeString()}`);
-      setText(place, `x ${x} y ${y} z ${z} · yaw ${((next.yaw * 180) / Math.PI).toFixed(1)}° · ${next.frame}`);
+      const [x, y, z] = next.points[0].map((number) => fixed(number, 2));
+      const heading = `yaw ${fixed((next.yaw * 180) / Math.PI, 1)}°`;
+      const parts = [`x ${x} y ${y} z ${z}`, next.tool.gesture === "pose" && heading, next.frame];
+      setText(head, `${next.tool.name} · ${next.time.toLocaleTimeString()}`);
+      setText(place, parts.filter(Boolean).join(" · "));
       setText(result, next.text || "No result yet.");
       set(element, { "data-level": next.level || null });
       if (yamlButton.hidden !== !next.messages.length) yamlButton.hidden = !next.messages.length;
@@ -85,8 +90,8 @@ function sendAgain(entry) {
 }
 
 async function copyYaml({ messages }) {
-  const text = messages.map(({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(values)}`).join("---\n");
-  if (await copy(text)) toast("Copied as YAML.");
+  const texts = messages.map(({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(values)}`);
+  if (await copy(texts.join("---\n"))) toast("Copied as YAML.");
   else toast("The browser does not allow copying.", { level: "error" });
 }
 
@@ -121,7 +126,9 @@ function toolSection(id) {
   const content = el("div");
   const send = (path, value) =>
     act("SetToolProperty", { tool: id, path, value }, { quiet: true, errors: "caller" });
-  const made = maker(content, (declared, values) => form(declared, { send, name: `tool.${values.get("type")}` }));
+  const made = maker(content, (declared, values) => {
+    return form(declared, { send, name: `tool.${values.get("type")}` });
+  });
   return {
     title,
     element: el("details", { class: "wv-tool-properties", open: true }, title, content),

@@ -15,7 +15,7 @@ function toThree() {
   return world.matrixWorld;
 }
 
-/** The point of the plane at a height below a point of the window, in metres, or null above the horizon. */
+/** Where a plane z = height is below a point of the window, in metres; null above its horizon. */
 export function planeAt(xy, height) {
   const { origin, direction } = rayAt(xy);
   const steps = (height - origin.z) / direction.z;
@@ -34,8 +34,9 @@ export function surfaceAt(xy) {
 }
 
 /**
- * The height of a vertical line, through a point, next to what is below a point of the window. Seen from
- * above, where the line is a point, a pixel up is as high as it is wide. Null if it is too far away.
+ * The height of a vertical line, through a point, next to what is below a point of the window. Seen
+ * from above, where the line is a point, a pixel up is as high as it is wide. Null if it is too far
+ * away.
  */
 export function heightAt(xy, [x, y, z]) {
   const { origin, direction } = rayAt(xy);
@@ -54,7 +55,8 @@ export function heightAt(xy, [x, y, z]) {
 const rayAt = (xy) => casterAt(xy).ray.applyMatrix4(toThree().clone().invert());
 
 /** A point of three.js in the coordinates of the fixed frame. */
-export const toFixedFrame = (point) => point.clone().applyMatrix4(toThree().clone().invert()).toArray();
+export const toFixedFrame = (point) =>
+  point.clone().applyMatrix4(toThree().clone().invert()).toArray();
 
 /** Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera. */
 export function onCanvas(point) {

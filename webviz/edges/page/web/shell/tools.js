@@ -60,7 +60,9 @@ function buttonOf(tool) {
   if (button.dataset.tool !== text) {
     button.dataset.tool = text;
     set(button, {
-      "aria-label": name, "data-tip": isLean ? `${name}: ${tooltip}` : tooltip, "data-key": shortcut || null,
+      "aria-label": name,
+      "data-tip": isLean ? `${name}: ${tooltip}` : tooltip,
+      "data-key": shortcut || null,
     });
     const key = shortcut ? [el("kbd", {}, keyText(shortcut))] : [];
     button.replaceChildren(

@@ -3,8 +3,8 @@
 const CLICK_PX = 4;
 
 /**
- * Makes `pointer` of a tool that acts on clicks of the left button, `onClick(event)`, of the right one,
- * `onRight`, and on what moves without a button, `onMove`.
+ * Makes `pointer` of a tool that acts on clicks of the left button, `onClick(event)`, of the right
+ * one, `onRight`, and on what moves without a button, `onMove`.
  */
 export function clicks(onClick, onRight = () => {}, onMove = () => {}) {
   let pressed = null;

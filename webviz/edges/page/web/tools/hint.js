@@ -9,7 +9,7 @@ export const hint = el("output", { class: "wv-hint wv-card", hidden: true });
 let timer = 0;
 let resting = "";
 
-/** Shows a sentence with a level: "hint" while a tool is active, or "ok", "warn", "error" for a while. */
+/** Shows a sentence: a "hint" while a tool is active, or "ok", "warn" or "error" for a while. */
 export function tell(level, text) {
   clearTimeout(timer);
   if (level === "hint") resting = text;

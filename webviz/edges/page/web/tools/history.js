@@ -23,19 +23,19 @@ export function onChange(listener) {
   return () => listeners.delete(listener);
 }
 
-/** Sends a finished gesture of a tool. */
-export function send({ id, name }, { points, yaw, keys }) {
+/** Sends a finished gesture of a tool, `{id, name, gesture}`. */
+export function send(tool, { points, yaw, keys }) {
   count += 1;
-  const entry = {
-    number: count, tool: id, name, points, yaw, keys, frame, time: new Date(), level: "", text: "", messages: [],
-  };
+  const stroke = { points, yaw, keys };
+  const result = { level: "", text: "", messages: [] };
+  const entry = { number: count, tool, ...stroke, frame, time: new Date(), ...result };
   sent = [entry, ...sent].slice(0, MAX_KEPT);
-  channel.send({ type: "StrokeDone", tool: id, points, yaw, keys, number: count });
+  channel.send({ type: "StrokeDone", tool: tool.id, ...stroke, number: count });
   tellAll();
 }
 
 /** Sends it again: a new message, stamped now. */
-export const again = (entry) => send({ id: entry.tool, name: entry.name }, entry);
+export const again = (entry) => send(entry.tool, entry);
 
 /** What came of a gesture, in a sentence. */
 export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));

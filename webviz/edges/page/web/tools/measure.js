@@ -1,4 +1,5 @@
-// The tool that measures between points of surfaces. Its lines stay where they are in the fixed frame.
+// The tool that measures between points of surfaces. Its lines stay where they are in the fixed
+// frame.
 
 import { copy } from "../clipboard.js";
 import { el, set, setText, svgElement } from "../dom.js";
@@ -122,7 +123,8 @@ function removeAll() {
 
 async function copyLine(line) {
   const isCopied = await copy(words(line));
-  tell(isCopied ? "ok" : "error", isCopied ? `Copied ${words(line)}.` : "The browser does not allow copying.");
+  if (isCopied) tell("ok", `Copied ${words(line)}.`);
+  else tell("error", "The browser does not allow copying.");
 }
 
 function parts({ from, to }) {

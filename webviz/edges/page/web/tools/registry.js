@@ -1,9 +1,10 @@
 // The tools of this page, and the one that is active; each browser has its own.
 //
 // A tool is `{id, name, tooltip, shortcut, icon, hint}`, with, as far as it needs them: `cursor`;
-// `order`, its place among the others; `select()`, called when it becomes active, and `leave()`, when it is
-// not any more; `pointer(event)`, which gets the pointer's events over the scene before the camera and
-// returns whether it took them; `isLean`, whether its button is an icon only. Interact is the default.
+// `order`, its place among the others; `select()`, called when it becomes active, and `leave()`,
+// when it is not any more; `pointer(event)`, which gets the pointer's events over the scene before
+// the camera and returns whether it took them; `isLean`, whether its button is an icon only.
+// Interact is the default.
 
 import { canvas } from "../viser_page.js";
 
@@ -47,7 +48,7 @@ export function select(tool) {
 /** Selects a tool, or goes back if it is selected. */
 export const toggle = (tool) => select(tool === current ? null : tool);
 
-/** Calls `listener` whenever there are other tools or another one is active; returns what ends it. */
+/** Calls `listener` when tools change or another one is active; returns what ends it. */
 export function onChange(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);

@@ -17,16 +17,15 @@ let drawing = null;
 let stroke = null;
 
 /**
- * Begins to follow a pointer. `done` gets the points, the heading and the keys, `live` in words where
- * the gesture is. False where there is nothing to begin on.
+ * Begins to follow a pointer. `done` gets the points, the heading and the keys, `live` in words
+ * where the gesture is. False where there is nothing to begin on.
  */
 export function begin(event, tool, { done, live }) {
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
-  stroke = {
-    tool, done, live, start, at, from: at, pointer: event.pointerId, yaw: 0, isTurned: false, isLifting: false,
-  };
+  const turned = { yaw: 0, isTurned: false, isLifting: false };
+  stroke = { tool, done, live, start, at, from: at, pointer: event.pointerId, ...turned };
   canvas().setPointerCapture(event.pointerId);
   follow(event);
   redraw();
@@ -52,7 +51,8 @@ export function follow(event) {
   stroke.live(words());
 }
 
-// The start goes up as the pointer does along a vertical line, from where it was when Ctrl was pressed.
+// The start goes up as the pointer does along a vertical line, from where it was when Ctrl was
+// pressed.
 function lift(before) {
   const { start, at } = stroke;
   const [from, to] = [before, at].map((xy) => heightAt(xy, start));
@@ -102,9 +102,9 @@ function redraw() {
   layer.place();
   set(arrow, { points: ((tool.gesture === "pose" && arrowAt(start, yaw)) || []).join(" ") });
   const top = onCanvas(start) ?? [-100, -100];
-  const foot = onCanvas([start[0], start[1], 0]) ?? top;
   const isLifted = tool.gesture === "pose" && start[2] !== 0;
-  set(stem, { x1: top[0], y1: top[1], x2: isLifted ? foot[0] : top[0], y2: isLifted ? foot[1] : top[1] });
+  const foot = (isLifted && onCanvas([start[0], start[1], 0])) || top;
+  set(stem, { x1: top[0], y1: top[1], x2: foot[0], y2: foot[1] });
   set(dot, { cx: top[0], cy: top[1] });
 }
 
