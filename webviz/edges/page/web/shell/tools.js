@@ -12,8 +12,9 @@ import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
 
-/** The buttons of the tools; those of the page itself, which are icons, may go into a menu. */
+/** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
+export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
 export { hint };
 
 const listeners = new Set();
@@ -47,10 +48,28 @@ function update() {
     active = registry.active();
     tell("hint", active.hint);
   }
-  const before = buttons.children.length;
-  setChildren(buttons, registry.all().map(buttonOf));
-  if (buttons.children.length !== before) for (const listener of listeners) listener();
+  const count = () => icons.children.length + buttons.children.length;
+  const before = count();
+  const [lean, named] = [true, false].map((isLean) =>
+    registry.all().filter((tool) => Boolean(tool.isLean) === isLean),
+  );
+  setChildren(icons, lean.map(buttonOf));
+  setChildren(buttons, named.map(buttonOf));
+  if (count() !== before) for (const listener of listeners) listener();
 }
+
+/** The tools that are icons, as items of a menu. */
+export const iconItems = () =>
+  registry
+    .all()
+    .filter(({ isLean }) => isLean)
+    .map((tool) => ({
+      label: tool.name,
+      icon: tool.icon,
+      key: tool.shortcut,
+      checked: tool === registry.active(),
+      run: () => registry.toggle(tool),
+    }));
 
 function buttonOf(tool) {
   const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
