@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Loop, Tab
+from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
 from webviz.edges.page.content.types import addable, types
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import State, Traffic
+from webviz.engine.state import Row, State, Traffic
 
 SCAN, IMU = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Imu"
 TOPICS = {
@@ -69,6 +72,19 @@ def test_topics_are_shown_with_rate_and_why_not(tab: Tab, dialog: playwright.Loc
     imu = dialog.get_by_role("option").filter(has_text="/imu")
     playwright.expect(imu).to_contain_text(f"No display for {IMU}.")
     playwright.expect(imu).to_be_disabled()
+    dialog.press("Escape")
+
+
+def test_topics_that_are_shown_already_come_after_those_that_are_not(
+    tab: Tab, dialog: playwright.Locator, make_row: Callable[..., Row]
+) -> None:
+    tab.loop.show(make_row("a", topic=Topic("back")))
+    dialog.get_by_role("tab", name="By topic").click()
+    titles = dialog.locator(".wv-pick-title")
+    tab.wait_for(lambda: titles.all_inner_texts() == ["/front", "/map", "/back", "/imu"])
+    assert [text for text in dialog.get_by_role("option").all_inner_texts() if "shown" in text] == [
+        dialog.get_by_role("option").filter(has_text="/back").inner_text()
+    ]
     dialog.press("Escape")
 
 

@@ -97,3 +97,11 @@ def test_a_menu_in_a_corner_stays_in_the_window(
     assert box is not None
     assert box["x"] + box["width"] <= size["width"]
     assert box["y"] + box["height"] <= size["height"]
+
+
+def test_choices_are_read_out_as_checked_or_not(tab: Tab) -> None:
+    tab.button("Menu").click()
+    themes = tab.page.get_by_role("menuitemradio")
+    states = themes.evaluate_all("all => all.map((one) => one.getAttribute('aria-checked'))")
+    tab.page.keyboard.press("Escape")
+    assert sorted(states) == ["false", "false", "true"]

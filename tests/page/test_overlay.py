@@ -121,6 +121,16 @@ def test_what_is_under_the_resting_mouse_is_named(
     scene.flush()
 
 
+def test_the_hint_for_the_mouse_leaves_room_for_the_scale(open_tab: Callable[..., Tab]) -> None:
+    tab = open_tab(820, 600)
+    scale = tab.page.locator(".wv-scale")
+    tab.wait_for(scale.is_visible)
+    hint, bar = tab.page.locator(".wv-pointer").bounding_box(), scale.bounding_box()
+    assert hint is not None
+    assert bar is not None
+    assert hint["x"] + hint["width"] < bar["x"]
+
+
 def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
     rates = tab.page.locator(".wv-rates")
     tab.wait_for(lambda: " ms" in rates.inner_text())

@@ -9,7 +9,10 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.commands import Save
-from webviz.engine.state import File, Row
+from webviz.data.messages import LaserScan, to_tree
+from webviz.data.transforms import Diagnosis, FrameReport
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import File, Inspected, Row
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 40
@@ -59,6 +62,36 @@ def test_buttons_can_be_hit_with_a_finger(phone: Tab) -> None:
     assert box["height"] >= FINGER_PX
     item.tap()
     phone.wait_for_command(Save())
+
+
+def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: Tab) -> None:
+    scan = Publisher("/driver", "sensor_msgs/msg/LaserScan", "reliable", "volatile")
+    message = to_tree(LaserScan())
+    odom = FrameReport("odom", "map", True, (), 0.0, 0, None, None, 1, 0, ())
+    phone.loop.show(
+        offers={"/scan": Offer((scan,))},
+        inspected={"/scan": Inspected(scan.type, message, "", 100, 1.0)},
+        transforms=Diagnosis(("map",), (), (odom,)),
+    )
+    phone.button("Show the panels").tap()
+    phone.show_tab("Topics")
+    phone.wait_for(lambda: phone.page.locator(".wv-topic").count() == 1)
+    phone.page.locator(".wv-topic").tap()
+    phone.wait_for(lambda: phone.page.locator(".wv-field-row").count() > 3)
+    assert too_small(phone) == []
+    phone.show_tab("TF")
+    phone.wait_for(lambda: phone.page.locator(".wv-frame").count() == 2)
+    assert too_small(phone) == []
+
+
+def too_small(phone: Tab) -> list[str]:
+    """What can be tapped in the panel, but is not high enough for it."""
+    return phone.page.locator(".wv-panel").evaluate(
+        """(panel, least) => [...panel.querySelectorAll("button, input, select, .wv-row")]
+          .filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < least)
+          .map((one) => `${one.className} ${one.getBoundingClientRect().height}`)""",
+        FINGER_PX,
+    )
 
 
 def test_dialogs_fit(phone: Tab) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from tests.page.conftest import Tab
 from tests.page.properties_pane import MOUNT, Pane
+from tests.page.trees import Tree
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
@@ -18,7 +19,17 @@ from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
+from webviz_displays.point_cloud2 import PointCloud2
 
+BROKEN = """(labels) => labels.flatMap((label) => {
+  const text = label.firstChild;
+  const range = document.createRange();
+  return [...text.data.matchAll(/\\S+/g)].filter(({ 0: word, index }) => {
+    range.setStart(text, index);
+    range.setEnd(text, index + word.length);
+    return range.getClientRects().length > 1;
+  }).map(([word]) => word);
+})"""
 MakeRow = Callable[..., Row]
 
 
@@ -404,3 +415,19 @@ def test_what_is_wrong_with_the_viewer_is_said_above(options: Pane) -> None:
     options.tab.wait_for(lambda: "Fixed Frame: There is no frame <b>map</b>." in options.text())
     assert options.field("fixed_frame").input_value() == "odom"
     assert options.row("fixed_frame").get_attribute("data-changed") is not None
+
+
+@pytest.mark.parametrize("is_below", [True, False], ids=["below the tree", "in the tree"])
+def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(
+    open_tab: Callable[..., Tab], is_below: bool
+) -> None:
+    tab = open_tab()
+    tab.loop.show(Row("a", "PointCloud2", PointCloud2(name="a"), "a", {}))
+    tree = Tree(tab)
+    tree.click("a")
+    if not is_below:
+        tab.button("Close properties").click()
+        tree.fold("a")
+    labels = tab.page.locator(".wv-property-label:visible")
+    tab.wait_for(lambda: labels.count() > 5)
+    assert labels.evaluate_all(BROKEN) == []

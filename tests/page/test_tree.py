@@ -48,6 +48,19 @@ def test_rows_stand_in_order_below_the_global_options(
     assert "map, 60 Hz" in tree.row("Global Options").inner_text()
 
 
+def test_an_empty_list_explains_itself_above_the_button_that_adds(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    hint = tree.tab.page.get_by_text("No displays yet.")
+    tree.tab.wait_for(hint.is_visible)
+    above, below = hint.bounding_box(), tree.tab.button("Add display").bounding_box()
+    assert above is not None
+    assert below is not None
+    assert 0 < below["y"] - above["y"] < 60
+    loop.show(make_row("a"))
+    tree.tab.wait_for(hint.is_hidden)
+
+
 def test_a_problem_is_a_line_under_the_name_and_a_disabled_display_has_none(
     loop: Loop, tree: Tree, make_row: MakeRow
 ) -> None:

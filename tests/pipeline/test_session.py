@@ -13,7 +13,6 @@ import pytest
 
 from webviz.api.declared import Topic, to_values
 from webviz.api.group import Group
-from webviz.api.status import Level
 from webviz.engine.commands import (
     AddDisplay,
     Command,
@@ -69,18 +68,15 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
     folder: Path, bench: Callable[..., Any]
 ) -> None:
     b = bench(Axes(name="A"))
-    state = do(b, Save("lab.yaml"))
-    assert (state.answer.level, state.answer.text) == (Level.OK, "Saved lab.yaml.")
-    assert state.file.path == str(folder / "lab.yaml")
+    assert b.ask(Save("lab.yaml")) == "Saved lab.yaml."
+    assert b.states[-1].file.path == str(folder / "lab.yaml")
     do(b, SetProperty("display1", "length", 2.5))
     do(b, Save())
     assert "length: 2.5" in (folder / "lab.yaml").read_text()
 
 
 def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:
-    answer = do(bench(Axes(name="A")), Save()).answer
-    assert answer.level is Level.ERROR
-    assert answer.text == "This config has no file yet. Choose a name."
+    assert bench(Axes(name="A")).refused(Save()) == ("This config has no file yet. Choose a name.")
 
 
 def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
@@ -100,9 +96,9 @@ def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., 
     (folder / "b.yaml").write_text("fixed_frame: odom\ndisplays:\n- {type: Axes, name: B}\n")
     b.transform("map", "base", 0, static=True)
     assert b.scene.groups
-    state = do(b, Open("b.yaml"))
+    assert b.ask(Open("b.yaml")) == "Opened b.yaml."
+    state = b.states[-1]
     assert (state.fixed_frame, names(state)) == ("odom", ["B"])
-    assert state.answer.text == "Opened b.yaml."
     file = File(str(folder / "b.yaml"), False, str(folder), state.file.others)
     assert state.file == file
     assert not any(group.startswith("display1") for group in b.scene.groups)
@@ -126,9 +122,8 @@ def test_a_file_that_cannot_be_opened_changes_nothing(
         os.mkfifo(folder / "bad.yaml")
     elif text is not None:
         (folder / "bad.yaml").write_text(text)
-    state = do(b, Open("bad.yaml"))
-    assert state.answer.level is Level.ERROR
-    assert sentence in state.answer.text
+    assert sentence in b.refused(Open("bad.yaml"))
+    state = b.states[-1]
     assert (names(state), state.file.path) == (["A"], "")
 
 
@@ -189,9 +184,8 @@ def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
 def test_a_file_in_a_folder_that_cannot_be_written_is_told(
     folder: Path, bench: Callable[..., Any]
 ) -> None:
-    answer = do(bench(Axes(name="A")), Save("nowhere/lab.yaml")).answer
-    assert answer.level is Level.ERROR
-    assert "No such file or directory" in answer.text
+    refusal = bench(Axes(name="A")).refused(Save("nowhere/lab.yaml"))
+    assert "No such file or directory" in refusal
 
 
 def test_the_config_files_of_the_folder_are_on_offer(
@@ -278,7 +272,7 @@ def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
     group = Branch(Group(name="G"), [Axes(name="A", length=3.0), unreadable])
     b = bench(group, Axes(name="B"), Grid(name="Grid"))
-    written = do(b, WriteDisplays(("display2", "display5", "display1", "gone"))).answer.text
+    written = b.ask(WriteDisplays(("display2", "display5", "display1", "gone")))
     assert written == (
         "- type: Group\n  name: G\n  displays:\n  - {type: Axes, length: 3.0, name: A}\n"
         "  - type: Gone\n    list: [1]\n- {type: Grid}\n"
@@ -287,10 +281,11 @@ def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any
 
 def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:
     b = bench(Branch(Group(name="G"), [Axes(name=f"A{i}") for i in range(299)]))
-    for command in (DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 201):
-        b.viewer.enqueue(command)
-    state = do(b, DuplicateDisplay("gone"))
-    assert state.answer.text == "Not added: the limit is 500 displays. Remove some first."
+    commands = [DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 201]
+    answers = [b.viewer.enqueue(command) for command in commands]
+    state = do(b, Refresh())
+    refusal = str(answers[-1].exception(0))
+    assert refusal == "Not added: the limit is 500 displays. Remove some first."
     assert len(state.rows) == 500
     assert "G 2" not in names(state)
 
@@ -365,12 +360,7 @@ def test_what_is_refused_is_told_and_changes_nothing(
 ) -> None:
     b = bench(Axes(name="A"), Group(name="G"), PathDisplay(name="P"))
     before = b.viewer.config()
-    future = b.viewer.enqueue(command)
-    b.turn()
-    answer = b.states[-1].answer
-    assert answer.level is Level.ERROR
-    assert answer.text.startswith(sentence)
-    assert str(future.exception(timeout=0)) == answer.text
+    assert b.refused(command).startswith(sentence)
     assert not caplog.records  # whoever asked is told, and nobody twice
     assert document(b.viewer.config()) == document(before)
 

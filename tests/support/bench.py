@@ -78,6 +78,18 @@ class Bench:
         self.until_done(self.viewer.enqueue(command, sender))
         return self.states[-1]
 
+    def ask(self, command: Command) -> str:
+        """The answer to a command."""
+        answer = self.viewer.enqueue(command)
+        self.until_done(answer)
+        return answer.result(0)
+
+    def refused(self, command: Command) -> str:
+        """Why a command is refused."""
+        answer = self.viewer.enqueue(command)
+        self.until_done(answer)
+        return str(answer.exception(0))
+
     def until_done(self, answer: Future[str]) -> None:
         """Turn until a command is done; one about files takes several turns."""
         for _ in range(2000):

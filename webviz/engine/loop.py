@@ -13,7 +13,6 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.parts import Core, Part, Parts
-from webviz.engine.parts.answers import AnswersPart
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
@@ -99,7 +98,6 @@ class FrameLoop:
             history,
             TopicsPart(core),
             PluginsPart(core, displays, settings),
-            AnswersPart(core, self._requests),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *(make(core) for make in parts),
         ]

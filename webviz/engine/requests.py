@@ -12,10 +12,8 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from webviz.api.errors import Error
-from webviz.api.status import Level
 from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.pipeline.guard import Guard
-from webviz.engine.state import Answer
 from webviz.files.config.disk import in_thread
 
 MAX_REQUESTS = 1000
@@ -60,8 +58,6 @@ class Requests:
 
     def __init__(self, guard: Guard, wake: Callable[[], None]) -> None:
         self._guard = guard
-        self.answer = Answer()
-        """The last answer, for panels."""
         self._wake = wake
         self._waiting: queue.Queue[Request] = queue.Queue(MAX_REQUESTS)
         self._files: deque[Request] = deque()
@@ -129,10 +125,7 @@ class Requests:
                 self._begin(result, answer)
                 return []
         except Refused as error:
-            self.answer = Answer(self.answer.number + 1, Level.ERROR, str(error))
             return [functools.partial(answer.set_exception, error)]
-        if result:
-            self.answer = Answer(self.answer.number + 1, Level.OK, result)
         return [functools.partial(answer.set_result, result)]
 
     def _begin(self, job: Job[Any], answer: Future[str]) -> None:

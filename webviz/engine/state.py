@@ -65,20 +65,6 @@ class File:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """The answer to the last command that has one.
-
-    Args:
-        number: increases with each answer.
-        level, text: the result, one sentence.
-    """
-
-    number: int = 0
-    level: Level = Level.OK
-    text: str = ""
-
-
-@dataclass(frozen=True)
 class Pace:
     """How ROS time goes on, for pages that count by themselves.
 
@@ -233,7 +219,6 @@ class State:
         statuses: of the viewer as a whole, such as "Fixed Frame".
         settings: everything in the config except displays and tools.
         file: of the config.
-        answer: to the last command.
         clock: the time.
         offers: publishers and QoS by topic name.
         traffic: by topic name, of the topics that are subscribed to.
@@ -253,7 +238,6 @@ class State:
     statuses: Mapping[str, Status] = field(default_factory=dict)
     settings: Settings = field(default_factory=Settings)
     file: File = File()
-    answer: Answer = Answer()
     clock: Clock = Clock()
     offers: Mapping[str, Offer] = field(default_factory=dict)
     traffic: Mapping[str, Traffic] = field(default_factory=dict)

@@ -11,6 +11,7 @@ from webviz.api.display import inputs
 from webviz.api.status import Level
 from webviz.engine.state import Row, State
 
+_LEVELS = {level: level.name.lower() for level in Level}
 _CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
 """Ages and rates in sentences."""
 
@@ -29,23 +30,24 @@ def rate(state: State, id_: str) -> Mapping[str, Any]:
 
 
 def _row(row: Row) -> Mapping[str, Any]:
+    level = row.level
     return {
         "type": row.type,
         "name": row.name,
         "depth": row.depth,
         "enabled": row.enabled,
         "can_edit": row.display is not None,
-        "level": level_name(row.level),
-        "line": _worst(row),
+        "level": level_name(level),
+        "line": _worst(row, level),
         "topics": _topics(row),
     }
 
 
-def _worst(row: Row) -> str:
-    """The worst status of a display that has a problem; that of a group names the display."""
-    if row.level < Level.WARN:
+def _worst(row: Row, level: Level) -> str:
+    """The first status of this level if it is a problem; that of a group names the display."""
+    if level < Level.WARN:
         return ""
-    key, status = next((k, s) for k, s in row.statuses.items() if s.level == row.level)
+    key, status = next((k, s) for k, s in row.statuses.items() if s.level == level)
     text = f"{key}: {status.text}" if row.type == "Group" or not status.text else status.text
     return _CHANGING.sub(lambda found: f"{_steady(float(found[1])):.9g}{found[2]}", text)
 
@@ -68,4 +70,4 @@ def _rounded(value: float) -> float:
 
 def level_name(level: Level) -> str:
     """A level as the page calls it: "ok", "warn" and so on."""
-    return Level(level).name.lower()
+    return _LEVELS[level]

@@ -6,7 +6,7 @@ import functools
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.api.display import Display, inputs_of
+from webviz.api.display import Display, inputs, inputs_of
 from webviz.api.registry import display_types
 from webviz.engine.by_topic import no_display, picks
 from webviz.engine.state import State
@@ -26,7 +26,12 @@ def _about(cls: type[Display]) -> Mapping[str, Any]:
 
 def addable(state: State, _: str) -> Mapping[str, Any]:
     """Every live topic by its name: its types, displays with the property that takes it, rate in Hz
-    or null, number of publishers, and why no display fits."""
+    or null, number of publishers, whether a display shows it, and why no display fits."""
+    shown = {
+        f"/{topic.name.removeprefix('/')}"
+        for row in state.rows
+        for _, _, topic in (inputs(row.display) if row.display else ())
+    }
     fitting: dict[str, list[tuple[str, str]]] = {}
     for pick in picks(state.topics, display_types()):
         fitting.setdefault(pick.topic, []).append((pick.display, pick.input))
@@ -36,6 +41,7 @@ def addable(state: State, _: str) -> Mapping[str, Any]:
             "displays": fitting.get(topic, ()),
             "why": "" if topic in fitting else no_display(messages),
             "rate": _rate(state, topic),
+            "shown": topic in shown,
             "publishers": len(offer.publishers) if (offer := state.offers.get(topic)) else 0,
         }
         for topic, messages in state.topics.items()

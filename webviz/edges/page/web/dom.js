@@ -6,7 +6,7 @@ const SVG = "http://www.w3.org/2000/svg";
  * An element with attributes and children: strings and elements, null for none.
  *
  * An attribute that is a function is a listener (`onclick`); true is an attribute without a value;
- * false, null and undefined are none.
+ * false, null and undefined are none. ARIA's attributes say "true" and "false" in words.
  */
 export function el(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
@@ -19,8 +19,9 @@ export function el(tag, attributes = {}, ...children) {
 export function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name.slice(2), value);
-    else if (value === true) element.toggleAttribute(name, true);
-    else if (value === false || value === null || value === undefined) element.removeAttribute(name);
+    else if (typeof value === "boolean" && !name.startsWith("aria-")) {
+      element.toggleAttribute(name, value);
+    } else if (value === null || value === undefined) element.removeAttribute(name);
     else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
   }
 }

@@ -7,6 +7,7 @@ import { el, set } from "../dom.js";
 const BEYOND = 6; // rows above and below what is seen that are there too
 
 const INDENT_PX = 14;
+const FINGER_PX = 40;
 
 let lists = 0;
 
@@ -149,6 +150,11 @@ export function rowList({
     },
     close: () => observer.disconnect(),
   };
+}
+
+/** The height of a row in pixels where fingers touch it. */
+export function touchable(height) {
+  return matchMedia("(pointer: coarse)").matches ? Math.max(height, FINGER_PX) : height;
 }
 
 /** Indents a row of a tree by its depth: `--wv-indent`. */

@@ -3,7 +3,7 @@
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { rowList } from "../controls/rows.js";
+import { rowList, touchable } from "../controls/rows.js";
 import { watch } from "../stores.js";
 import { inspector } from "./topics_inspector.js";
 import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";
@@ -70,7 +70,7 @@ export const topics = {
     const observer = new ResizeObserver(([{ contentRect }]) => {
       const isWide = contentRect.width >= WIDE_PX;
       panel.classList.toggle("wv-wide", isWide);
-      list.resize(isWide ? HEIGHTS.wide : HEIGHTS.narrow);
+      list.resize(touchable(isWide ? HEIGHTS.wide : HEIGHTS.narrow));
     });
     observer.observe(panel);
     const ends = [

@@ -3,7 +3,7 @@
 import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { wallNow } from "../clock.js";
-import { indent, rowList } from "../controls/rows.js";
+import { indent, rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { openMenuBelow } from "../shell/menu.js";
@@ -33,7 +33,7 @@ export function inspector(place, name, dismiss) {
   const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
   const problem = el("div", { class: "wv-empty", role: "status", hidden: true });
   const tree = rowList({
-    label: `Last message on ${name}`, role: "tree", rowRole: "treeitem", height: ROW_PX,
+    label: `Last message on ${name}`, role: "tree", rowRole: "treeitem", height: touchable(ROW_PX),
     make: makeRow, update: updateRow, choose: toggle, onKey,
   });
   place.replaceChildren(el("section", { class: "wv-inspected", "aria-label": name },

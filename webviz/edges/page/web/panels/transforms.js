@@ -1,7 +1,7 @@
 // The panel "TF": the tree of frames, and the transform between two of them.
 
 import { act } from "../act.js";
-import { rowList } from "../controls/rows.js";
+import { rowList, touchable } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
@@ -24,7 +24,7 @@ export const transforms = {
       oninput: show,
     });
     const list = rowList({
-      label: "Frames", role: "tree", rowRole: "treeitem", height: ROW_PX, make: makeFrame,
+      label: "Frames", role: "tree", rowRole: "treeitem", height: touchable(ROW_PX), make: makeFrame,
       update: updateFrame, choose, onKey,
     });
     list.element.addEventListener("click", onFold, { capture: true });

@@ -121,7 +121,9 @@ function rows({ way, types, topics }, checked) {
   }
   const fits = ([, { displays }]) => displays.length > 0;
   const all = topics ?? [];
-  return [...all.filter(fits), ...all.filter((one) => !fits(one))].flatMap(([topic, offer]) => {
+  const rank = (one) => (fits(one) ? Number(one[1].shown) : 2);
+  const sorted = all.toSorted((a, b) => rank(a) - rank(b));
+  return sorted.flatMap(([topic, offer]) => {
     const about = { title: topic, note: noteOf(offer) };
     if (!offer.displays.length) {
       return [
@@ -146,8 +148,8 @@ function rows({ way, types, topics }, checked) {
   });
 }
 
-function noteOf({ rate, publishers }) {
-  const parts = [rate ? `${rate} Hz` : "", `${publishers} publisher${publishers === 1 ? "" : "s"}`];
+function noteOf({ rate, publishers, shown }) {
+  const parts = [shown ? "already shown" : "", rate ? `${rate} Hz` : "", `${publishers} publisher${publishers === 1 ? "" : "s"}`];
   return parts.filter(Boolean).join(" · ");
 }
 

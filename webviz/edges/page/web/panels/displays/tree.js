@@ -1,6 +1,7 @@
 // The tree: global options, displays and groups, with what this browser has selected and folded.
 
-import { el, set } from "../../dom.js";
+import { el, set, setText } from "../../dom.js";
+import { touchable } from "../../controls/rows.js";
 import { watch } from "../../stores.js";
 import { recall, remember } from "../../remember.js";
 import * as actions from "./actions.js";
@@ -16,6 +17,8 @@ import { virtualList } from "./virtual.js";
 const SCROLL_KEY = "displays.scroll";
 const HOVER_MS = 250;
 const SEEN_MS = 400; // a second click must find the row where the first one did
+const EMPTY = "No displays yet. Add one for a topic, the robot or a grid.";
+const NOT_FOUND = "No display has this in its name, type or topic.";
 const GUESS = { status: 18, inside: 240 };
 
 /**
@@ -31,6 +34,7 @@ export function buildTree({ after, changed }) {
   let hovered = null;
   let timer = 0;
   let isThere = false;
+  let isKnown = false; // whether the viewer has said which displays there are
   let toRename = null;
   const canvas = el("div", {
     class: "wv-tree-canvas", role: "tree", "aria-label": "Displays", "aria-multiselectable": "true",
@@ -70,8 +74,9 @@ export function buildTree({ after, changed }) {
       selection.activate(rows.find(({ id }) => selection.isSelected(id))?.id ?? rows[0]?.id ?? null);
     }
     list.show(rows);
-    none.hidden = rows.length > 0;
-    none.textContent = rows.length ? "" : "No display has this in its name, type or topic.";
+    const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
+    setText(none, sentence);
+    set(none, { hidden: sentence === "" });
     const [alone] = selection.ids().size === 1 ? selection.ids() : [null];
     changed({ item: alone === GLOBAL ? global : model.byId.get(alone) ?? null, search });
     selection.save([global, ...model.items]);
@@ -227,10 +232,11 @@ export function buildTree({ after, changed }) {
     }),
     watch("displays", (values) => {
       model = arrange(values);
+      isKnown = values.has("order");
       update();
     }),
   ];
   return tree;
 }
 
-const rowHeight = () => (matchMedia("(pointer: coarse)").matches ? 40 : 26);
+const rowHeight = () => touchable(26);
