@@ -23,6 +23,8 @@ setup(
         ],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",
+            "PoseEstimate = webviz.tools.pose_estimate:PoseEstimate",
+            "PublishPoint = webviz.tools.publish_point:PublishPoint",
         ],
     },
     data_files=[

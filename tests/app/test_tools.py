@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
 from remembering_graph import RememberingGraph
 
 import webviz
+from webviz.engine.commands import SetToolProperty, ShowView
 from webviz.engine.sources import Outlet
 from webviz.files.config import Config
 from webviz.files.opening import parse
+from webviz.shell.app.running import checked_view
 from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.source import HandFedSource
 
@@ -42,6 +45,9 @@ def graph(source: HandFedSource) -> RememberingGraph:
     return graph
 
 
+ACTIVE = ".wv-tools button[aria-pressed=true]"
+
+
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
     opened = [Page(browser, viewer.url, 900, 600) for _ in range(2)]
@@ -54,17 +60,29 @@ def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[P
 
 @pytest.fixture
 def page(pages: list[Page], viewer: webviz.Viewer) -> Page:
-    viewer.view = {"type": "TopDownOrtho", "scale": SCALE}
+    show(viewer, {"type": "TopDownOrtho", "scale": SCALE})
     tab = pages[0].tab
-    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 1, "the toolbar")
+    tab.locator(".wv-first-run, .wv-toast").evaluate_all(
+        "(all) => all.forEach((one) => one.remove())"
+    )
+    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 7, "the toolbar")
     pages[0].draw()
-    if is_active(pages[0]):
-        tab.keyboard.press("Escape")
+    tab.keyboard.press("Escape")
     return pages[0]
 
 
+def show(viewer: webviz.Viewer, view: dict[str, Any]) -> None:
+    """Show a view without changing the default one, which toasts over the scene would tell."""
+    viewer.do(ShowView(checked_view(view)))
+
+
 def is_active(page: Page) -> bool:
-    return page.tab.locator(".wv-tools button[aria-pressed=true]").count() == 1
+    """Whether another tool than the default one is selected."""
+    return active(page) != "Interact"
+
+
+def active(page: Page) -> str:
+    return page.tab.locator(ACTIVE).get_attribute("aria-label") or ""
 
 
 def answer(page: Page) -> str:
@@ -113,16 +131,179 @@ def test_a_drag_publishes_the_pose_under_the_pointer(
     assert not is_active(page)
 
 
-def test_a_click_keeps_the_heading_of_the_stroke_before(
-    page: Page, graph: RememberingGraph
-) -> None:
+def test_a_click_without_a_drag_keeps_no_old_heading(page: Page, graph: RememberingGraph) -> None:
     for end in ((60.0, 60.0), (0.0, 0.0)):
         page.tab.keyboard.press("g")
         drag(page, (0.0, 0.0), end)
     page.wait_for(lambda: len(graph.published) == 2, "two goals")
     first, second = (goal.pose.orientation for _, goal in graph.published)
-    assert (second.z, second.w) == (first.z, first.w)
     assert 2.0 * math.atan2(first.z, first.w) == pytest.approx(-math.pi / 4, abs=0.02)
+    assert (second.z, second.w) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize(("key", "topic"), [("g", "/goal_pose"), ("p", "/initialpose")])
+def test_ctrl_lifts_a_pose_and_the_hint_says_where_it_is(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, key: str, topic: str
+) -> None:
+    show(viewer, {"type": "Orbit", "distance": 10.0, "yaw": -1.570796, "pitch": 0.5})
+    page.draw()
+    tab, (x, y) = page.tab, middle(page)
+    tab.keyboard.press(key)
+    tab.mouse.move(x, y + 40)
+    tab.mouse.down()
+    tab.mouse.move(x + 80, y + 40, steps=3)
+    assert answer(page).endswith("z 0.00 m · yaw 0.0°")
+    tab.keyboard.down("Control")
+    tab.mouse.move(x + 80, y - 40, steps=3)
+    lifted = answer(page)
+    tab.keyboard.up("Control")
+    tab.mouse.move(x + 80, y - 45)
+    tab.mouse.up()
+    page.wait_for(lambda: answer(page) == f"Published to {topic}, 1 subscription.", "the answer")
+    ((_, message),) = graph.published
+    pose = message.pose.pose if topic == "/initialpose" else message.pose
+    assert f"x {pose.position.x:.2f} y {pose.position.y:.2f} z {pose.position.z:.2f} m" in lifted
+    # 80 pixels at 10 m from the camera, which looks down by half a radian.
+    assert 0.8 < pose.position.z < 2.0
+    assert pose.orientation.w == pytest.approx(1.0, abs=0.02)
+
+
+def test_seen_from_above_a_pixel_up_lifts_by_a_pixel(page: Page, graph: RememberingGraph) -> None:
+    tab, (x, y) = page.tab, middle(page)
+    tab.keyboard.press("g")
+    tab.mouse.move(x + 50, y)
+    tab.keyboard.down("Control")
+    tab.mouse.down()
+    tab.mouse.move(x + 50, y - 100, steps=3)
+    tab.mouse.up()
+    tab.keyboard.up("Control")
+    page.wait_for(lambda: len(graph.published) == 1, "the goal")
+    ((_, goal),) = graph.published
+    position = goal.pose.position
+    expected = pytest.approx((50.0 / SCALE, 0.0, 100.0 / SCALE), abs=0.5 / SCALE)
+    assert (position.x, position.y, position.z) == expected
+
+
+@pytest.fixture
+def box(viewer: webviz.Viewer, page: Page) -> Iterator[None]:
+    """Axes whose x axis, a rod with a radius of 1 m, lies on the ground."""
+    axes = viewer.add("Axes", length=4.0, radius=1.0)
+    page.draw()
+    yield
+    axes.remove()
+
+
+def test_a_point_is_published_with_its_true_height(
+    page: Page, graph: RememberingGraph, box: None
+) -> None:
+    page.tab.keyboard.press("u")
+    drag(page, (2.0 * SCALE, 0.0), (2.0 * SCALE, 0.0))
+    page.wait_for(lambda: len(graph.published) == 1, "the point")
+    ((outlet, point),) = graph.published
+    assert outlet == Outlet("/clicked_point", "geometry_msgs/msg/PointStamped")
+    expected = pytest.approx((2.0, 0.0, 1.0), abs=0.05)
+    assert (point.point.x, point.point.y, point.point.z) == expected
+    assert not is_active(page)
+
+
+def test_points_follow_each_other_without_single_click(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer
+) -> None:
+    viewer.do(SetToolProperty("Publish Point", "single_click", False))
+    page.tab.keyboard.press("u")
+    for x in (0.0, 50.0):
+        drag(page, (x, 0.0), (x, 0.0))
+    page.wait_for(lambda: len(graph.published) == 2, "two points")
+    assert active(page) == "Publish Point"
+    viewer.do(SetToolProperty("Publish Point", "single_click", True))
+
+
+def test_a_pose_estimate_is_published_by_a_drag(page: Page, graph: RememberingGraph) -> None:
+    page.tab.keyboard.press("p")
+    drag(page, (0.0, 50.0), (-50.0, 50.0))
+    page.wait_for(lambda: len(graph.published) == 1, "the estimate")
+    ((outlet, estimate),) = graph.published
+    assert outlet.topic == "/initialpose"
+    assert estimate.pose.pose.position.y == pytest.approx(-1.0, abs=0.5 / SCALE)
+    assert abs(estimate.pose.pose.orientation.z) == pytest.approx(1.0, abs=1e-3)
+    assert estimate.pose.covariance[35] == pytest.approx((math.pi / 12) ** 2)
+
+
+def test_measuring_shows_the_length_until_it_is_cleared(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer
+) -> None:
+    tab, (x, y) = page.tab, middle(page)
+    labels = tab.locator(".wv-measure-label:visible")
+    tab.keyboard.press("n")
+    tab.mouse.click(x, y)
+    tab.mouse.move(x + 50, y, steps=3)
+    page.wait_for(lambda: "1.000 m" in answer(page), "the live length")
+    tab.mouse.click(x - 150, y + 200)
+    tab.mouse.click(x - 50, y)
+    tab.mouse.click(x - 100, y)
+    page.draw()
+    assert labels.all_inner_texts() == [
+        "5.000 m\nx -3.000 y -4.000 z 0.000",
+        "1.000 m\nx -1.000 y 0.000 z 0.000",
+    ]
+    tab.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    labels.first.click()
+    page.wait_for(lambda: answer(page).startswith("Copied 5.000 m (x -3.000"), "the answer")
+    assert tab.evaluate("navigator.clipboard.readText()") == "5.000 m (x -3.000 y -4.000 z 0.000)"
+    tab.keyboard.press("Escape")
+    assert labels.count() == 2
+    # It stays where it is in the fixed frame.
+    before = labels.first.bounding_box()
+    show(viewer, {"type": "TopDownOrtho", "scale": 2 * SCALE})
+    page.draw()
+    after = labels.first.bounding_box()
+    assert before
+    assert after
+    assert after["x"] - before["x"] == pytest.approx(-75.0, abs=2.0)
+    tab.keyboard.press("n")
+    tab.mouse.click(x, y, button="right")
+    page.wait_for(lambda: labels.count() == 0, "no lines")
+
+
+def test_measuring_snaps_to_surfaces(page: Page, graph: RememberingGraph, box: None) -> None:
+    tab, (x, y) = page.tab, middle(page)
+    tab.keyboard.press("n")
+    tab.mouse.click(x + 2 * SCALE, y)
+    tab.mouse.click(x - 3 * SCALE, y - 2 * SCALE)
+    page.draw()
+    text = tab.locator(".wv-measure-label").inner_text()
+    tab.mouse.click(x, y, button="right")
+    dx, dy, dz = (float(word) for word in text.split("\n")[1].split()[1::2])
+    assert (dx, dy, dz) == pytest.approx((-5.0, 2.0, -1.0), abs=0.05)
+
+
+def test_focus_camera_looks_at_the_point(page: Page, graph: RememberingGraph) -> None:
+    page.tab.keyboard.press("c")
+    assert active(page) == "Focus Camera"
+    drag(page, (2.0 * SCALE, SCALE), (2.0 * SCALE, SCALE))
+    assert not is_active(page)
+    page.draw()
+    page.tab.keyboard.press("g")
+    drag(page, (0.0, 0.0), (0.0, 0.0))
+    page.wait_for(lambda: len(graph.published) == 1, "the goal")
+    ((_, goal),) = graph.published
+    expected = pytest.approx((2.0, -1.0), abs=1.0 / SCALE)
+    assert (goal.pose.position.x, goal.pose.position.y) == expected
+
+
+@pytest.mark.parametrize("key", ["i", "m", "n", "c"])
+def test_the_camera_is_dragged_with_tools_of_the_page(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer, key: str
+) -> None:
+    show(viewer, {"type": "Orbit", "distance": 10.0})
+    page.draw()
+    camera = "window.__viserMutable.camera.matrixWorld.toArray().join()"
+    before = page.tab.evaluate(camera)
+    page.tab.keyboard.press(key)
+    drag(page, (0.0, 0.0), (60.0, 0.0))
+    page.draw()
+    assert page.tab.evaluate(camera) != before
+    assert page.tab.locator(".wv-measure-label").count() == 0
 
 
 def test_the_camera_stays_and_the_preview_is_there_during_the_drag(
@@ -136,7 +317,7 @@ def test_the_camera_stays_and_the_preview_is_there_during_the_drag(
     page.tab.mouse.down()
     page.tab.mouse.move(x + 80, y, steps=4)
     page.tab.mouse.wheel(0, 300)
-    preview = page.tab.locator("svg[data-webviz=preview]")
+    preview = page.tab.locator("[data-webviz=preview]")
     page.wait_for(lambda: preview.count() == 1, "the preview")
     assert page.tab.evaluate(camera) == before
     page.tab.keyboard.press("Escape")
@@ -202,7 +383,8 @@ def test_touch_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> No
 def test_a_stroke_that_is_not_valid_publishes_nothing(
     page: Page, graph: RememberingGraph, viewer: webviz.Viewer, stroke: str
 ) -> None:
-    text = stroke.replace("TOOL", viewer.state.tools[0].id)
+    goal = next(tool for tool in viewer.state.tools if tool.name == "2D Goal Pose")
+    text = stroke.replace("TOOL", goal.id)
     page.tab.evaluate(
         "async (text) => (await import('./webviz/channel.js')).send(JSON.parse(text))", text
     )
@@ -232,6 +414,11 @@ def test_a_program_uses_a_tool_as_a_page_does(
     assert said == "Published to /goal_pose, 1 subscription."
     ((_, goal),) = graph.published
     assert (goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.z) == (1.0, 2.0, 1.0)
+    viewer.tool("2D Pose Estimate").send(3.0, 4.0)
+    viewer.tool("Publish Point").send(5.0, 6.0, z=7.0)
+    (_, estimate), (_, point) = graph.published[1:]
+    assert estimate.pose.pose.position.y == 4.0
+    assert (point.point.x, point.point.y, point.point.z) == (5.0, 6.0, 7.0)
     with pytest.raises(webviz.Error, match=r"Unknown tool `2D Gaol Pose`: did you mean"):
         viewer.tool("2D Gaol Pose").send(0.0, 0.0)
     with pytest.raises(webviz.Error, match="a stroke has 1 to 1000 points within"):

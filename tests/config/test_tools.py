@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import pytest
 
+from webviz.api.tool import Tool, outputs
 from webviz.files.config import Config, ConfigError, Unreadable, document, dump
 from webviz.files.opening import parse
-from webviz.tools.goal_pose import GoalPose
 
 INSTALLED = "version: 1\ndisplays: []\n"
 
 
 def test_without_a_list_there_are_all_installed_tools_and_none_is_written() -> None:
     config = parse(INSTALLED, "x.yaml")
-    (tool,) = config.tools
-    assert isinstance(tool, GoalPose)
-    assert (tool.name, tool.topic.name) == ("2D Goal Pose", "/goal_pose")
+    tools = [tool for tool in config.tools if isinstance(tool, Tool)]
+    assert [(tool.name, topic.name) for tool in tools for _, _, topic in outputs(tool)] == [
+        ("2D Goal Pose", "/goal_pose"),
+        ("2D Pose Estimate", "/initialpose"),
+        ("Publish Point", "/clicked_point"),
+    ]
     assert dump(config) == INSTALLED
 
 

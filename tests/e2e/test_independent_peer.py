@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import signal
 import subprocess
@@ -31,6 +32,13 @@ displays:
 - {type: TF}
 - {type: Odometry}
 """
+
+SENT = {
+    "goal_pose": ("g", r"PoseStamped\(header=Header\(.*frame_id='map'\).*z=0\.0"),
+    "initialpose": ("p", r"PoseWithCovarianceStamped\(header=Header\(.*frame_id='map'\).*0\.25, "),
+    "clicked_point": ("u", r"PointStamped\(header=Header\(.*frame_id='map'\).*z=0\.0"),
+}
+"""By topic, the key of a tool and what the peer hears of it."""
 
 
 @pytest.fixture(scope="module")
@@ -67,9 +75,9 @@ def peer(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
 
 @pytest.fixture
 def echo(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
-    """What the peer hears of goals."""
+    """What the peer hears of tools."""
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
-    command = [peer_python, "-u", str(PEER), "echo", "goal_pose"]
+    command = [peer_python, "-u", str(PEER), "echo", *SENT]
     program = Program(
         [*command, "--seconds", "120", "--domain", domain], env, tmp_path / "echo.txt"
     )
@@ -109,22 +117,23 @@ def test_it_sees_everything_the_peer_publishes(
     side.wait_for("from a DDS program (best effort, volatile)")
 
 
-def test_the_peer_receives_the_goal_that_is_dragged_on_the_page(
+def test_the_peer_receives_what_tools_send_from_the_page(
     echo: Program, url: str, open_page: Callable[..., Page]
 ) -> None:
     page = open_page(url)
     answer = page.tab.locator(".wv-hint")
-    page.tab.locator(".wv-tools button").wait_for(timeout=60_000)
+    page.tab.get_by_role("button", name="2D Goal Pose").wait_for(timeout=60_000)
 
-    def publish() -> bool:
-        """Send a goal, again until the two programs know each other."""
-        page.tab.keyboard.press("g")
+    def publish(key: str, topic: str) -> bool:
+        """Use a tool, again until the two programs know each other."""
+        page.tab.keyboard.press(key)
         page.tab.mouse.move(600, 250)
         page.tab.mouse.down()
         page.tab.mouse.move(700, 250, steps=3)
         page.tab.mouse.up()
-        page.wait_for(lambda: "/goal_pose" in answer.inner_text(), "the answer")
-        return answer.inner_text() == "Published to /goal_pose, 1 subscription."
+        page.wait_for(lambda: f"/{topic}" in answer.inner_text(), "the answer")
+        return answer.inner_text() == f"Published to /{topic}, 1 subscription."
 
-    page.wait_for(publish, "a subscription", 60)
-    echo.wait_for(r"goal_pose PoseStamped\(header=Header\(.*frame_id='map'\).*z=0\.0")
+    for topic, (key, heard) in SENT.items():
+        page.wait_for(functools.partial(publish, key, topic), "a subscription", 60)
+        echo.wait_for(rf"{topic} {heard}")

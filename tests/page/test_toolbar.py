@@ -27,7 +27,7 @@ def toolbar(tab: Tab) -> playwright.Locator:
 @pytest.fixture
 def wide(open_tab: Callable[..., Tab]) -> Tab:
     """A tab in which everything fits, with two tools, three frames and one saved view."""
-    wide = open_tab(1400, 900)
+    wide = open_tab(1600, 900)
     browser = wide.page.evaluate("window.webviz.browser")
     state = replace(
         wide.loop.state,
@@ -93,7 +93,7 @@ def test_a_tool_is_chosen_by_its_key_and_left_by_escape(wide: Tab) -> None:
     wide.page.keyboard.press("g")
     playwright.expect(goal).to_have_attribute("aria-pressed", "true")
     playwright.expect(hint).to_have_text(
-        "Press on the ground and drag towards the heading. Esc cancels."
+        "Press on the ground and drag towards the heading. Ctrl lifts. Esc cancels."
     )
     wide.page.keyboard.press("Escape")
     playwright.expect(goal).to_have_attribute("aria-pressed", "false")
@@ -112,9 +112,9 @@ def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None
 
 
 def test_what_does_not_fit_is_in_a_menu(wide: Tab) -> None:
-    playwright.expect(wide.button("More")).to_be_hidden()
+    playwright.expect(toolbar(wide).get_by_role("button", name="More")).to_be_hidden()
     wide.page.set_viewport_size({"width": 760, "height": 700})
-    wide.button("More").click()
+    toolbar(wide).get_by_role("button", name="More").click()
     items = wide.page.get_by_role("menu")
     playwright.expect(items).to_contain_text("Fixed frame…")
     playwright.expect(items).to_contain_text("Follow…")

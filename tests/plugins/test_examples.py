@@ -13,6 +13,7 @@ from remembering_graph import RememberingGraph
 from webviz.api import registry
 from webviz.api.display import Display
 from webviz.api.status import Status
+from webviz.data.messages import decode, encode
 from webviz.engine.commands import UseTool
 from webviz.engine.plugins import load
 from webviz.shell.testing.messages import header
@@ -71,22 +72,29 @@ def test_camera_view_says_that_a_camera_is_not_calibrated(
     assert b.statuses()["Camera"] == ("ERROR", text)
 
 
-def test_publish_point_is_a_tool_that_publishes_what_is_clicked(bench: Callable[..., Any]) -> None:
-    path = EXAMPLES / "publish_point.py"
+def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(
+    bench: Callable[..., Any],
+) -> None:
+    path = EXAMPLES / "spawn_turtle.py"
+    told: list[Status] = []
     try:
         load(path)
         b = bench()
         graph = b.source.graph = RememberingGraph()
-        told: list[Status] = []
-        answer = b.viewer.enqueue(UseTool("Publish Point", ((1.0, 2.0, 0.0),), report=told.append))
-        b.turn()
-        assert answer.result() == ""
+        for _ in range(2):
+            b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=told.append))
+            b.turn()
+            graph.responses["/spawn"] = encode("turtlesim/srv/Spawn_Response", {"name": "turtle2"})
     finally:
         registry.register(str(path), {})
-    ((outlet, point),) = graph.published
-    assert (outlet.topic, outlet.type) == ("/clicked_point", "geometry_msgs/msg/PointStamped")
-    assert (point.header.frame_id, point.point.x, point.point.y) == ("map", 1.0, 2.0)
-    assert [status.text for status in told] == ["Published to /clicked_point, 1 subscription."]
+    service, type_, request = graph.requests[1]
+    assert (service, type_) == ("/spawn", "turtlesim/srv/Spawn")
+    spawn = decode("turtlesim/srv/Spawn_Request", request)
+    assert (spawn.x, spawn.y, spawn.theta, spawn.name) == (1.0, 2.0, 0.0, "")
+    assert [status.text for status in told] == [
+        "No node offers /spawn. Start one.",
+        "Spawned turtle2.",
+    ]
 
 
 def test_every_example_is_listed() -> None:

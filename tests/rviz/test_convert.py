@@ -25,7 +25,7 @@ Visualization Manager:
     - Class: my_plugins/Laser
       Name: Mine
   Tools:
-    - Class: rviz_default_plugins/Measure
+    - Class: rviz_default_plugins/Select
 """
 
 
@@ -93,5 +93,5 @@ def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
     assert [(row.name, row.level.name) for row in states[-1].rows][1] == ("Mine", "ERROR")
     # Saving keeps what the import could not use.
     assert "my_plugins/Laser" in config_file.dump(viewer.config())
-    assert "rviz_default_plugins/Measure" in config_file.dump(viewer.config())
+    assert "rviz_default_plugins/Select" in config_file.dump(viewer.config())
     viewer._workers.close()

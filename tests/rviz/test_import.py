@@ -338,7 +338,7 @@ def test_panels_and_tools_are_told_once() -> None:
             Visualization Manager:
               Tools:
                 - Class: rviz_default_plugins/MoveCamera
-                - Class: rviz_default_plugins/Measure
+                - Class: my_package/Brush
                 - Class: rviz_default_plugins/Select
             """
         ),
@@ -346,7 +346,7 @@ def test_panels_and_tools_are_told_once() -> None:
     )
     sentences = said(report)
     assert sentences == (
-        "Panels and tools: Selection, my_package/Lamp, Measure, Select: "
+        "Panels and tools: Selection, my_package/Lamp, my_package/Brush, Select: "
         "unsupported; kept for export."
     )
 

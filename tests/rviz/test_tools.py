@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -13,6 +14,8 @@ from webviz.files import rviz
 from webviz.files.config import Config, dump
 from webviz.files.opening import parse
 from webviz.tools.goal_pose import GoalPose
+from webviz.tools.pose_estimate import PoseEstimate
+from webviz.tools.publish_point import PublishPoint
 
 TOOLS = """\
 Visualization Manager:
@@ -24,6 +27,13 @@ Visualization Manager:
     - {Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}
     - {Class: rviz_default_plugins/SetGoal, Topic: /second}
 """
+
+QOS = {
+    "Depth": 5,
+    "Durability Policy": "Volatile",
+    "History Policy": "Keep Last",
+    "Reliability Policy": "Reliable",
+}
 
 
 def opened(tools: str) -> tuple[Config, rviz.Report]:
@@ -63,6 +73,35 @@ def test_the_toolbar_comes_back_in_its_order_with_every_key() -> None:
     assert second["Topic"] == "/second"
 
 
+def test_estimates_and_points_come_back_as_they_were() -> None:
+    tools = [
+        {"Class": "rviz_default_plugins/Interact", "Hide Inactive Objects": True},
+        {"Class": "rviz_default_plugins/Measure", "Line color": "128; 128; 0"},
+        {"Class": "rviz_default_plugins/FocusCamera"},
+        {
+            "Class": "rviz_default_plugins/SetInitialPose",
+            "Covariance x": 0.5,
+            "Covariance y": 0.25,
+            "Covariance yaw": 0.1,
+            "Topic": {"Value": "/estimate", **QOS},
+        },
+        {
+            "Class": "rviz_default_plugins/PublishPoint",
+            "Single click": False,
+            "Topic": {"Value": "/point", **QOS},
+        },
+    ]
+    config, report = opened(json.dumps(tools))
+    assert report.sentences() == []
+    estimate, point = config.tools
+    assert isinstance(estimate, PoseEstimate)
+    assert isinstance(point, PublishPoint)
+    assert (estimate.covariance_x, estimate.covariance_yaw) == (0.5, 0.1)
+    assert (estimate.topic.name, point.topic.name) == ("/estimate", "/point")
+    assert point.stays
+    assert written(config) == tools
+
+
 def test_a_changed_tool_is_written_in_its_place() -> None:
     config, _ = rviz.read(TOOLS, "x.rviz")
     set_property(goals(config)[1], "topic.name", "/third")
@@ -83,9 +122,10 @@ def test_a_removed_tool_is_not_written_again() -> None:
 @pytest.mark.parametrize(("key", "kept"), [("Odd: 1", None), ("Tools: 5", 5)])
 def test_a_file_without_a_list_has_the_default_tools_and_gets_none(key: str, kept: Any) -> None:
     config, _ = rviz.read(f"Visualization Manager:\n  {key}\n", "x.rviz")
-    assert [to_values(tool) for tool in goals(config)] == [{}]
+    tools = [tool for tool in config.tools if isinstance(tool, Tool)]
+    assert [to_values(tool) for tool in tools] == [{}, {}, {}]
     assert written(config) == kept
-    set_property(goals(config)[0], "topic.name", "/go")
+    set_property(tools[0], "topic.name", "/go")
     assert len(written(config)) > 5
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.data.messages import decode
-from webviz.engine.sources import Outlet
+from webviz.engine.sources import NotConnected, Outlet
 
 
 @dataclass
@@ -18,6 +18,10 @@ class RememberingGraph:
     subscriptions: int = 1
     published: list[tuple[Outlet, Any]] = field(default_factory=list)
     advertised: Collection[Outlet] = ()
+    responses: dict[str, bytes] = field(default_factory=dict)
+    """By service, encoded."""
+    requests: list[tuple[str, str, bytes]] = field(default_factory=list)
+    """Service, type and encoded request."""
 
     def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         self.advertised = outlets
@@ -26,6 +30,14 @@ class RememberingGraph:
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
         self.published.append((outlet, decode(outlet.type, cdr)))
         return done(self.subscriptions)
+
+    def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        self.requests.append((service, type, request))
+        if service in self.responses:
+            return done(self.responses[service])
+        missing: Future[bytes] = Future()
+        missing.set_exception(NotConnected(f"No node offers {service}. Start one."))
+        return missing
 
 
 def done(result: Any) -> Future[Any]:

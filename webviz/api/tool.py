@@ -15,9 +15,11 @@ The page follows the gesture and draws its preview itself; the tool gets the fin
 
 from __future__ import annotations
 
+import builtins
 import functools
 import math
 from collections.abc import Callable, Mapping
+from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -28,10 +30,10 @@ from webviz.api.frames import Frames
 from webviz.api.ports import Output
 from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
-from webviz.data.messages import encode
+from webviz.data.messages import decode, encode, interfaces
 
 Gesture = Literal["point", "pose"]
-"""A click on the ground, or a drag from a position towards a heading."""
+"""A click on a position, or a drag from a position towards a heading."""
 
 Position = tuple[float, float, float]
 
@@ -41,9 +43,9 @@ class Stroke:
     """A finished gesture.
 
     Args:
-        points: its path on the ground from start to end, at least one point: x, y and z = 0 in
-            metres in the fixed frame.
-        yaw: the heading of a pose in radians; a click keeps that of the previous stroke.
+        points: its path from start to end, at least one point: x, y and z in metres in the fixed
+            frame. z is 0 unless the tool takes points of surfaces or the gesture was lifted.
+        yaw: the heading of a pose in radians, 0 for a click.
         keys: the held modifier keys: "shift", "ctrl", "alt", "meta".
         browser: id of the browser; None for a program.
     """
@@ -63,6 +65,16 @@ class Stroke:
         """The heading as the values of a geometry_msgs/Quaternion."""
         return {"z": math.sin(self.yaw / 2.0), "w": math.cos(self.yaw / 2.0)}
 
+    @property
+    def point(self) -> dict[str, float]:
+        """The position as the values of a geometry_msgs/Point."""
+        return dict(zip("xyz", self.position, strict=True))
+
+    @property
+    def pose(self) -> dict[str, dict[str, float]]:
+        """Position and heading as the values of a geometry_msgs/Pose."""
+        return {"position": self.point, "orientation": self.orientation}
+
 
 class ToolContext:
     """The context of a tool for one stroke.
@@ -70,7 +82,9 @@ class ToolContext:
     Args:
         frames: the current transforms.
         now_ns: ROS time, which advances while the page is paused.
-        publish: sends an encoded message from an output of the tool, and reports the result.
+        publish: sends a message from an output of the tool, encoded and as its values, and reports
+            the result.
+        call: sends an encoded request to a service: name, type, request, timeout in seconds.
         report: reports to the browser that made the stroke.
     """
 
@@ -79,13 +93,15 @@ class ToolContext:
         tool: Tool,
         frames: Frames,
         now_ns: int,
-        publish: Callable[[str, bytes], None],
+        publish: Callable[[str, bytes, Mapping[str, Any]], None],
+        call: Callable[[str, str, bytes, float], Future[bytes]],
         report: Callable[[Status], None],
     ) -> None:
         self.frames = frames
         self.now_ns = now_ns
         self._tool = tool
         self._publish = publish
+        self._call = call
         self._report = report
 
     @property
@@ -110,7 +126,49 @@ class ToolContext:
             EncodeError: a value does not fit the message definition.
         """
         payload = encode(outputs_of(type(self._tool))[output].type, values)
-        self._publish(output, payload)
+        self._publish(output, payload, values)
+
+    def call(
+        self,
+        service: str,
+        type: str,
+        request: Mapping[str, Any],
+        *,
+        definition: str = "",
+        answered: Callable[[Any], None] | None = None,
+        timeout_s: float = 5.0,
+    ) -> None:
+        """Call a service, and report why it did not respond.
+
+        Args:
+            service: its name; remapped like a topic.
+            type: such as "std_srvs/srv/SetBool".
+            request: values by field; missing fields have their defaults.
+            definition: text of the .srv file, for types unknown to webviz.
+            answered: called with the response from another thread; must not block. Without it, the
+                response is reported as such.
+            timeout_s: for service and response to appear.
+
+        Raises:
+            EncodeError: a value does not fit the request.
+            UnknownTypeError: the type is unknown, and there is no definition.
+        """
+        parts = interfaces.service(type, definition)
+
+        def finish(response: Future[bytes]) -> None:
+            try:
+                message = decode(parts.response, response.result())
+                if answered is None:
+                    self.ok(f"{service} responded.")
+                else:
+                    answered(message)
+            except CancelledError:
+                self.error("The viewer has ended.")
+            except Exception as error:  # of the service, or of a plug-in
+                self.error(str(error) or f"{service}: {builtins.type(error).__name__}.")
+
+        sent = self._call(service, type, encode(parts.request, request), timeout_s)
+        sent.add_done_callback(finish)
 
     def ok(self, text: str) -> None:
         """Report a result to the browser that made the stroke."""
@@ -131,9 +189,19 @@ class Tool(Declared, kw_only=True):
     kind = "tool"
     shortcut: ClassVar[str] = ""
     """The key that selects it, a lower-case letter; "" is none."""
+    icon: ClassVar[str] = ""
+    """An icon of the page for its button, "" for that of its gesture."""
     gesture: ClassVar[Gesture] = "point"
+    surface: ClassVar[bool] = False
+    """Whether a gesture starts on the surface under the pointer instead of on the ground, the plane
+    z = 0 of the fixed frame."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the toolbar.")] = ""
+
+    @property
+    def stays(self) -> bool:
+        """Whether it remains the active tool after a gesture."""
+        return False
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Act on a finished gesture; called by the frame loop."""

@@ -9,7 +9,7 @@ from typing import Any
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
 from webviz.api.status import Level, Status, worst
-from webviz.api.tool import Gesture
+from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
@@ -167,6 +167,10 @@ class ToolButton:
         tooltip: one sentence.
         shortcut: the key that selects it, "" for none.
         gesture: followed by the page.
+        icon: of the page, "" for that of the gesture.
+        surface: whether the gesture starts on a surface.
+        stays: whether it remains active after a gesture.
+        tool: read-only.
     """
 
     id: str
@@ -174,6 +178,10 @@ class ToolButton:
     tooltip: str
     shortcut: str
     gesture: Gesture
+    icon: str = ""
+    surface: bool = False
+    stays: bool = False
+    tool: Tool = field(default_factory=Tool)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,11 @@ from webviz.api.tool import Stroke, Tool, ToolContext
 
 
 class GoalPose(Tool):
-    """Send the robot to a pose: press at the position, drag towards the heading."""
+    """Send the robot to a pose: press at the position, drag towards the heading.
+
+    It is on the ground, the plane z = 0 of the fixed frame. With Ctrl held, moving the pointer up
+    lifts it.
+    """
 
     title = "2D Goal Pose"
     rviz = "rviz_default_plugins/SetGoal"
@@ -22,7 +26,5 @@ class GoalPose(Tool):
     ] = Topic("/goal_pose")
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
-        """Publish the pose at z = 0 of the fixed frame, stamped now, as RViz does."""
-        x, y, _ = stroke.position
-        pose = {"position": {"x": x, "y": y}, "orientation": stroke.orientation}
-        ctx.publish("topic", {"header": ctx.header, "pose": pose})
+        """Publish the pose in the fixed frame, stamped now, as RViz does."""
+        ctx.publish("topic", {"header": ctx.header, "pose": stroke.pose})

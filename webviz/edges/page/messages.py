@@ -123,6 +123,9 @@ class ToolButton(msgspec.Struct, frozen=True):
     tooltip: str
     shortcut: str
     gesture: str
+    icon: str
+    surface: bool
+    stays: bool
 
 
 class Tools(ToPage, frozen=True):
@@ -134,19 +137,44 @@ class Tools(ToPage, frozen=True):
 
 
 class Told(ToPage, frozen=True):
-    """What came of a stroke: a sentence, and its level "ok", "warn" or "error"."""
+    """What came of a stroke: a sentence, and its level "ok", "warn" or "error".
 
+    Args:
+        number: of the stroke.
+    """
+
+    number: int
     level: str
     text: str
 
 
+class Published(ToPage, frozen=True):
+    """A message that a stroke published.
+
+    Args:
+        number: of the stroke.
+        topic, message_type: as chosen.
+        values: by field.
+    """
+
+    number: int
+    topic: str
+    message_type: str
+    values: msgspec.Raw
+
+
 class StrokeDone(FromPage, frozen=True):
-    """A finished gesture; see `webviz.api.tool.Stroke`."""
+    """A finished gesture; see `webviz.api.tool.Stroke`.
+
+    Args:
+        number: for the page to know what came of it.
+    """
 
     tool: str
     points: tuple[tuple[float, float, float], ...]
     yaw: float
     keys: tuple[str, ...]
+    number: int = 0
 
 
 class Shell(ToPage, frozen=True):

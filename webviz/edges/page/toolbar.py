@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from typing import Any
 
 import msgspec
 
 from webviz.api.status import Level, Status
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import StrokeDone, Told, ToolButton, Tools
+from webviz.edges.page.messages import Published, StrokeDone, Told, ToolButton, Tools
 from webviz.engine.commands import Command, Sender, UseTool
 from webviz.engine.state import State
 
@@ -21,7 +23,7 @@ class Toolbar:
         enqueue: takes commands, from any thread.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], object]) -> None:
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
         self._channel = channel
         self._enqueue = enqueue
         self._shown: Tools | None = None
@@ -36,8 +38,22 @@ class Toolbar:
 
     def _use(self, browser: int, stroke: StrokeDone) -> None:
         def tell(status: Status) -> None:
-            self._channel.send(Told(Level(status.level).name.lower(), status.text), browser)
+            level = Level(status.level).name.lower()
+            self._channel.send(Told(stroke.number, level, status.text), browser)
+
+        def published(topic: str, type: str, values: Mapping[str, Any]) -> None:
+            encoded = msgspec.Raw(msgspec.json.encode(values, enc_hook=_plain))
+            self._channel.send(Published(stroke.number, topic, type, encoded), browser)
+
+        def finish(used: Future[str]) -> None:
+            if not used.cancelled() and (error := used.exception()):
+                tell(Status(Level.ERROR, str(error)))
 
         keys = frozenset(stroke.keys)
-        command = UseTool(stroke.tool, stroke.points, stroke.yaw, keys, tell)
-        self._enqueue(command, Sender(browser))
+        command = UseTool(stroke.tool, stroke.points, stroke.yaw, keys, tell, published)
+        self._enqueue(command, Sender(browser)).add_done_callback(finish)
+
+
+def _plain(value: Any) -> Any:
+    """Numbers and arrays of numpy, and for all else its text."""
+    return value.tolist() if hasattr(value, "tolist") else str(value)

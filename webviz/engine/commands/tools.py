@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from webviz.api.status import Status
 from webviz.api.tool import Position
 from webviz.engine.commands.command import Command, ignore
+
+
+def unheard(topic: str, type: str, values: Mapping[str, Any]) -> None:
+    """Ignore a message that was published."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,7 @@ class UseTool(Command):
         tool: id of the tool, or its name.
         points, yaw, keys: of the stroke.
         report: called with the result from any thread; must not block.
+        published: called with the topic, type and values of each message.
     """
 
     tool: str
@@ -26,6 +31,7 @@ class UseTool(Command):
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
     report: Callable[[Status], None] = ignore
+    published: Callable[[str, str, Mapping[str, Any]], None] = unheard
 
 
 @dataclass(frozen=True)

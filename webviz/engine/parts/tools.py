@@ -120,10 +120,14 @@ class ToolsPart(Part):
         stroke = Stroke(command.points, command.yaw, command.keys, sender.browser)
         ports = {name: (output, topic) for name, output, topic in outputs(tool)}
 
-        def publish(name: str, payload: bytes) -> None:
-            self._publish(*ports[name], payload, command.report)
+        def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
+            output, topic = ports[name]
+            command.published(topic.name, output.type, values)
+            self._publish(output, topic, payload, command.report)
 
-        context = ToolContext(tool, self.core.frames, self.core.now_ns, publish, command.report)
+        context = ToolContext(
+            tool, self.core.frames, self.core.now_ns, publish, self._call, command.report
+        )
         tool.done(stroke, context)
 
     def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> None:
@@ -133,6 +137,10 @@ class ToolsPart(Part):
             return
         sent = self.core.source.graph.publish(outlet, payload)
         sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
+
+    def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        name = self.core.source.resolve(service)
+        return self.core.source.graph.call(name, type, request, timeout_s)
 
     def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
         """The outlet of an output; None if its topic has no valid name."""
@@ -160,7 +168,17 @@ class ToolsPart(Part):
 
 def _button(id: str, tool: Tool) -> ToolButton:
     tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
-    return ToolButton(id, tool.name, tooltip, tool.shortcut, tool.gesture)
+    return ToolButton(
+        id,
+        tool.name,
+        tooltip,
+        tool.shortcut,
+        tool.gesture,
+        tool.icon,
+        tool.surface,
+        tool.stays,
+        tool,
+    )
 
 
 def _outcome(topic: str, sent: Future[int]) -> Status:

@@ -24,11 +24,11 @@ class ToolHandle:
         self._viewer = viewer
         self.name = name
 
-    def send(self, x: float, y: float, yaw: float = 0.0) -> str:
+    def send(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
         """Use the tool as with a stroke on the page.
 
         Args:
-            x, y: position in metres in the fixed frame.
+            x, y, z: position in metres in the fixed frame.
             yaw: heading in radians.
 
         Returns:
@@ -43,7 +43,7 @@ class ToolHandle:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
                 first.set_result(status)
 
-        self._viewer.do(UseTool(self.name, ((x, y, 0.0),), yaw, report=report))
+        self._viewer.do(UseTool(self.name, ((x, y, z),), yaw, report=report))
         try:
             status = first.result(PATIENCE_S)
         except TimeoutError:

@@ -15,6 +15,7 @@ from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
+from webviz.edges.page.content.tools import tool
 from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.transforms import between, transforms
 from webviz.edges.page.content.types import addable, types
@@ -36,6 +37,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "properties": properties,
     "rate": rate,
     "settings": settings,
+    "tool": tool,
     "topics": topics,
     "traffic": traffic,
     "statuses": statuses,

@@ -1,9 +1,11 @@
-// The ground of the scene, the plane z = 0 of the fixed frame, as the camera sees it.
+// Places in the fixed frame, whose plane z = 0 is the ground, as the camera sees them.
 
+import { casterAt, hit } from "./mouse.js";
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
 const FARTHEST = 1e6; // metres
+const STEEP = 0.01; // square of the sine of an angle to the vertical
 
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
 
@@ -13,22 +15,50 @@ function toThree() {
   return world.matrixWorld;
 }
 
-/** The point of the ground below a point of the window, in metres, or null above the horizon. */
-export function groundAt(x, y) {
-  const box = viser.canvas().getBoundingClientRect();
-  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
-  const caster = new (viser.Raycaster())();
-  caster.setFromCamera({ x: across * 2 - 1, y: 1 - down * 2 }, viser.camera());
-  const { origin, direction } = caster.ray.applyMatrix4(toThree().clone().invert());
-  const steps = -origin.z / direction.z;
+/** Where a plane z = height is below a point of the window, in metres; null above its horizon. */
+export function planeAt(xy, height) {
+  const { origin, direction } = rayAt(xy);
+  const steps = (height - origin.z) / direction.z;
   if (!(steps > 0 && steps < FARTHEST)) return null;
-  return [...origin.addScaledVector(direction, steps).toArray().slice(0, 2), 0];
+  return [...origin.addScaledVector(direction, steps).toArray().slice(0, 2), height];
 }
 
-/** A point of three.js in the coordinates of the fixed frame. */
-export const toFixedFrame = (point) => point.clone().applyMatrix4(toThree().clone().invert()).toArray();
+/** The point of the ground below a point of the window, in metres, or null above the horizon. */
+export const groundAt = (x, y) => planeAt([x, y], 0);
 
-/** Where a point of the ground is on the canvas, in CSS pixels, or null behind the camera. */
+/** The point of a surface, or of the ground, below a point of the window, in metres, or null. */
+export function surfaceAt(xy) {
+  const found = hit(xy);
+  if (found?.object) return toFixedFrame(found.point);
+  return planeAt(xy, 0);
+}
+
+/**
+ * The height of a vertical line, through a point, next to what is below a point of the window. Seen
+ * from above, where the line is a point, a pixel up is as high as it is wide. Null if it is too far
+ * away.
+ */
+export function heightAt(xy, [x, y, z]) {
+  const { origin, direction } = rayAt(xy);
+  const flat = direction.x ** 2 + direction.y ** 2;
+  if (flat < STEEP) {
+    const [here, there] = [onCanvas([x, y, z]), onCanvas([x + 0.01, y, z])];
+    if (here === null || there === null) return null;
+    return (-0.01 * xy[1]) / Math.hypot(there[0] - here[0], there[1] - here[1]);
+  }
+  const steps = ((x - origin.x) * direction.x + (y - origin.y) * direction.y) / flat;
+  const height = origin.z + steps * direction.z;
+  return steps > 0 && Math.abs(height) < FARTHEST ? height : null;
+}
+
+// Through a point of the window, in the fixed frame.
+const rayAt = (xy) => casterAt(xy).ray.applyMatrix4(toThree().clone().invert());
+
+/** A point of three.js in the coordinates of the fixed frame. */
+export const toFixedFrame = (point) =>
+  point.clone().applyMatrix4(toThree().clone().invert()).toArray();
+
+/** Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera. */
 export function onCanvas(point) {
   const [camera, canvas] = [viser.camera(), viser.canvas()];
   const place = vector(point).applyMatrix4(toThree());

@@ -48,17 +48,23 @@ function notches({ deltaY, deltaMode }) {
   return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
 }
 
+/** What casts a ray through a point of the window, in three.js' coordinates. */
+export function casterAt([x, y]) {
+  const box = viser.canvas().getBoundingClientRect();
+  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
+  const caster = new (viser.Raycaster())();
+  caster.setFromCamera({ x: across * 2 - 1, y: 1 - down * 2 }, viser.camera());
+  return caster;
+}
+
 // The nearest thing under a point of the window: its place in three.js' coordinates, and the object;
 // on the ground the object is null, above the horizon all is.
-export function hit([x, y]) {
+export function hit(xy) {
   const [camera, controls, canvas] = [viser.camera(), viser.controls(), viser.canvas()];
   const world = viser.node(ROOT);
-  const box = canvas.getBoundingClientRect();
-  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
-  const point = { x: across * 2 - 1, y: 1 - down * 2 };
-  const ray = new (viser.Raycaster())();
-  ray.setFromCamera(point, camera);
-  const pixel = (2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360)) / box.height;
+  const ray = casterAt(xy);
+  const tall = 2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360);
+  const pixel = tall / canvas.getBoundingClientRect().height;
   ray.params.Points.threshold = NEAR_PX * pixel;
   ray.params.Line2 = { threshold: NEAR_PX };
   const things = [];
@@ -79,6 +85,14 @@ export function hit([x, y]) {
 
 /** The place under a point of the window, in three.js' coordinates, or null. */
 export const pick = (xy) => hit(xy)?.point ?? null;
+
+/** Looks at what is under a point of the window; at nothing, in that direction, as RViz does. */
+export function focusOn(xy) {
+  const found = pick(xy);
+  if (found) return focus(found);
+  const { origin, direction } = casterAt(xy).ray;
+  focus(origin.addScaledVector(direction, 1));
+}
 
 // RViz turns the camera to the point, and moves a view that cannot turn.
 function focus(point) {

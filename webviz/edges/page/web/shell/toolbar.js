@@ -50,6 +50,7 @@ export function install(places) {
       onkeydown: walk,
     },
     open,
+    tools.icons,
     tools.buttons,
     line,
     type,
@@ -84,6 +85,7 @@ export function install(places) {
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
     { element: views, items: () => savedMenu() },
+    { element: tools.icons, items: () => tools.iconItems() },
     { element: type, items: () => viewMenu() },
   ]);
   places.toolbar.append(element, tools.hint);

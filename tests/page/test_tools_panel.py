@@ -1,0 +1,78 @@
+"""The panel "Tools": what was sent, and the properties of the tools."""
+
+from __future__ import annotations
+
+from tests.page.conftest import Tab
+from webviz.api.declared import make
+from webviz.api.status import Level, Status
+from webviz.api.tool import Tool
+from webviz.engine.commands import SetToolProperty, UseTool
+from webviz.engine.state import ToolButton
+from webviz.files.config import Settings
+from webviz.tools.goal_pose import GoalPose
+from webviz.tools.pose_estimate import PoseEstimate
+
+SEND = """async () => {
+  const history = await import("/webviz/tools/history.js");
+  const goal = { id: "t1", name: "2D Goal Pose", gesture: "pose" };
+  history.send(goal, { points: [[1, 2, 0.5]], yaw: Math.PI / 2, keys: [] });
+}"""
+
+
+def button(id_: str, cls: type[Tool]) -> ToolButton:
+    tool = make(cls, {})
+    return ToolButton(id_, tool.name, "", "", "pose", tool=tool)
+
+
+def shown(tab: Tab) -> None:
+    tools = (button("t1", GoalPose), button("t2", PoseEstimate))
+    tab.loop.show(tools=tools, settings=Settings(fixed_frame="map"))
+    tab.show_tab("Tools")
+
+
+def test_each_tool_has_its_properties(tab: Tab) -> None:
+    shown(tab)
+    field = tab.page.locator("[data-path='covariance_yaw'] input")
+    tab.wait_for(field.is_visible)
+    field.fill("0.5")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(SetToolProperty("t2", "covariance_yaw", 0.5))
+    topics = tab.page.locator("[data-path='topic.name'] input")
+    assert [topic.input_value() for topic in topics.all()] == ["/goal_pose", "/initialpose"]
+
+
+def test_what_was_sent_is_listed_sent_again_and_copied(tab: Tab) -> None:
+    shown(tab)
+    tab.page.evaluate(SEND)
+    tab.wait_for(lambda: isinstance((tab.loop.commands or [None])[-1], UseTool))
+    command = tab.loop.commands[-1]
+    assert isinstance(command, UseTool)
+    assert (command.tool, command.points) == ("t1", ((1.0, 2.0, 0.5),))
+    position = {"x": 1.0, "y": 2.0, "z": 0.5}
+    values = {"header": {"frame_id": "map"}, "pose": {"position": position}}
+    command.published("/goal_pose", "geometry_msgs/msg/PoseStamped", values)
+    command.report(Status(Level.OK, "Published to /goal_pose, 1 subscription."))
+    rows = tab.page.locator(".wv-sent > li")
+    tab.wait_for(lambda: "Published to /goal_pose, 1 subscription." in rows.first.inner_text())
+    assert "x 1.00 y 2.00 z 0.50 · yaw 90.0° · map" in rows.first.inner_text()
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    tab.button("Copy as YAML").click()
+    tab.wait_for(lambda: "Copied as YAML." in tab.text())
+    assert tab.page.evaluate("navigator.clipboard.readText()") == (
+        "# /goal_pose: geometry_msgs/msg/PoseStamped\n"
+        "header:\n  frame_id: map\n"
+        "pose:\n  position:\n    x: 1\n    y: 2\n    z: 0.5\n"
+    )
+    tab.button("Send again").click()
+    tab.wait_for(lambda: len(tab.loop.commands) == 2)
+    again = tab.loop.commands[-1]
+    assert isinstance(again, UseTool)
+    assert (again.points, again.yaw) == (command.points, command.yaw)
+    # What was in another frame would be somewhere else.
+    tab.loop.show(tools=tab.loop.state.tools, settings=Settings(fixed_frame="odom"))
+    tab.turn()
+    tab.button("Send again").last.click()
+    tab.wait_for(lambda: "Not sent: this was in map." in tab.text())
+    for _ in range(25):
+        tab.page.evaluate(SEND)
+    tab.wait_for(lambda: rows.count() == 20)

@@ -1,0 +1,137 @@
+// The panel "Tools": what this page has sent, and RViz's Tool Properties.
+
+import { act } from "../act.js";
+import { copy } from "../clipboard.js";
+import { form } from "../controls/form.js";
+import { el, set, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { toast } from "../shell/toasts.js";
+import { watch } from "../stores.js";
+import { tell } from "../tools/hint.js";
+import * as history from "../tools/history.js";
+import { fixed } from "../tools/numbers.js";
+import * as registry from "../tools/registry.js";
+import { yaml } from "../tools/yaml.js";
+import { maker } from "./displays/properties.js";
+
+const NONE = "Nothing sent from this page yet. Choose a tool over the scene.";
+
+export const toolsPanel = {
+  name: "tools",
+  title: "Tools",
+  open(element) {
+    const sent = el("ol", { class: "wv-sent", "aria-label": "Sent from this page" });
+    const none = el("p", { class: "wv-sent-none" }, NONE);
+    const sections = el("div");
+    element.append(
+      el("h3", { class: "wv-tools-head" }, "Sent from this page"), none, sent,
+      el("h3", { class: "wv-tools-head" }, "Properties"), sections,
+    );
+    const endSent = showSent(sent, none);
+    const endSections = showProperties(sections);
+    return () => {
+      endSent();
+      endSections();
+      element.replaceChildren();
+    };
+  },
+};
+
+function showSent(list, none) {
+  const rows = new Map();
+  const update = () => {
+    const entries = history.all();
+    const known = new Set(entries.map(({ number }) => number));
+    for (const number of rows.keys()) if (!known.has(number)) rows.delete(number);
+    setChildren(list, entries.map((entry) => {
+      const row = rows.get(entry.number) ?? sentRow();
+      rows.set(entry.number, row);
+      row.update(entry);
+      return row.element;
+    }));
+    none.hidden = entries.length > 0;
+  };
+  update();
+  return history.onChange(update);
+}
+
+function sentRow() {
+  let entry = null;
+  const head = el("span", { class: "wv-sent-head" });
+  const place = el("span", { class: "wv-sent-place" });
+  const result = el("span", { class: "wv-sent-result" });
+  const yamlButton = iconButton("copy", "Copy as YAML", () => copyYaml(entry));
+  const element = el("li", {},
+    el("div", { class: "wv-sent-text" }, head, place, result),
+    iconButton("refresh", "Send again", () => sendAgain(entry)), yamlButton);
+  return {
+    element,
+    update(next) {
+      entry = next;
+      const [x, y, z] = next.points[0].map((number) => fixed(number, 2));
+      const heading = `yaw ${fixed((next.yaw * 180) / Math.PI, 1)}°`;
+      const parts = [`x ${x} y ${y} z ${z}`, next.tool.gesture === "pose" && heading, next.frame];
+      setText(head, `${next.tool.name} · ${next.time.toLocaleTimeString()}`);
+      setText(place, parts.filter(Boolean).join(" · "));
+      setText(result, next.text || "No result yet.");
+      set(element, { "data-level": next.level || null });
+      if (yamlButton.hidden !== !next.messages.length) yamlButton.hidden = !next.messages.length;
+    },
+  };
+}
+
+const iconButton = (name, label, run) => el("button", {
+  type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run,
+}, icon(name));
+
+function sendAgain(entry) {
+  if (entry.frame === history.fixedFrame()) return history.again(entry);
+  tell("warn", `Not sent: this was in ${entry.frame}. Choose it as the fixed frame.`);
+}
+
+async function copyYaml({ messages }) {
+  const texts = messages.map(({ topic, type, values }) => `# ${topic}: ${type}\n${yaml(values)}`);
+  if (await copy(texts.join("---\n"))) toast("Copied as YAML.");
+  else toast("The browser does not allow copying.", { level: "error" });
+}
+
+// One section per tool of the viewer; those of the page have no properties.
+function showProperties(place) {
+  const shown = new Map();
+  const update = () => {
+    const tools = registry.all().filter(({ gesture }) => gesture);
+    const ids = new Set(tools.map(({ id }) => id));
+    for (const [id, section] of shown) {
+      if (ids.has(id)) continue;
+      section.end();
+      shown.delete(id);
+    }
+    setChildren(place, tools.map(({ id, name }) => {
+      const section = shown.get(id) ?? toolSection(id);
+      shown.set(id, section);
+      setText(section.title, name);
+      return section.element;
+    }));
+  };
+  const end = registry.onChange(update);
+  update();
+  return () => {
+    end();
+    for (const section of shown.values()) section.end();
+  };
+}
+
+function toolSection(id) {
+  const title = el("summary");
+  const content = el("div");
+  const send = (path, value) =>
+    act("SetToolProperty", { tool: id, path, value }, { quiet: true, errors: "caller" });
+  const made = maker(content, (declared, values) => {
+    return form(declared, { send, name: `tool.${values.get("type")}` });
+  });
+  return {
+    title,
+    element: el("details", { class: "wv-tool-properties", open: true }, title, content),
+    end: watch(`tool:${id}`, made),
+  };
+}

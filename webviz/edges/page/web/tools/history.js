@@ -1,0 +1,54 @@
+// What this page has sent by tools, and what came of it: the newest first.
+
+import * as channel from "../channel.js";
+import { watch } from "../stores.js";
+
+const MAX_KEPT = 20;
+
+const listeners = new Set();
+let sent = [];
+let count = 0;
+let frame = "";
+
+export function install() {
+  watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
+}
+
+export const all = () => sent;
+export const fixedFrame = () => frame;
+
+/** Calls `listener` whenever something is new; returns what ends it. */
+export function onChange(listener) {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+/** Sends a finished gesture of a tool, `{id, name, gesture}`. */
+export function send(tool, { points, yaw, keys }) {
+  count += 1;
+  const stroke = { points, yaw, keys };
+  const result = { level: "", text: "", messages: [] };
+  const entry = { number: count, tool, ...stroke, frame, time: new Date(), ...result };
+  sent = [entry, ...sent].slice(0, MAX_KEPT);
+  channel.send({ type: "StrokeDone", tool: tool.id, ...stroke, number: count });
+  tellAll();
+}
+
+/** Sends it again: a new message, stamped now. */
+export const again = (entry) => send(entry.tool, entry);
+
+/** What came of a gesture, in a sentence. */
+export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));
+
+/** A message that a gesture became: `{topic, type, values}`. */
+export const published = (number, message) =>
+  change(number, (entry) => ({ ...entry, messages: [...entry.messages, message] }));
+
+function change(number, update) {
+  sent = sent.map((entry) => (entry.number === number ? update(entry) : entry));
+  tellAll();
+}
+
+function tellAll() {
+  for (const listener of listeners) listener();
+}

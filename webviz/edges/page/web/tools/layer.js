@@ -1,0 +1,19 @@
+// Drawings over the scene, below the controls of the page.
+
+import { el } from "../dom.js";
+import { canvas } from "../viser_page.js";
+
+/** A layer over the canvas; `place()` moves it to where the canvas is. */
+export function makeLayer(name, ...children) {
+  const element = el("div", { class: "wv-layer", "data-webviz": name }, ...children);
+  let shown = "";
+  document.body.append(element);
+  return {
+    element,
+    place() {
+      const { left, top, width, height } = canvas().getBoundingClientRect();
+      const box = `left: ${left}px; top: ${top}px; width: ${width}px; height: ${height}px`;
+      if (box !== shown) element.style.cssText = shown = box;
+    },
+  };
+}

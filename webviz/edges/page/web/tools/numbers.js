@@ -1,0 +1,4 @@
+// Numbers as tools show them.
+
+/** A number with so many digits after its point; what is rounded to zero has no sign. */
+export const fixed = (number, digits) => number.toFixed(digits).replace(/^-(0\.?0*)$/, "$1");

@@ -1,0 +1,59 @@
+// The tools of this page, and the one that is active; each browser has its own.
+//
+// A tool is `{id, name, tooltip, shortcut, icon, hint}`, with, as far as it needs them: `cursor`;
+// `order`, its place among the others; `select()`, called when it becomes active, and `leave()`,
+// when it is not any more; `pointer(event)`, which gets the pointer's events over the scene before
+// the camera and returns whether it took them; `isLean`, whether its button is an icon only.
+// Interact is the default.
+
+import { canvas } from "../viser_page.js";
+
+const listeners = new Set();
+const sets = new Map();
+let fallback = null;
+let current = null;
+
+/** Replaces the tools that come from one origin. */
+export function provide(origin, tools) {
+  sets.set(origin, tools);
+  const known = all();
+  if (current && !known.includes(current)) {
+    const same = known.find(({ id }) => id === current.id);
+    current.leave?.();
+    current = same ?? fallback;
+  }
+  tellAll();
+}
+
+/** All tools in the order of the toolbar. */
+export const all = () => [...sets.values()].flat().sort((a, b) => a.order - b.order);
+
+export const active = () => current;
+export const isDefault = () => current === fallback;
+
+/** Makes a tool the one to go back to. */
+export function setDefault(tool) {
+  fallback = current = tool;
+}
+
+/** Selects a tool; null is the default. */
+export function select(tool) {
+  current?.leave?.();
+  current = tool ?? fallback;
+  canvas().style.cursor = current.cursor ?? "";
+  current.select?.();
+  tellAll();
+}
+
+/** Selects a tool, or goes back if it is selected. */
+export const toggle = (tool) => select(tool === current ? null : tool);
+
+/** Calls `listener` when tools change or another one is active; returns what ends it. */
+export function onChange(listener) {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+function tellAll() {
+  for (const listener of listeners) listener();
+}

@@ -1,0 +1,60 @@
+// The tools of the viewer: this page follows their gestures, the server acts on what they became.
+
+import * as channel from "../channel.js";
+import { canvas } from "../viser_page.js";
+import { tell, tellLive } from "./hint.js";
+import * as history from "./history.js";
+import { provide, select } from "./registry.js";
+import * as stroke from "./stroke.js";
+
+const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
+const POSE = "drag towards the heading. Ctrl lifts. Esc cancels.";
+const HINTS = {
+  point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
+  pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
+};
+
+export function install() {
+  channel.on("Tools", ({ tools }) => provide("viewer", tools.map(strokeTool)));
+  channel.on("Told", ({ number, level, text }) => {
+    history.told(number, level, text);
+    tell(level, text);
+  });
+  channel.on("Published", ({ number, topic, message_type, values }) =>
+    history.published(number, { topic, type: message_type, values }));
+}
+
+function strokeTool(known, index) {
+  return {
+    ...known,
+    order: FIRST + index,
+    icon: known.icon || known.gesture,
+    hint: HINTS[known.gesture][Number(known.surface)],
+    cursor: "crosshair",
+    leave: stroke.cancel,
+    pointer: (event) => follow(event, known),
+  };
+}
+
+// While a gesture goes on, the camera stays where it is.
+function follow(event, tool) {
+  if (stroke.isGoing()) {
+    if (event.type === "wheel") event.preventDefault();
+    if (!stroke.follows(event)) return true;
+    if (event.type === "pointermove") stroke.follow(event);
+    if (event.type === "pointerup") stroke.end(event);
+    if (event.type === "pointercancel") stroke.cancel();
+    return true;
+  }
+  if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
+  event.preventDefault();
+  const done = (made) => {
+    if (!tool.stays) select(null);
+    history.send(tool, made);
+  };
+  if (!stroke.begin(event, tool, { done, live: tellLive })) {
+    const surface = "Nothing is there. Press on a surface.";
+    tell("warn", tool.surface ? surface : "There is no ground. Press below the horizon.");
+  }
+  return true;
+}

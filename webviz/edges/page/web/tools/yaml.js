@@ -1,0 +1,20 @@
+// Messages as YAML, as `ros2 topic pub` reads them.
+
+const PLAIN = /^[A-Za-z_/][A-Za-z0-9_/.-]*$/;
+const WORDS = /^(true|false|null|yes|no|on|off|y|n)$/i;
+
+/** A message, given as objects, lists, texts and numbers, as YAML that ends with a new line. */
+export function yaml(values, indent = "") {
+  return Object.entries(values).map(([name, value]) => {
+    const isNested = value !== null && typeof value === "object" && !Array.isArray(value);
+    if (!isNested) return `${indent}${name}: ${scalar(value)}\n`;
+    if (!Object.keys(value).length) return `${indent}${name}: {}\n`;
+    return `${indent}${name}:\n${yaml(value, `${indent}  `)}`;
+  }).join("");
+}
+
+// JSON is YAML; names need no quotes.
+function scalar(value) {
+  const isPlain = typeof value === "string" && PLAIN.test(value) && !WORDS.test(value);
+  return isPlain ? value : JSON.stringify(value);
+}
