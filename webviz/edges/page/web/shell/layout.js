@@ -2,10 +2,12 @@
 
 import { el } from "../dom.js";
 import { recall, remember } from "../remember.js";
+import * as viser from "../viser_page.js";
 
 const MIN_WIDTH = 240;
 const MAX_SHARE = 0.7;
 const STEP = 16;
+const FIT_MS = 1000;
 
 const narrow = matchMedia("(max-width: 640px)");
 
@@ -14,6 +16,13 @@ export function install() {
   narrow.addEventListener("change", () => fold(narrow.matches || recall("folded", false)));
   setWidth(recall("width", 320));
   window.addEventListener("resize", () => setWidth(recall("width", 320)));
+  setInterval(fit, FIT_MS);
+}
+
+// viser's canvas measures its place when that changes, but misses a change while it is being made.
+function fit() {
+  const isLate = viser.canvas().clientWidth !== document.getElementById("root").clientWidth;
+  if (isLate) window.dispatchEvent(new Event("resize"));
 }
 
 export const isFolded = () => document.body.classList.contains("wv-folded");
