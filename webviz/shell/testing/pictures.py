@@ -45,9 +45,71 @@ class Album:
     each_display: bool = False
     size: Size = (400, 300)
 
+    def check(
+        self,
+        name: str,
+        pixels: Pixels,
+        mask: Sequence[PixelBox] = (),
+        tolerance: float = TOLERANCE,
+    ) -> Pixels:
+        """Compare a picture with its reference picture, or update that.
+
+        Args:
+            name: of the picture in the album, without suffix.
+            pixels: uint8 (height, width, 3).
+            mask: boxes to ignore.
+            tolerance: share of pixels that may differ.
+
+        Returns:
+            The reference picture, masked.
+
+        Raises:
+            AssertionError: there is a visible difference; the message names the files.
+        """
+        path = self.folder / f"{name}.png"
+        if not path.exists() and not self.update:
+            raise AssertionError(
+                f"{self.shown(path)} is missing. Run pytest with {UPDATE}, check the picture, and "
+                "commit it."
+            )
+        actual = masked(pixels, mask)
+        expected = load(path) if path.exists() else None
+        if expected is not None:
+            expected = masked(expected, mask)
+        share = 1.0
+        if expected is not None and expected.shape == actual.shape:
+            share = share_of_difference(actual, expected)
+        # Keep pictures that pass, since every version adds to the size of a clone.
+        if expected is None or (self.update and share > tolerance):
+            store(actual, path, few_colors=True)
+            return actual
+        if share > tolerance:
+            raise AssertionError(self._complaint(name, path, share, actual, expected))
+        return expected
+
     def shown(self, path: Path) -> str:
         """A path relative to the root, if it is inside."""
         return str(path.relative_to(self.root) if path.is_relative_to(self.root) else path)
+
+    def _complaint(
+        self, name: str, path: Path, share: float, actual: Pixels, expected: Pixels
+    ) -> str:
+        output = self.output / f"{name}.png"
+        store(actual, output)
+        shown, reference = self.shown(output), self.shown(path)
+        remedy = f"If it is correct, run pytest with {UPDATE} and check the picture."
+        if actual.shape != expected.shape:
+            sizes = [f"{p.shape[1]} x {p.shape[0]}" for p in (actual, expected)]
+            return (
+                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}. See {shown}. "
+                f"{remedy}"
+            )
+        marked = output.with_suffix(".difference.png")
+        store(difference_image(actual, expected), marked)
+        return (
+            f"{100 * share:.2f} % of the picture differ from {reference}. See {shown} and "
+            f"{self.shown(marked)}. {remedy}"
+        )
 
 
 @dataclass
@@ -88,26 +150,7 @@ class Photographer:
         Raises:
             AssertionError: there is a visible difference; the message names the files.
         """
-        album = self.album
-        path = album.folder / f"{name}.png"
-        if not path.exists() and not album.update:
-            raise AssertionError(
-                f"{album.shown(path)} is missing. Run pytest with {UPDATE}, check the picture, and "
-                "commit it."
-            )
-        actual = masked(self.capture(), mask)
-        expected = load(path) if path.exists() else None
-        if expected is not None:
-            expected = masked(expected, mask)
-        share = 1.0
-        if expected is not None and expected.shape == actual.shape:
-            share = share_of_difference(actual, expected)
-        # Keep pictures that pass, since every version adds to the size of a clone.
-        if expected is None or (album.update and share > tolerance):
-            store(actual, path, few_colors=True)
-            expected = actual
-        elif share > tolerance:
-            raise AssertionError(self._complaint(name, path, share, actual, expected))
+        expected = self.album.check(name, self.capture(), mask, tolerance)
         self._check_each(name, displays, mask, tolerance, expected)
 
     def _check_each(
@@ -129,23 +172,3 @@ class Photographer:
                 f"The picture {name} would be the same without {' and without '.join(unseen)}. "
                 "Move the camera, or remove them from the scene."
             )
-
-    def _complaint(
-        self, name: str, path: Path, share: float, actual: Pixels, expected: Pixels
-    ) -> str:
-        output = self.album.output / f"{name}.png"
-        store(actual, output)
-        shown, reference = self.album.shown(output), self.album.shown(path)
-        remedy = f"If it is correct, run pytest with {UPDATE} and check the picture."
-        if actual.shape != expected.shape:
-            sizes = [f"{p.shape[1]} x {p.shape[0]}" for p in (actual, expected)]
-            return (
-                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}. See {shown}. "
-                f"{remedy}"
-            )
-        marked = output.with_suffix(".difference.png")
-        store(difference_image(actual, expected), marked)
-        return (
-            f"{100 * share:.2f} % of the picture differ from {reference}. See {shown} and "
-            f"{self.album.shown(marked)}. {remedy}"
-        )

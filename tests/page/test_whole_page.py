@@ -1,0 +1,230 @@
+"""Pictures of the whole page, as somebody sees it who opens it.
+
+A mask covers what differs from moment to moment. Letters are drawn in the font `FONT`.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import building
+import numpy as np
+import PIL.Image
+import playwright.sync_api as playwright
+import pytest
+
+from tests.page.conftest import Loop, Tab, open_page
+from tests.page.trees import group
+from webviz.api.declared import Topic
+from webviz.api.nodes import Image, Points, Pose
+from webviz.api.status import Level, Status
+from webviz.api.views import Orbit
+from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene.server import Server
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Clock, File, Pace, Row, State, ToolButton, Traffic
+from webviz.shell.pictures.browser import Pixels
+from webviz.shell.testing import share_of_difference
+from webviz.shell.testing.pictures import Album
+from webviz_displays.grid import Grid
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.path import Path as PathDisplay
+from webviz_displays.robot_model import RobotModel
+from webviz_sim.pose import Pose2D
+
+DESK, PHONE = (1280, 800), (390, 844)
+TOLERANCE = 0.0001
+"""Share of pixels that may differ: less than the dot of a row that has another colour."""
+FONT = "DejaVu Sans"
+STILL = f"""
+  * {{ transition: none !important; animation: none !important; caret-color: transparent !important;
+    font-family: "{FONT}", sans-serif !important }}
+  .wv-rates {{ width: 110px; height: 28px; visibility: hidden }}
+"""
+FREEZE = "window.setTime = (ms) => { Date.now = () => ms }; setTime(1_764_000_000_000)"
+HAS_MAP = """async () => {
+  const { nodes } = await import("/webviz/viser_page.js");
+  let isDecoded = false;
+  for (const node of Object.values(nodes())) {
+    node?.traverse((object) => (isDecoded ||= Boolean(object.material?.map)));
+  }
+  return isDecoded;
+}"""
+START_NS = 1_764_000_000_000_000_000
+SCAN = "sensor_msgs/msg/LaserScan"
+LOST = {"Topic": Status(Level.ERROR, "No publisher on /scan. Start the laser driver.")}
+FEW = {"Joints": Status(Level.WARN, "No joint state for gripper_link.")}
+TOOLS = (
+    ToolButton("goal", "2D Goal Pose", "Send the robot to a pose.", "g", "pose"),
+    ToolButton("point", "Publish Point", "Publish a point.", "u", "point"),
+)
+
+
+def rows(scan: dict[str, Status] | None = None) -> tuple[Row, ...]:
+    """Six displays, two of them in a group."""
+    displays = (
+        (Grid(name="Grid"), 0, {}),
+        (Map(name="Map"), 0, {}),
+        (RobotModel(name="RobotModel"), 0, FEW),
+        (LaserScan(name="Front scan", topic=Topic("/scan")), 1, scan or {}),
+        (PathDisplay(name="Plan", enabled=False), 1, {}),
+    )
+    made = [
+        Row(f"d{i}", type(one).__name__, one, one.name, statuses, depth, one.enabled)
+        for i, (one, depth, statuses) in enumerate(displays)
+    ]
+    return (
+        *made[:3],
+        group("Sensors", statuses={"Front scan": LOST["Topic"]} if scan else {}),
+        *made[3:],
+    )
+
+
+def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
+    """Show a viewer in which nothing moves, with these statuses of its scan."""
+    browser = tab.page.evaluate("window.webviz.browser")
+    offer = Offer((Publisher("/driver", SCAN, "best_effort", "volatile"),))
+    tab.loop.state = State(
+        rows=rows(scan),
+        views={browser: Orbit()},
+        offers={"/scan": offer},
+        topics={"/scan": (SCAN,)},
+        traffic={"/scan": Traffic(39.84, 1e4)},
+        frames=("base_link", "map"),
+        file=File("/home/me/lab.yaml", is_changed=True),
+        tools=TOOLS,
+        clock=Clock(
+            START_NS, int(83.2e9), START_NS / 1e9, 83.2, pace=Pace(START_NS, START_NS / 1e9)
+        ),
+    )
+
+
+def draw(server: Server) -> None:
+    """The map of the building, and a scan in it."""
+    scene, world = Scene(server), building.WORLD
+    height, width = world.cells.shape
+    shade = np.where(world.cells == 100, 20, np.where(world.cells == 0, 200, 110))
+    cells = np.dstack([shade, shade, shade, np.full_like(shade, 255)]).astype(np.uint8)
+    size = world.resolution
+    origin = Pose((world.origin.x, world.origin.y, 0.0))
+    scene.upsert("d1/all/map|", "map", Image(cells, width * size, height * size), origin)
+    ranges = np.asarray(building.scan(Pose2D(0.0, 0.0, 0.0))["ranges"], float)
+    angles = np.linspace(-math.pi, math.pi, len(ranges), endpoint=False)
+    hits = np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles), 0.1 + 0 * ranges])
+    hits = hits[np.isfinite(ranges)].astype(np.float32)
+    scene.upsert("d3/all/laser|", "points", Points(hits, (255, 60, 30), 0.08), Pose())
+    scene.flush()
+    scene.acknowledge(timeout=20.0)  # the map is encoded in another thread
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    """A server with something to see."""
+    server = open_server(port=0)
+    draw(server)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
+    """Opens tabs in which no time passes."""
+
+    def open_still(size: tuple[int, int], **options: Any) -> Tab:
+        tab = open_tab(*size, timezone_id="UTC", locale="en-US", **options)
+        return still(tab)
+
+    return open_still
+
+
+def still(tab: Tab) -> Tab:
+    """A tab in which no time passes any more."""
+    tab.page.evaluate(FREEZE)
+    tab.wait_for(lambda: tab.page.evaluate("window.webviz?.browser !== undefined"))
+    show(tab)
+    tab.page.add_style_tag(content=STILL)
+    tab.wait_for(lambda: tab.page.evaluate(HAS_MAP))
+    tab.wait_for(lambda: "lab.yaml" in tab.page.locator(".wv-file").inner_text())
+    return tab
+
+
+@pytest.fixture
+def album(request: pytest.FixtureRequest) -> Album:
+    """The reference pictures beside this module."""
+    root = request.config.rootpath
+    update = bool(request.config.getoption("--update-pictures"))
+    return Album(Path(__file__).parent / "pictures", root / "tests/output", root, update)
+
+
+def capture(tab: Tab) -> Pixels:
+    """The page once nothing moves: two equal pictures in a row."""
+    before = b""
+    for _ in range(40):
+        tab.turn()
+        now = tab.page.screenshot()
+        if now == before:
+            with PIL.Image.open(io.BytesIO(now)) as image:
+                return np.asarray(image.convert("RGB"))
+        before = now
+        tab.page.wait_for_timeout(150)
+    raise AssertionError("The page does not stand still.")
+
+
+def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
+    open_still: Callable[..., Tab], album: Album
+) -> None:
+    tab = open_still(DESK, color_scheme="dark")
+    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
+    dark = album.check("dark", capture(tab), tolerance=TOLERANCE)
+
+    tab.page.evaluate("document.querySelector('#webviz').style.setProperty('--wv-warn', '#45b078')")
+    assert share_of_difference(capture(tab), dark) > TOLERANCE
+    tab.page.evaluate("document.querySelector('#webviz').style.removeProperty('--wv-warn')")
+    tab.loop.show(*rows()[:-1])
+    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 6)
+    assert share_of_difference(capture(tab), dark) > TOLERANCE
+
+    show(tab)
+    tab.page.emulate_media(color_scheme="light")
+    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
+    album.check("light", capture(tab), tolerance=TOLERANCE)
+
+    tab.page.emulate_media(color_scheme="dark")
+    show(tab, LOST)
+    tab.page.get_by_role("treeitem", name="Front scan").click()
+    tab.wait_for(lambda: "No publisher on /scan" in tab.text())
+    tab.page.mouse.move(900, 300)
+    tab.page.mouse.move(5, 795)
+    album.check("error", capture(tab), tolerance=TOLERANCE)
+
+
+def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
+    open_still: Callable[..., Tab], album: Album
+) -> None:
+    phone = open_still(PHONE, has_touch=True, is_mobile=True, color_scheme="dark")
+    album.check("phone", capture(phone), tolerance=TOLERANCE)
+    phone.button("Show the panels").tap()
+    phone.wait_for(lambda: phone.page.get_by_role("treeitem").count() == 7)
+    album.check("phone_with_panels", capture(phone), tolerance=TOLERANCE)
+
+
+def test_a_lost_connection_greys_the_page_and_says_so(
+    browser: playwright.Browser, album: Album
+) -> None:
+    server = open_server(port=0)
+    draw(server)
+    options = {"color_scheme": "dark", "timezone_id": "UTC", "locale": "en-US"}
+    tab = Tab(open_page(browser, *DESK, **options), server, Loop(server))
+    still(tab)
+    tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
+    tab.page.wait_for_timeout(1500)  # until the server was heard in the frozen time
+    server.stop()
+    tab.page.evaluate("setTime(1_764_000_012_000)")
+    tab.page.locator(".wv-contact").wait_for()
+    album.check("connection_lost", capture(tab), tolerance=TOLERANCE)
+    tab.page.context.close()
