@@ -79,3 +79,21 @@ def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
     assert content is not None
     assert bytes(content["a"]) == b'{"name": "\\ud800", "topics": ["x"]}'
     assert msgspec.json.encode(content).isascii()
+
+
+def test_of_too_many_statuses_the_worst_are_shown(make_row: MakeRow) -> None:
+    statuses = {f"frame {i}": Status(Level.OK, "fine") for i in range(500)}
+    statuses["last"] = Status(Level.ERROR, "lost")
+    shown = MAKERS["statuses"](State(rows=(make_row("a", statuses=statuses),)), "a")
+    assert shown["statuses"][0] == ["last", "error", "lost"]
+    assert len(shown["statuses"]) + shown["more"] == 501
+    assert shown["more"] > 400
+
+
+def test_an_entry_that_cannot_be_read_says_why_and_has_nothing_to_edit() -> None:
+    reason = Status(Level.ERROR, "displays[0]: unknown display type `Grd`, did you mean `Grid`?")
+    row = Row("a", "Grd", None, "Ground", {"Config": reason})
+    assert (row_of(row)["line"], row_of(row)["can_edit"]) == (reason.text, False)
+    properties = MAKERS["properties"](State(rows=(row,)), "a")
+    assert properties["worst"]["text"] == reason.text
+    assert "declared" not in properties

@@ -118,7 +118,7 @@ class Ui(Protocol):
         ...
 
     def command(
-        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None, icon: str = ""
+        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None
     ) -> None:
         """Add a command to the list of Ctrl+K.
 
@@ -127,7 +127,6 @@ class Ui(Protocol):
             act: its callback.
             key: its keyboard shortcut, "" for none.
             modifier: of the shortcut.
-            icon: unused; kept for panels that name one.
         """
         ...
 

@@ -52,7 +52,7 @@ class Connection(Protocol):
 
 
 class Channel:
-    """Tells pages something, and hears what they tell.
+    """Sends messages to pages, and receives theirs.
 
     Each page that joins viser's server is given a key by viser's connection, and names it when it
     opens the channel: hence the channel knows which of viser's clients it talks to. Both
@@ -76,9 +76,9 @@ class Channel:
         self._decoder = msgspec.json.Decoder[FromPage](_OWN)
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
-        """Tells one page, or everyone; from any thread, at once.
+        """Sends to one page, or to all; from any thread, without waiting.
 
-        Without `browser`, pages that join later are told the newest of each kind that is `kept`.
+        Without `browser`, pages that join later receive the newest of each kind that is `kept`.
         """
         with self._lock:
             if browser is None and message.kept:
@@ -224,7 +224,7 @@ class Channel:
 
 
 class _Outbox:
-    """What one page still has to be told."""
+    """The messages that wait for one page."""
 
     def __init__(self, key: str) -> None:
         self.key: str | None = key

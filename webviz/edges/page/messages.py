@@ -11,22 +11,22 @@ Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
 
 
 class ToPage(msgspec.Struct, frozen=True, tag=True):
-    """What the server tells a page."""
+    """A message from the server to a page."""
 
     kept: ClassVar[bool] = False
-    """Whether only the newest of a kind counts: pages that join are told it, and of those that wait
-    to be sent the newest takes the place of the others."""
+    """Whether only the newest of a kind counts: pages that join receive it, and it replaces
+    older ones that wait to be sent."""
 
 
 class FromPage(msgspec.Struct, frozen=True, tag=True, forbid_unknown_fields=True):
-    """What a page tells the server; nobody vouches for it."""
+    """A message from a page to the server; it may come from any program."""
 
 
 class Hello(FromPage, frozen=True):
     """The first message of a page.
 
     Args:
-        key: what viser's connection of the same page was told.
+        key: received over viser's connection of the same page.
     """
 
     key: str
@@ -232,7 +232,7 @@ class Do(FromPage, frozen=True):
 
 
 class Use(FromPage, frozen=True):
-    """Says what somebody did with a widget of a plug-in's panel.
+    """Reports the use of a widget in a plug-in's panel.
 
     Args:
         number: of the request, for the page to know its `Done`.

@@ -124,7 +124,7 @@ class _Tab:
         """Do what a browser did; returns what went wrong, a sentence or ""."""
         try:
             widget.use(value, browser)
-        except (Exception, SystemExit) as error:  # somebody else's code may raise anything
+        except (Exception, SystemExit) as error:  # a plug-in may raise anything
             return self._acts.note("act", error)
         return ""
 

@@ -1,4 +1,4 @@
-"""The toolbar of every page: tells pages the tools, and the frame loop their strokes."""
+"""The toolbar of every page: shows the tools, and passes strokes on to the frame loop."""
 
 from __future__ import annotations
 

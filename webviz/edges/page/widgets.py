@@ -107,7 +107,7 @@ class Field(Widget):
         return self.values["value"]
 
     def show(self, value: Any) -> None:
-        """Show this value, unless somebody has just entered another one."""
+        """Show this value, unless another one has just been entered."""
         if time.monotonic() - self._entered_s > SETTLE_S:
             self.set(value=clean(value) if isinstance(value, str) else value)
 
@@ -189,7 +189,7 @@ class RecordedUi:
         return self._add(Choice(label, clean(value), edit, hint))
 
     def command(
-        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None, icon: str = ""
+        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None
     ) -> None:
         """Add a command to the list, for every browser."""
         before = {None: "", "cmd/ctrl": "Ctrl+", "cmd/ctrl+shift": "Ctrl+Shift+"}[modifier]

@@ -15,7 +15,7 @@ from webviz.engine.commands import (
 
 
 class Wishes:
-    """Follows which stores are watched: what nobody looks at any more ends by itself.
+    """Follows which stores are watched: work for stores that no page watches ends automatically.
 
     Args:
         enqueue: takes commands, from any thread.

@@ -97,7 +97,7 @@ def _live(topic: Topic, state: State) -> Mapping[str, Any]:
 
 
 def _rate(topic: str, state: State) -> float | None:
-    """In Hz, as precise as it stays the same for a while; None if nobody subscribes."""
+    """In Hz, as precise as it stays the same for a while; None without a subscription."""
     if (traffic := state.traffic.get(topic)) is None:
         return None
     return round(traffic.rate_hz) if traffic.rate_hz >= 10 else round(traffic.rate_hz, 1)

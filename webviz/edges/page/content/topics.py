@@ -22,7 +22,7 @@ def topics(state: State, _: str) -> Mapping[str, Any]:
 
 
 def traffic(state: State, _: str) -> Mapping[str, Any]:
-    """By name, of topics that somebody listens to: "hz", "bytes" per second, "delay" in seconds."""
+    """By name, of topics with a subscription here: "hz", "bytes" per second, "delay" in seconds."""
     return {
         topic: {
             "hz": _digits(traffic.rate_hz, 3),

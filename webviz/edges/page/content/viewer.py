@@ -16,7 +16,7 @@ NO_CONTROL = ("version", "view", "views", "rviz")
 
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
 OWN_NODE = "/webviz"
-"""Unless it is remapped, which nobody does before there is something to see."""
+"""Unless it is remapped, which is rare before anything is published."""
 
 
 def settings(state: State, _: str) -> Mapping[str, Any]:
@@ -53,7 +53,7 @@ def file(state: State, _: str) -> Mapping[str, Any]:
 
 
 def graph(state: State, _: str) -> Mapping[str, Any]:
-    """Whether nobody publishes anything, besides what every node and webviz itself do."""
+    """Whether nothing is published, except by webviz and on topics of every node."""
     published = (offer for topic, offer in state.offers.items() if topic not in OF_EVERY_NODE)
     nodes = {publisher.node for offer in published for publisher in offer.publishers}
     return {"is_empty": not nodes - {OWN_NODE}}

@@ -11,7 +11,7 @@ from webviz.edges.page.content.forms import form, sendable, values_of
 from webviz.engine.state import State
 
 DIGITS = 3
-"""Decimals that are shown; a view that somebody moves has more."""
+"""Decimals that are shown; a view moved by hand has more."""
 
 
 def view(state: State, browser: str) -> Mapping[str, Any]:

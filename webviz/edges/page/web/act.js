@@ -28,7 +28,7 @@ export function act(command, fields = {}, { quiet = false, errors = "toast" } = 
   return answer;
 }
 
-/** Tells what somebody did with a widget of a plug-in's panel; as `act` does. */
+/** Reports the use of a widget in a plug-in's panel; otherwise like `act`. */
 export function use(panel, widget, value = null) {
   const answer = request({ type: "Use", panel, widget, value });
   answer.then(({ level, text }) => {

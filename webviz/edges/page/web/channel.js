@@ -19,7 +19,7 @@ export function onOpen(act) {
 
 export const isOpen = () => socket?.readyState === WebSocket.OPEN;
 
-/** Tells the server something, as soon as it can be reached. */
+/** Sends a message to the server, as soon as it can be reached. */
 export function send(message) {
   if (isOpen()) socket.send(JSON.stringify(message));
   else if (unsent.length < MAX_UNSENT) unsent.push(message);

@@ -31,12 +31,27 @@ export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Puts these children into an element, in this order, and touches no more than it has to. */
+/**
+ * Puts these children into an element, in this order. Others are removed first; what has the focus is
+ * never moved, and nothing changes if they are in order.
+ */
 export function setChildren(element, children) {
-  children.forEach((child, index) => {
-    if (element.children[index] !== child) element.insertBefore(child, element.children[index] ?? null);
-  });
-  while (element.children.length > children.length) element.lastElementChild.remove();
+  const wanted = new Set(children);
+  for (const child of [...element.children]) if (!wanted.has(child)) child.remove();
+  if (!children.length) return;
+  let start = children.findIndex((child) => child.contains(document.activeElement));
+  if (start < 0) {
+    start = 0;
+    if (element.firstElementChild !== children[0]) element.prepend(children[0]);
+  }
+  for (let i = start - 1; i >= 0; i--) {
+    const next = children[i + 1];
+    if (next.previousElementSibling !== children[i]) next.before(children[i]);
+  }
+  for (let i = start + 1; i < children.length; i++) {
+    const before = children[i - 1];
+    if (before.nextElementSibling !== children[i]) before.after(children[i]);
+  }
 }
 
 /** An element of a drawing, with attributes and children as for `el`. */

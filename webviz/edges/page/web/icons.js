@@ -55,7 +55,6 @@ const PATHS = {
   trash: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
   tree: "M6 4v13h6M6 9h6M12 7h7v4h-7zM12 15h7v4h-7z",
   upload: "M12 16V5m-5 5 5-5 5 5M4 20h16",
-  warning: "M12 4 2.5 20h19zM12 10v4M12 17h.01",
 };
 
 /** An icon; a square dot for a name that there is none of. */

@@ -10,7 +10,7 @@ import { sync } from "./sync.js";
  *
  * Options are `{value, note, label, level}`: `note` stands quietly at the right, `label` is shown in
  * place of the value, `level` colours the note. `change` may return the promise of `act`: what it
- * refuses stays in the field for correction, `refused(text)` is told why. Unless `free`, only options
+ * refuses stays in the field for correction, `refused(text)` receives the reason. Unless `free`, only options
  * are taken. `opened()` is called when the list opens, and what it returns when it closes. Returns
  * `{element, input, update({value, options})}`.
  */

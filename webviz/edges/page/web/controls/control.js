@@ -3,7 +3,7 @@
 // A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
 // it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
 // that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
-// when nobody edits it; `describe(text)` is its tooltip; `focus()`.
+// unless it is being edited; `describe(text)` is its tooltip; `focus()`.
 
 import { checkbox, choice, text } from "./simple.js";
 import { color } from "./color.js";

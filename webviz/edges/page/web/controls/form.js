@@ -8,7 +8,7 @@ import { row } from "./property_row.js";
 /**
  * Rows for properties as `content/forms.py` declares them.
  *
- * `send(path, value)` tells the viewer what was entered and returns the promise of `act`. `name` is
+ * `send(path, value)` sends what was entered and returns the promise of `act`. `name` is
  * what this browser remembers by which sections are folded. `marks`: whether what differs from the
  * default is marked. Returns `{element, update(values, changed)}`: values of a store with "value." and
  * "topic." before the paths, and which are new.

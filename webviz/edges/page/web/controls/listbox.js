@@ -1,6 +1,7 @@
 // The list below a combobox, over everything else.
 
 import { el, set } from "../dom.js";
+import { wordsOf } from "../words.js";
 
 const MAX_SHOWN = 100;
 let count = 0;
@@ -23,7 +24,7 @@ export function listbox(input, label, choose) {
 
   function fill() {
     const chosen = shown[active]?.value;
-    const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = wordsOf(search);
     const matches = options.filter((one) => fits(one, words));
     shown = matches.slice(0, MAX_SHOWN);
     active = shown.findIndex(({ value }) => value === chosen);

@@ -8,7 +8,7 @@ import { bounds } from "./units.js";
 let count = 0;
 
 /**
- * A row for a property as `content/forms.py` declares it. `send(path, value)` tells the viewer, and
+ * A row for a property as `content/forms.py` declares it. `send(path, value)` sends it to the viewer, and
  * returns the promise of `act`. `marks`: whether it shows what differs from the default. Returns
  * `{element, update(value), live(known)}`.
  */

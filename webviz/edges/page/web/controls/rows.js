@@ -1,6 +1,6 @@
 // A list or tree of rows of one height, of which only those that are seen are in the page.
 //
-// The list has the focus; arrow keys move the row that is marked, which is told to screen readers.
+// The list has the focus; arrow keys move the row that is marked, which screen readers announce.
 
 import { el, set } from "../dom.js";
 

@@ -1,15 +1,15 @@
 // Keeps a control and a value of the viewer the same.
 //
-// The control shows what the viewer has. What somebody enters is sent; until the viewer has taken it
+// The control shows what the viewer has. What is entered is sent; until the viewer has taken it
 // over, it sends older values, which must not set the control back under the hand. So what comes from
-// outside waits while somebody edits, and a moment longer; then the newest is shown.
+// outside waits during an edit, and a moment longer; then the newest is shown.
 
-export const SETTLE_MS = 500;
+const SETTLE_MS = 500;
 const ANSWER_MS = 8000; // then it was lost with the connection
 const LOST = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
 
 /**
- * `show(value)` makes the control show a value. `send(value)` tells the viewer; it may return a promise
+ * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a promise
  * of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well.
  */
 export function sync({ show, send, refused = () => {} }) {
@@ -59,7 +59,7 @@ export function sync({ show, send, refused = () => {} }) {
       hasNewest = true;
       if (!isBusy()) show(value);
     },
-    /** Somebody begins to type or drag. */
+    /** Typing or dragging begins. */
     hold() {
       isHeld = true;
     },

@@ -49,7 +49,7 @@ export function format(value) {
 }
 
 /** The largest power of ten up to a size. */
-export const powerOfTen = (size) => Number(`1e${Math.floor(Math.log10(size))}`);
+const powerOfTen = (size) => Number(`1e${Math.floor(Math.log10(size))}`);
 
 /** How far one step of an arrow key goes from a value. */
 export function stepOf({ kind, low, high }, value) {

@@ -1,4 +1,4 @@
-// How the page keeps up: frames a second and the way to the server and back; a click tells more.
+// How the page keeps up: frames a second and the way to the server and back; a click shows details.
 
 import * as channel from "../channel.js";
 import { el, setChildren, setText } from "../dom.js";

@@ -3,6 +3,7 @@
 import { indent } from "../controls/rows.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { wordsOf } from "../words.js";
 import { rateText, spanText } from "./units.js";
 
 /**
@@ -14,7 +15,7 @@ export function frameRows(values, folded, text) {
   for (const [name, { parent }] of frames(values)) {
     children.set(parent, [...(children.get(parent) ?? []), name]);
   }
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const words = wordsOf(text);
   const rows = [];
 
   function add(name, depth, path) {

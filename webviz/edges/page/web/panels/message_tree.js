@@ -9,7 +9,7 @@ const entries = (tree) =>
 
 /**
  * The rows of a message that are not folded away: `{key, depth, name, value, isOpen}`; `isOpen` is null
- * where nothing can be unfolded. `folds` has what somebody has folded or unfolded, by key.
+ * where nothing can be unfolded. `folds` has what was folded or unfolded by hand, by key.
  */
 export function rowsOf(tree, folds, depth = 0, path = "") {
   return entries(tree).flatMap(([name, inside]) => {

@@ -8,7 +8,7 @@ const TYPING_MS = 600;
 
 const MAKERS = { area, button, checkbox, field, choice };
 
-/** A widget of these values; `send(value)` tells the panel what somebody did with it. */
+/** A widget of these values; `send(value)` reports its use to the panel. */
 export function makeWidget(values, send) {
   return { kind: values.kind, ...MAKERS[values.kind](values, send) };
 }

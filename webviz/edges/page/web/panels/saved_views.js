@@ -4,7 +4,7 @@ import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
 
-const NAME = "View"; // of one that nobody named, before its number
+const NAME = "View"; // of a view without a name, before its number
 
 /** The list, and below it the field that saves. Returns `{element, update(saved)}`. */
 export function savedViews() {

@@ -1,6 +1,7 @@
 // The table of topics: which there are, in which order, and their cells.
 
 import { el, set, setText } from "../dom.js";
+import { wordsOf } from "../words.js";
 import { bytesText, rateText, spanText } from "./units.js";
 
 const shortType = (type) => type.replace("/msg/", "/");
@@ -39,7 +40,7 @@ function typesText(topic) {
 
 /** The topics with every word of a text in name or type, in the order of a column. */
 export function arranged(topics, text, sort) {
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const words = wordsOf(text);
   const found = topics.filter(({ key, types }) => {
     const all = `${key} ${types.join(" ")}`.toLowerCase();
     return words.every((word) => all.includes(word));

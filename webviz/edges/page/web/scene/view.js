@@ -2,7 +2,7 @@
 //
 // A view follows its target frame by a pose that is put before the camera's own when a frame is
 // drawn, read from the node of that frame at that very moment: robot and camera move in the same
-// picture, and whoever turns the camera meanwhile turns it relative to the frame. TopDownOrtho is
+// picture, and turning the camera meanwhile turns it relative to the frame. TopDownOrtho is
 // viser's camera far above with a narrow field of view, so that all that asks for these two
 // (dragging, sizes of points and labels) stays right, and the projection of the picture and of rays
 // is replaced by a parallel one.
@@ -12,7 +12,7 @@ import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
 const { ROOT, RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
-const SENT_MS = 100; // after which viser has told where the camera is
+const SENT_MS = 100; // after which viser has reported the camera
 
 const listeners = [];
 let camera = null;

@@ -38,7 +38,7 @@ export function all() {
 /** The keys of a command, in a list. */
 export const keysOf = ({ key }) => (key ? [key].flat() : []);
 
-/** Whether somebody types where an event happens. */
+/** Whether the target of an event is a text field. */
 export const isTyping = (event) => Boolean(event.target.closest?.(TYPED));
 
 export function install() {

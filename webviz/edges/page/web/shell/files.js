@@ -17,12 +17,12 @@ const file = { path: "", is_changed: false, folder: null, others: [] };
 const listeners = new Set();
 
 /** The last part of a path. */
-export const baseName = (path) => path.split("/").pop();
+const baseName = (path) => path.split("/").pop();
 /** The name of the file, "" if there is none. */
 export const fileName = () => baseName(file.path);
 export const path = () => file.path;
 export const isChanged = () => file.is_changed;
-/** Whether the server has told which file it is. */
+/** Whether the server has reported the file. */
 export const isThere = () => file.folder !== null;
 
 export function install() {
@@ -46,7 +46,7 @@ export const save = () => (file.path ? act("Save") : saveAs());
 export const exportAs = (suffix) =>
   act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
 
-/** A plain file name of what somebody entered, or why it is none: `{name, problem}`. */
+/** The file name that was entered, or why it is invalid: `{name, problem}`. */
 export function checkedName(entered) {
   const name = entered.trim();
   if (!name || name === "." || name === "..")

@@ -1,5 +1,6 @@
 // What to do when nothing is published at all.
 
+import { copy } from "../clipboard.js";
 import { el } from "../dom.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
@@ -14,14 +15,14 @@ export function install(scene) {
     card.remove();
     end();
   };
-  const copy = el(
+  const copyButton = el(
     "button",
     {
       type: "button",
       class: "wv-icon",
       "aria-label": "Copy the command",
       "data-tip": "Copy",
-      onclick: () => navigator.clipboard?.writeText(COMMAND),
+      onclick: () => copy(COMMAND),
     },
     icon("copy"),
   );
@@ -43,7 +44,7 @@ export function install(scene) {
       ),
       el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
       el("p", {}, "For a robot to try things with, run this in a terminal:"),
-      el("p", { class: "wv-command" }, el("code", {}, COMMAND), copy),
+      el("p", { class: "wv-command" }, el("code", {}, COMMAND), copyButton),
     ),
   );
   scene.append(card);

@@ -42,7 +42,6 @@ export function build() {
     { class: "wv-head" },
     name,
     mark,
-    el("span", { class: "wv-read-only-mark" }, "Read only"),
     el("span", { class: "wv-gap" }),
     button("search", "Commands", "Ctrl+k", actions.commands.run),
     step("undo", actions.undo),
@@ -70,7 +69,6 @@ function button(iconName, label, key, run) {
 // What it would undo is in its tooltip; all steps are in a menu, by a right click or the arrow key.
 function step(way, action) {
   const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
-  made.classList.add("wv-edits");
   history.onSteps(() => {
     const label = history.next(way);
     made.disabled = label === undefined;

@@ -66,7 +66,7 @@ function tell() {
 
 const whereOf = ({ browser }) => (browser === null ? "by a program" : "in another browser");
 
-// Somebody who drags a slider makes many steps.
+// Dragging a slider makes many steps.
 function tellOfOthers(text) {
   if (text === told.text && Date.now() - told.at < QUIET_MS) return;
   told.remove();

@@ -25,7 +25,7 @@ function fit() {
   if (isLate) window.dispatchEvent(new Event("resize"));
 }
 
-export const isFolded = () => document.body.classList.contains("wv-folded");
+const isFolded = () => document.body.classList.contains("wv-folded");
 
 /** Folds the side away, or shows it again. On a phone it lies over the scene, and begins folded. */
 export function fold(wanted = !isFolded()) {

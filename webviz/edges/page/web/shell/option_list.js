@@ -2,6 +2,7 @@
 
 import { el, set, setChildren } from "../dom.js";
 import { icon } from "../icons.js";
+import { wordsOf } from "../words.js";
 import { keyText } from "./keys.js";
 
 let count = 0;
@@ -122,7 +123,7 @@ export function optionList(input, label, choose) {
 
 /** Those with every word of a text in what `textOf` says of them, the best match first. */
 export function search(all, text, textOf) {
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const words = wordsOf(text);
   if (!words.length) return all;
   const score = (item) => {
     const [title, more] = textOf(item).map((part) => part.toLowerCase());

@@ -1,4 +1,4 @@
-// Dark or light: as the system has it, or as this browser was told.
+// Dark or light: as the system has it, or as chosen in this browser.
 
 import { recall, remember } from "../remember.js";
 

@@ -1,5 +1,7 @@
 // The displays and groups as a tree, and which of them are rows of the list.
 
+import { wordsOf } from "../../words.js";
+
 const NAME_IN_PATH = 80;
 
 export const GLOBAL = "global";
@@ -59,10 +61,7 @@ export function topmost(model, ids) {
   return model.items.filter(({ id, parent }) => ids.has(id) && !(parent && isWithin(parent, ids)));
 }
 
-/** The words of what somebody searches for. */
-export const wordsOf = (search) => search.toLowerCase().split(/\s+/).filter(Boolean);
-
-/** The items that are rows: not those in folded groups; while somebody searches, what matches. */
+/** The items that are rows: not those in folded groups; during a search, what matches. */
 export function visible(model, isOpen, search) {
   const words = wordsOf(search);
   if (words.length) return matching(model, words);

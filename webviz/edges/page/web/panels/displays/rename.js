@@ -3,7 +3,7 @@
 import { act } from "../../act.js";
 import { el } from "../../dom.js";
 
-/** Lets somebody type another name into a row; Enter or leaving keeps it, Escape does not. */
+/** Turns the name of a row into a text field; Enter or leaving keeps it, Escape does not. */
 export function rename(row, item) {
   if (row.element.querySelector(".wv-tree-rename")) return;
   const field = el("input", {

@@ -6,7 +6,7 @@ import { icon } from "../../icons.js";
 let count = 0;
 
 /**
- * Statuses that are folded while all is well, unless somebody unfolds them.
+ * Statuses that are folded while all is well, until they are unfolded by hand.
  *
  * `open(listener)` is called while they are unfolded, and returns what ends that; the listener gets
  * `lines`: `[key, level, text, remedy]`, and how many `more` there are. `use(remedy)` does what a click

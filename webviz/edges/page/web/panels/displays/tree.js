@@ -8,11 +8,12 @@ import * as actions from "./actions.js";
 import { listenToDrags } from "./drag.js";
 import * as folding from "./folding.js";
 import { listenToKeys } from "./keys.js";
-import { GLOBAL, arrange, globalItem, matches, siblings, visible, wordsOf } from "./model.js";
+import { GLOBAL, arrange, globalItem, matches, siblings, visible } from "./model.js";
 import { rename } from "./rename.js";
 import { makeRow } from "./row.js";
 import * as selection from "./selection.js";
 import { virtualList } from "./virtual.js";
+import { wordsOf } from "../../words.js";
 
 const SCROLL_KEY = "displays.scroll";
 const HOVER_MS = 250;

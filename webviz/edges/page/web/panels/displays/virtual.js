@@ -2,7 +2,7 @@
 //
 // Rows are as high as what is in them; before one has been seen, its height is a guess.
 
-import { setChildren } from "./order.js";
+import { setChildren } from "../../dom.js";
 
 const BEYOND = 300; // pixels above and below what is seen that are there too
 const SETTLED_MS = 300; // by then, rows that come into sight have been measured

@@ -1,0 +1,4 @@
+// The words of a search.
+
+/** The words of a text, in lower case. */
+export const wordsOf = (text) => text.toLowerCase().split(/\s+/).filter(Boolean);
