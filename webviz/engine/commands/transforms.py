@@ -9,7 +9,7 @@ from webviz.engine.commands.command import Command
 
 @dataclass(frozen=True)
 class InspectTransforms(Command):
-    """Report on the transforms while somebody looks at them.
+    """Report on the transforms while they are shown.
 
     Args:
         tree: whether on the tree of all frames.

@@ -1,4 +1,4 @@
-"""What arrives on topics: rates, and the last messages of those that somebody looks into."""
+"""What arrives on topics: rates, and the last messages of those that are inspected."""
 
 from __future__ import annotations
 

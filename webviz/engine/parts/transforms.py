@@ -54,7 +54,7 @@ class TransformsPart(Part):
         self._tree = None
 
     def state(self) -> Mapping[str, Any]:
-        """The frames, and what somebody wants to see of them."""
+        """The frames, and the requested reports on them."""
         buffer = self.core.buffer
         is_watched = self.core.is_watched()
         between = sorted(self._wanted.between)[:MAX_BETWEEN] if is_watched else ()
