@@ -11,7 +11,7 @@ setup(
         "pytest11": ["webviz = webviz.shell.pytest_plugin"],
         "webviz.displays": [
             "Axes = webviz_displays.axes:Axes",
-            "Group = webviz.api.group:Group",
+            "Group = webviz.api.group:DisplayGroup",
             "Grid = webviz_displays.grid:Grid",
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Map = webviz_displays.map:Map",

@@ -24,7 +24,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from webviz import Frames
 from webviz.data.transforms import TransformBuffer
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.runner import Runner, Services
 from webviz.engine.sources import Offer, Publisher, Raw
@@ -58,7 +58,7 @@ def serialized(count: int, channel: str, frame: str, seed: int) -> bytes:
 
 def ours(server: viser.ViserServer, clouds: list[bytes], **properties: Any) -> Callable[[], None]:
     """A turn of the frame loop for each cloud: intake, decoding, drawing, baking, sending."""
-    scene = Scene(server)
+    scene = ViserScene(server)
     services = Services(scene, Workers(lambda: None), lambda topic: topic, strict=True)
     runner = Runner("cloud", PointCloud2(**properties), services)
     buffer = TransformBuffer()

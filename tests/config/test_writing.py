@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from webviz.api.declared import make
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.registry import display_types
 from webviz.files.config import Branch, Config, Unreadable, document, dump
 from webviz.files.config.model import Settings
@@ -117,7 +117,7 @@ def builtins(config: Config) -> Any:
 @given(data=st.data())
 def test_every_value_of_every_display_comes_back(name: str, data: st.DataObject) -> None:
     display = data.draw(displays(TYPES[name]))
-    item = Branch(display, []) if isinstance(display, Group) else display
+    item = Branch(display, []) if isinstance(display, DisplayGroup) else display
     again = parse(dump(Config(displays=[item])), "x.yaml")
     assert builtins(again) == builtins(Config(displays=[item]))
 
@@ -133,7 +133,7 @@ def test_two_hundred_and_fifty_displays_in_groups_come_back() -> None:
     def nested(depth: int) -> Branch:
         scans = [make(TYPES["LaserScan"], {"name": f"{depth}/{i}"}) for i in range(50)]
         inner = [nested(depth - 1)] if depth else []
-        return Branch(make(Group, {"name": f"Group {depth}"}), [*scans, *inner])
+        return Branch(make(DisplayGroup, {"name": f"Group {depth}"}), [*scans, *inner])
 
     config = Config(displays=[nested(4)])
     assert builtins(parse(dump(config), "x.yaml")) == builtins(config)

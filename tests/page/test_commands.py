@@ -23,7 +23,7 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command
-from webviz.engine.state import File, History, Row, Step
+from webviz.engine.state import File, Row, Step, UndoHistory
 from webviz.files.config import Settings
 
 LAB = File("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
@@ -164,7 +164,7 @@ def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[Ste
     return tuple(reversed(made))
 
 
-def show_history(tab: Tab, history: History) -> None:
+def show_history(tab: Tab, history: UndoHistory) -> None:
     tab.loop.show(history=history)
     wanted = f"Undo: {history.undo[0].label}" if history.undo else "Undo"
     undo = tab.page.locator(".wv-head [aria-label=Undo]")
@@ -172,7 +172,7 @@ def show_history(tab: Tab, history: History) -> None:
 
 
 def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:
-    show_history(tab, History(steps("Move Path"), steps("Hide Map")))
+    show_history(tab, UndoHistory(steps("Move Path"), steps("Hide Map")))
     for act, command in [
         (tab.button("Undo").click, Undo()),
         (tab.button("Redo").click, Redo()),
@@ -186,13 +186,13 @@ def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:
 
 
 def test_nothing_can_be_undone_at_first(tab: Tab) -> None:
-    show_history(tab, History())
+    show_history(tab, UndoHistory())
     assert tab.button("Undo").is_disabled()
     assert tab.button("Redo").is_disabled()
 
 
 def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
-    show_history(tab, History(steps("Add Grid", "Move Path", "Hide Map")))
+    show_history(tab, UndoHistory(steps("Add Grid", "Move Path", "Hide Map")))
     tab.button("Undo").click(button="right")
     items = tab.page.get_by_role("menuitem")
     assert items.all_inner_texts() == ["Undo Hide Map", "Undo Move Path", "Undo Add Grid"]
@@ -201,21 +201,21 @@ def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
 
 
 def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
-    show_history(tab, History())
+    show_history(tab, UndoHistory())
     browser = tab.page.evaluate("window.webviz.browser")
-    show_history(tab, History(steps("Remove Path", browser=browser, first=1001)))
+    show_history(tab, UndoHistory(steps("Remove Path", browser=browser, first=1001)))
     toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
     toast.get_by_role("button", name="Undo").click()
     tab.wait_for_command(Undo())
 
 
 def test_what_others_change_is_told_once(tab: Tab) -> None:
-    show_history(tab, History())
-    show_history(tab, History(steps("Move <b>Path", browser=10**6, first=2001)))
+    show_history(tab, UndoHistory())
+    show_history(tab, UndoHistory(steps("Move <b>Path", browser=10**6, first=2001)))
     text = "Changed in another browser: Move <b>Path"
     tab.wait_for(lambda: text in tab.text())
     for number in range(2002, 2010):
-        show_history(tab, History(steps("Move <b>Path", browser=10**6, first=number)))
+        show_history(tab, UndoHistory(steps("Move <b>Path", browser=10**6, first=number)))
         tab.turn()
     assert tab.text().count(text) == 1
 
@@ -223,7 +223,7 @@ def test_what_others_change_is_told_once(tab: Tab) -> None:
 def test_a_page_that_joins_is_not_told_of_old_steps(
     tab: Tab, loop: Loop, open_tab: Callable[[], Tab], make_row: Callable[..., Row]
 ) -> None:
-    loop.show(make_row("a"), history=History(steps("Move Path", browser=10**6, first=3001)))
+    loop.show(make_row("a"), history=UndoHistory(steps("Move Path", browser=10**6, first=3001)))
     other = open_tab()
     other.wait_for(lambda: not other.button("Undo").is_disabled())
     assert "in another browser" not in other.text()

@@ -12,7 +12,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.context import ColorScale
 from webviz.api.nodes import Points, Pose
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.edges.scene.server import Server
 from webviz.engine.state import Row
 
@@ -21,8 +21,8 @@ CENTER = (700, 400)
 
 
 @pytest.fixture(scope="module")
-def scene(server: Server) -> Scene:
-    return Scene(server)
+def scene(server: Server) -> ViserScene:
+    return ViserScene(server)
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
 
 
 def test_what_is_under_the_resting_mouse_is_named(
-    tab: Tab, loop: Loop, scene: Scene, make_row: Callable[..., Row]
+    tab: Tab, loop: Loop, scene: ViserScene, make_row: Callable[..., Row]
 ) -> None:
     grid = np.stack(np.meshgrid(np.linspace(-3, 3, 60), np.linspace(-3, 3, 60)), -1).reshape(-1, 2)
     xyz = np.column_stack((grid, np.full(len(grid), 0.25))).astype(np.float32)

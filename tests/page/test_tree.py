@@ -167,7 +167,7 @@ def test_the_selected_display_is_shown_below_until_that_is_closed(
     tree.tab.button("Close properties").click()
     tree.click("b")
     assert not details.is_visible()
-    tree.tab.button("More").click()
+    tree.tab.button("List options").click()
     tree.tab.page.get_by_text("Properties below the tree").click()
     assert details.get_by_role("heading").inner_text() == "b"
     loop.show(make_row("a"))

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 
 from webviz.api.declared import Topic
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.stores import Stores
@@ -50,7 +50,7 @@ def test_ages_and_rates_in_a_line_change_seldom(make_row: MakeRow, text: str, sh
 
 
 def test_a_group_names_the_display_that_has_the_problem() -> None:
-    group = Row("g", "Group", Group(name="G"), "G", {"Front scan": STATUSES["Points"]})
+    group = Row("g", "Group", DisplayGroup(name="G"), "G", {"Front scan": STATUSES["Points"]})
     assert row_of(group)["line"] == "Front scan: No points."
 
 

@@ -1,4 +1,4 @@
-"""Pictures of the whole page, as somebody sees it who opens it.
+"""Pictures of the whole page, as people see it.
 
 A mask covers what differs from moment to moment. Letters are drawn in the font `FONT`.
 """
@@ -23,7 +23,7 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Clock, File, Pace, Row, State, ToolButton, Traffic
@@ -55,6 +55,14 @@ HAS_MAP = """async () => {
   }
   return isDecoded;
 }"""
+HAS_FONT = f"""() => {{
+  const pen = document.createElement("canvas").getContext("2d");
+  const width = (fallback) => {{
+    pen.font = `40px "{FONT}", ${{fallback}}`;
+    return pen.measureText("Wide Il1").width;
+  }};
+  return width("serif") === width("monospace");
+}}"""
 START_NS = 1_764_000_000_000_000_000
 SCAN = "sensor_msgs/msg/LaserScan"
 LOST = {"Topic": Status(Level.ERROR, "No publisher on /scan. Start the laser driver.")}
@@ -106,7 +114,7 @@ def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
 
 def draw(server: Server) -> None:
     """The map of the building, and a scan in it."""
-    scene, world = Scene(server), building.WORLD
+    scene, world = ViserScene(server), building.WORLD
     height, width = world.cells.shape
     shade = np.where(world.cells == 100, 20, np.where(world.cells == 0, 200, 110))
     cells = np.dstack([shade, shade, shade, np.full_like(shade, 255)]).astype(np.uint8)
@@ -144,6 +152,8 @@ def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
 
 def still(tab: Tab) -> Tab:
     """A tab in which no time passes any more."""
+    if not tab.page.evaluate(HAS_FONT):
+        pytest.skip(f"needs the font {FONT}: install fonts-dejavu-core")
     tab.page.evaluate(FREEZE)
     tab.wait_for(lambda: tab.page.evaluate("window.webviz?.browser !== undefined"))
     show(tab)

@@ -8,7 +8,7 @@ from typing import Any
 import playwright.sync_api as playwright
 
 from tests.page.conftest import Tab
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.status import Status
 from webviz.engine.state import Row
 
@@ -88,7 +88,7 @@ def group(
     id_: str, depth: int = 0, statuses: Mapping[str, Status] | None = None, enabled: bool = True
 ) -> Row:
     """A row of a group that is called as its id."""
-    display = Group(name=id_, enabled=enabled)
+    display = DisplayGroup(name=id_, enabled=enabled)
     return Row(id_, "Group", display, id_, statuses or {}, depth, enabled)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.engine.commands import AddDisplay, RemoveDisplay, SetProperty
 from webviz.files.config import Branch, ConfigError, Unreadable, dump
 from webviz.files.opening import parse
@@ -77,7 +77,7 @@ def test_the_list_shows_groups_before_what_is_in_them(bench: Callable[..., Any])
 def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(
     bench: Callable[..., Any],
 ) -> None:
-    b = bench(Branch(Group(name="Group"), [Axes(name="A"), Axes(name="B", enabled=False)]))
+    b = bench(Branch(DisplayGroup(name="Group"), [Axes(name="A"), Axes(name="B", enabled=False)]))
     b.turn()
     assert len(list(b.scene.visible())) == 1
     b.viewer.enqueue(SetProperty("display1", "enabled", False))
@@ -90,14 +90,14 @@ def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(
 
 
 def test_a_group_is_as_well_as_the_worst_display_in_it(bench: Callable[..., Any]) -> None:
-    b = bench(Branch(Group(name="Group"), [Axes(name="Lost", reference_frame="nowhere")]))
+    b = bench(Branch(DisplayGroup(name="Group"), [Axes(name="Lost", reference_frame="nowhere")]))
     level, text = b.statuses(0)["Lost"]
     assert level == "ERROR"
     assert "nowhere" in text
 
 
 def test_displays_are_added_to_groups_and_go_with_them(bench: Callable[..., Any]) -> None:
-    b = bench(Group(name="Robot"), Axes(name="A"))
+    b = bench(DisplayGroup(name="Robot"), Axes(name="A"))
     b.viewer.enqueue(AddDisplay("Axes", {"name": "In"}, group="display1"))
     b.viewer.enqueue(AddDisplay("Group", {"name": "Deep"}, group="display1"))
     assert names(b) == [("Robot", 0), ("In", 1), ("Deep", 1), ("A", 0)]

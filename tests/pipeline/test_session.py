@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from webviz.api.declared import Topic, to_values
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.engine.commands import (
     AddDisplay,
     Command,
@@ -246,7 +246,9 @@ def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(
 
 def test_a_group_is_copied_with_all_that_is_in_it(bench: Callable[..., Any]) -> None:
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
-    group = Branch(Group(name="G"), [Axes(name="A"), Branch(Group(name="H"), [unreadable])])
+    group = Branch(
+        DisplayGroup(name="G"), [Axes(name="A"), Branch(DisplayGroup(name="H"), [unreadable])]
+    )
     b = bench(group, Axes(name="B"))
     state = do(b, DuplicateDisplay("display1"))
     assert names(state) == ["G", "  A", "  H", "    Gone", "G 2", "  A", "  H", "    Gone", "B"]
@@ -257,7 +259,7 @@ def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
 ) -> None:
     topic = Topic("/front", reliability="reliable")
     scan = LaserScan(name="Front", enabled=False, topic=topic, size=0.5, decay_time=3.0)
-    state = do(bench(scan, Group(name="G")), ResetDisplay("display1"))
+    state = do(bench(scan, DisplayGroup(name="G")), ResetDisplay("display1"))
     row = state.rows[0]
     assert row.display is not None
     assert to_values(row.display) == {
@@ -265,12 +267,12 @@ def test_a_reset_display_keeps_its_name_its_switch_and_its_topic(
         "enabled": False,
         "topic": "/front",
     }
-    assert names(do(bench(Group(name="G")), ResetDisplay("display1"))) == ["G"]
+    assert names(do(bench(DisplayGroup(name="G")), ResetDisplay("display1"))) == ["G"]
 
 
 def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any]) -> None:
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
-    group = Branch(Group(name="G"), [Axes(name="A", length=3.0), unreadable])
+    group = Branch(DisplayGroup(name="G"), [Axes(name="A", length=3.0), unreadable])
     b = bench(group, Axes(name="B"), Grid(name="Grid"))
     written = b.ask(WriteDisplays(("display2", "display5", "display1", "gone")))
     assert written == (
@@ -280,7 +282,7 @@ def test_displays_are_written_as_a_config_file_has_them(bench: Callable[..., Any
 
 
 def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., Any]) -> None:
-    b = bench(Branch(Group(name="G"), [Axes(name=f"A{i}") for i in range(299)]))
+    b = bench(Branch(DisplayGroup(name="G"), [Axes(name=f"A{i}") for i in range(299)]))
     commands = [DuplicateDisplay("display1"), *[AddDisplay("Axes")] * 201]
     answers = [b.viewer.enqueue(command) for command in commands]
     state = do(b, Refresh())
@@ -293,7 +295,7 @@ def test_no_more_displays_are_added_than_a_config_may_have(bench: Callable[..., 
 def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
     bench: Callable[..., Any],
 ) -> None:
-    b = bench(Branch(Group(name="G"), [Axes(name="A")]), Axes(name="B"), Axes(name="C"))
+    b = bench(Branch(DisplayGroup(name="G"), [Axes(name="A")]), Axes(name="B"), Axes(name="C"))
     g, a, first, c = (row.id for row in b.states[-1].rows)
     assert names(do(b, MoveDisplay(c, before=first))) == ["G", "  A", "C", "B"]
     assert names(do(b, MoveDisplay(first, g, before=a))) == ["G", "  B", "  A", "C"]
@@ -303,7 +305,7 @@ def test_displays_are_moved_within_the_list_and_into_and_out_of_groups(
 
 
 def test_a_group_is_not_moved_into_itself(bench: Callable[..., Any]) -> None:
-    b = bench(Branch(Group(name="G"), [Branch(Group(name="H"), [Axes(name="A")])]))
+    b = bench(Branch(DisplayGroup(name="G"), [Branch(DisplayGroup(name="H"), [Axes(name="A")])]))
     g, h, _ = (row.id for row in b.states[-1].rows)
     before = names(b.states[-1])
     for target in (g, h):
@@ -314,7 +316,7 @@ def test_a_group_is_not_moved_into_itself(bench: Callable[..., Any]) -> None:
 def test_a_display_that_is_moved_into_a_group_that_is_off_is_hidden(
     bench: Callable[..., Any],
 ) -> None:
-    b = bench(Group(name="Off", enabled=False), Axes(name="A"))
+    b = bench(DisplayGroup(name="Off", enabled=False), Axes(name="A"))
     b.transform("map", "base", 0, static=True)
     b.turn()
     assert list(b.scene.visible())
@@ -358,7 +360,7 @@ def test_what_is_refused_is_told_and_changes_nothing(
     sentence: str,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    b = bench(Axes(name="A"), Group(name="G"), PathDisplay(name="P"))
+    b = bench(Axes(name="A"), DisplayGroup(name="G"), PathDisplay(name="P"))
     before = b.viewer.config()
     assert b.refused(command).startswith(sentence)
     assert not caplog.records  # whoever asked is told, and nobody twice

@@ -14,7 +14,7 @@ import viser
 import websockets.sync.client
 import zstandard
 
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 Point = tuple[float, float, float]
@@ -28,15 +28,15 @@ def server() -> Iterator[viser.ViserServer]:
 
 
 @pytest.fixture
-def scene(server: viser.ViserServer) -> Scene:
-    return Scene(server)
+def scene(server: viser.ViserServer) -> ViserScene:
+    return ViserScene(server)
 
 
 @pytest.fixture(scope="module")
 def tab(browser: playwright.Browser) -> Iterator[View]:
     """One tab for the tests of a module: opening it takes seconds."""
     server = open_server(port=0)
-    view = View(browser, Scene(server))
+    view = View(browser, ViserScene(server))
     yield view
     view.close()
     server.stop()
@@ -54,7 +54,7 @@ def view(tab: View) -> Iterator[View]:
 class View(Page):
     """One browser tab of 320 x 240 pixels with the scene."""
 
-    def __init__(self, browser: playwright.Browser, scene: Scene) -> None:
+    def __init__(self, browser: playwright.Browser, scene: ViserScene) -> None:
         self.scene = scene
         server = scene.link.server
         others = set(server.get_clients())

@@ -16,7 +16,7 @@ from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.edges.scene.adapter.link import MAX_TOMBSTONES
 from webviz.edges.scene.adapter.poses import OrientationMessage, PositionMessage
 
@@ -79,7 +79,7 @@ def test_poses_are_packed_as_viser_packs_them(ours: Any, original: Any) -> None:
 
 
 def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     for x in range(1000):
         scene.link.set_position("/webviz/a", (float(x), 0.0, 0.0))
@@ -88,7 +88,7 @@ def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
 
 
 def test_many_moves_at_once_leave_what_single_ones_leave(
-    scene: Scene,
+    scene: ViserScene,
 ) -> None:
     link, turned = scene.link, (0.6, 0.8, 0.0, 0.0)
     for _ in range(2):
@@ -107,14 +107,14 @@ def test_many_moves_at_once_leave_what_single_ones_leave(
     assert list(buffer.message_from_id) == sorted(buffer.message_from_id)
 
 
-def pretend_that_were_sent(scene: Scene, messages: int) -> None:
+def pretend_that_were_sent(scene: ViserScene, messages: int) -> None:
     """Lets message numbers go on from far above, as after so many messages."""
     with scene.link._buffer.buffer_lock:
         scene.link._buffer.message_counter += messages
 
 
 def test_joining_does_not_depend_on_how_much_was_ever_sent(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     """Walking the numbers one by one would take minutes."""
     before = len(call().replay())
@@ -124,7 +124,7 @@ def test_joining_does_not_depend_on_how_much_was_ever_sent(
 
 
 def test_a_connected_browser_goes_on_after_a_gap_in_the_numbers(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     peer = call()
     peer.replay()
@@ -133,7 +133,9 @@ def test_a_connected_browser_goes_on_after_a_gap_in_the_numbers(
     assert [m["type"] for m in peer.receive()] == ["SetPositionMessage"]
 
 
-def test_the_replay_comes_in_windows_and_in_order(scene: Scene, call: Callable[..., Any]) -> None:
+def test_the_replay_comes_in_windows_and_in_order(
+    scene: ViserScene, call: Callable[..., Any]
+) -> None:
     for index in range(300):
         scene.link.set_position(f"/webviz/{index}", (0.0, 0.0, 0.0))
     peer = call()
@@ -146,7 +148,7 @@ def test_the_replay_comes_in_windows_and_in_order(scene: Scene, call: Callable[.
 
 
 def test_what_is_queued_atomically_arrives_in_one_frame(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     peer = call()
     peer.replay()
@@ -157,7 +159,7 @@ def test_what_is_queued_atomically_arrives_in_one_frame(
 
 
 def test_a_browser_that_does_not_read_costs_no_memory(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     call()  # reads nothing
     scene.link.update("/webviz/a", {"points": np.zeros(1)})
@@ -175,7 +177,7 @@ def test_a_browser_that_does_not_read_costs_no_memory(
 
 
 def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
-    scene: Scene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    scene: ViserScene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
 ) -> None:
     """Each removal waits for the slowest browser; the memory for that has a bound."""
     call()  # reads nothing
@@ -195,12 +197,12 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     wait_until(lambda: scene.link.live_messages < 200)
 
 
-def test_acknowledging_without_browsers_returns_at_once(scene: Scene) -> None:
+def test_acknowledging_without_browsers_returns_at_once(scene: ViserScene) -> None:
     scene.link.acknowledge(timeout=0.0)
 
 
 def test_acknowledgement_waits_for_every_browser_and_leaves_nothing_behind(
-    scene: Scene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    scene: ViserScene, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
 ) -> None:
     peer = call()
     peer.look()

@@ -18,7 +18,7 @@ from websockets.sync.connection import Connection
 
 from webviz.edges.page.channel import MAX_CHARACTERS, MAX_WAITING
 from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.quiet_server import Server
 from webviz.shell.pictures.browser import Page
 
@@ -224,7 +224,7 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     answers: list[tuple[int, Answer]] = []
 
     def listen(server: Server) -> None:
-        Scene(server)
+        ViserScene(server)
         server.channel.on(Answer, lambda *answer: answers.append(answer))
 
     listen(server)
@@ -248,7 +248,7 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
 def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channel(
     browser: playwright.Browser, server: Server, wait_until: Callable[[Callable[[], bool]], None]
 ) -> None:
-    Scene(server)
+    ViserScene(server)
     answers: list[int] = []
     server.channel.on(Answer, lambda browser, _: answers.append(browser))
 

@@ -8,7 +8,7 @@ import threading
 import playwright.sync_api as playwright
 import viser
 
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 LOST = re.compile(
@@ -18,7 +18,7 @@ LOST = re.compile(
 
 
 def test_a_page_says_that_its_server_is_gone_until_it_is_back(
-    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+    browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
     port = server.get_port()
     page = Page(browser, f"http://127.0.0.1:{port}", 600, 400)
@@ -36,7 +36,7 @@ def test_a_page_says_that_its_server_is_gone_until_it_is_back(
     banner.wait_for()
     again = open_server(port=port)
     try:
-        Scene(again)
+        ViserScene(again)
         banner.wait_for(state="detached")
         page.wait_for(lambda: again.get_clients(), "the page is back")
     finally:
@@ -45,7 +45,7 @@ def test_a_page_says_that_its_server_is_gone_until_it_is_back(
 
 
 def test_visers_word_of_software_rendering_does_not_cover_the_scene(
-    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+    browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
     page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 600, 400)
     word = page.tab.get_by_text("Software WebGL rendering detected")

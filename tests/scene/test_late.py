@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from webviz.api.nodes import Image
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.edges.scene.late import Late
 
 
@@ -59,7 +59,7 @@ def test_work_that_fails_is_logged_and_does_not_stop_the_rest(caplog: Any) -> No
 
 
 def test_a_picture_that_is_removed_while_it_is_encoded_leaves_nothing(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     go = threading.Event()
     scene.link.late.put("/before", lambda: go.wait(60), lambda _: None)

@@ -13,7 +13,7 @@ import pytest
 import viser
 import websockets.sync.server
 
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.edges.scene.sparing_log import sparing_log
 
 Ask = Callable[[bytes], tuple[int, bytes, bytes]]
@@ -74,7 +74,7 @@ def test_the_page_cannot_be_embedded_and_sends_no_referrer(ask: Ask) -> None:
 
 
 def test_a_link_cannot_make_the_page_obey_another_server(
-    browser: playwright.Browser, server: viser.ViserServer, scene: Scene
+    browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
     called = threading.Event()
     with websockets.sync.server.serve(lambda _: called.set(), "127.0.0.1", 0) as other:

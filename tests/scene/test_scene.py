@@ -20,7 +20,7 @@ from webviz.api.nodes import (
     Points,
     Pose,
 )
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 
 RED = (255, 0, 0)
 SEGMENTS = np.arange(12, dtype=np.float32).reshape(2, 2, 3)
@@ -43,7 +43,7 @@ NODES: dict[str, Callable[[], Node]] = {
 
 
 @pytest.fixture
-def sent(scene: Scene) -> Callable[[], int]:
+def sent(scene: ViserScene) -> Callable[[], int]:
     """Flushes and counts the messages that this took, late ones too."""
 
     def sent() -> int:
@@ -57,7 +57,7 @@ def sent(scene: Scene) -> Callable[[], int]:
 
 @pytest.mark.parametrize("make", NODES.values(), ids=NODES)
 def test_an_equal_node_sends_nothing(
-    make: Callable[[], Node], scene: Scene, sent: Callable[[], int]
+    make: Callable[[], Node], scene: ViserScene, sent: Callable[[], int]
 ) -> None:
     scene.upsert("base_link", "it", make())
     assert sent() > 0
@@ -67,7 +67,7 @@ def test_an_equal_node_sends_nothing(
 
 @pytest.mark.parametrize("make", NODES.values(), ids=NODES)
 def test_removing_a_node_leaves_a_joining_browser_without_it(
-    make: Callable[[], Node], scene: Scene, call: Callable[..., Any]
+    make: Callable[[], Node], scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     scene.flush()
     before = len(call().replay())
@@ -79,7 +79,7 @@ def test_removing_a_node_leaves_a_joining_browser_without_it(
 
 
 def test_an_update_is_one_message_and_carries_what_belongs_together(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     scene.upsert("laser", "hits", Points(XYZ, np.zeros((2, 3), np.uint8), 0.1))
     scene.flush()
@@ -92,7 +92,9 @@ def test_an_update_is_one_message_and_carries_what_belongs_together(
     assert set(message["updates"]) == {"points", "colors"}
 
 
-def test_a_new_look_does_not_send_the_data_again(scene: Scene, call: Callable[..., Any]) -> None:
+def test_a_new_look_does_not_send_the_data_again(
+    scene: ViserScene, call: Callable[..., Any]
+) -> None:
     scene.upsert("laser", "hits", Points(XYZ, RED, 0.1))
     scene.flush()
     peer = call()
@@ -104,7 +106,7 @@ def test_a_new_look_does_not_send_the_data_again(scene: Scene, call: Callable[..
 
 
 def test_poses_and_data_of_a_tick_arrive_in_one_frame(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     for index in range(200):
         scene.upsert(f"link{index}", "body", Points(XYZ, RED, 0.1))
@@ -118,7 +120,7 @@ def test_poses_and_data_of_a_tick_arrive_in_one_frame(
     assert len(peer.receive()) == 600
 
 
-def test_nothing_is_sent_before_the_flush(scene: Scene) -> None:
+def test_nothing_is_sent_before_the_flush(scene: ViserScene) -> None:
     before = scene.link.queued_messages
     scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
     scene.upsert("a", "it", image())
@@ -127,7 +129,7 @@ def test_nothing_is_sent_before_the_flush(scene: Scene) -> None:
 
 
 def test_a_node_that_comes_and_goes_within_a_tick_is_never_sent(
-    scene: Scene, sent: Callable[[], int]
+    scene: ViserScene, sent: Callable[[], int]
 ) -> None:
     scene.upsert("a", "it", image())
     assert sent() > 0
@@ -140,7 +142,7 @@ def test_a_node_that_comes_and_goes_within_a_tick_is_never_sent(
 
 @pytest.mark.parametrize("step", [1e-3, 3.0, 1e-9])
 def test_the_smallest_move_far_out_is_sent(
-    step: float, scene: Scene, call: Callable[..., Any]
+    step: float, scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     scene.set_pose("utm", Pose((500_000.0, 0.0, 0.0)))
     scene.flush()
@@ -150,7 +152,7 @@ def test_the_smallest_move_far_out_is_sent(
     assert moves[-1]["position"] == [500_000.0 + step, 0.0, 0.0]
 
 
-def test_an_equal_pose_is_not_sent_again(scene: Scene, sent: Callable[[], int]) -> None:
+def test_an_equal_pose_is_not_sent_again(scene: ViserScene, sent: Callable[[], int]) -> None:
     scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
     sent()
     scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
@@ -160,7 +162,9 @@ def test_an_equal_pose_is_not_sent_again(scene: Scene, sent: Callable[[], int]) 
     assert sent() == 0
 
 
-def test_a_group_that_only_turns_sends_only_that(scene: Scene, sent: Callable[[], int]) -> None:
+def test_a_group_that_only_turns_sends_only_that(
+    scene: ViserScene, sent: Callable[[], int]
+) -> None:
     scene.set_pose("a", Pose((1.0, 2.0, 3.0)))
     sent()
     scene.set_pose("a", Pose((1.0, 2.0, 3.0), (0.0, 1.0, 0.0, 0.0)))
@@ -169,7 +173,7 @@ def test_a_group_that_only_turns_sends_only_that(scene: Scene, sent: Callable[[]
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
 def test_a_pose_that_is_not_finite_is_refused_with_the_groups_name(
-    bad: float, scene: Scene
+    bad: float, scene: ViserScene
 ) -> None:
     with pytest.raises(ValueError, match="'base_link' is not finite"):
         scene.set_pose("base_link", Pose((bad, 0.0, 0.0)))
@@ -178,7 +182,7 @@ def test_a_pose_that_is_not_finite_is_refused_with_the_groups_name(
 
 
 def test_a_hidden_group_is_hidden_and_goes_on_changing(
-    scene: Scene, sent: Callable[[], int], call: Callable[..., Any]
+    scene: ViserScene, sent: Callable[[], int], call: Callable[..., Any]
 ) -> None:
     scene.upsert("a", "it", image())
     sent()
@@ -197,7 +201,7 @@ def test_a_hidden_group_is_hidden_and_goes_on_changing(
 
 
 def test_another_kind_of_node_replaces_the_one_of_that_key(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     scene.upsert("a", "it", Points(XYZ, RED, 0.1))
     scene.flush()
@@ -211,7 +215,7 @@ def test_another_kind_of_node_replaces_the_one_of_that_key(
     }
 
 
-def test_removing_what_is_not_there_is_no_error(scene: Scene, sent: Callable[[], int]) -> None:
+def test_removing_what_is_not_there_is_no_error(scene: ViserScene, sent: Callable[[], int]) -> None:
     scene.remove("nobody", "nothing")
     scene.remove_group("nobody")
     scene.upsert("a", "it", image())
@@ -221,7 +225,7 @@ def test_removing_what_is_not_there_is_no_error(scene: Scene, sent: Callable[[],
 
 
 def test_a_label_that_stays_sends_nothing_when_another_moves(
-    scene: Scene, sent: Callable[[], int]
+    scene: ViserScene, sent: Callable[[], int]
 ) -> None:
     scene.upsert("tf", "names", Labels(XYZ, ("odom", "map"), 0.1))
     sent()
@@ -232,7 +236,7 @@ def test_a_label_that_stays_sends_nothing_when_another_moves(
 
 
 def test_only_the_tiles_of_a_picture_that_changed_are_sent(
-    scene: Scene, sent: Callable[[], int]
+    scene: ViserScene, sent: Callable[[], int]
 ) -> None:
     rgba = np.zeros((1500, 2500, 4), np.uint8)
     scene.upsert("map", "grid", image(rgba))
@@ -243,7 +247,7 @@ def test_only_the_tiles_of_a_picture_that_changed_are_sent(
     assert sent() == 1
 
 
-def test_names_of_groups_may_be_anything(scene: Scene, call: Callable[..., Any]) -> None:
+def test_names_of_groups_may_be_anything(scene: ViserScene, call: Callable[..., Any]) -> None:
     groups = ["", "/", "a/b", "a%2Fb", "基座", "\udcff", "__proto__", " ", "."]
     for group in groups:
         scene.upsert(group, group, Points(XYZ, RED, 0.1))
@@ -253,7 +257,7 @@ def test_names_of_groups_may_be_anything(scene: Scene, call: Callable[..., Any])
 
 
 def test_a_malformed_node_is_named_once_and_the_rest_is_sent(
-    scene: Scene, sent: Callable[[], int]
+    scene: ViserScene, sent: Callable[[], int]
 ) -> None:
     scene.upsert("a", "worse", Mesh(None, None, RED))  # pyright: ignore[reportArgumentType]
     scene.upsert("a", "good", image())
@@ -265,7 +269,7 @@ def test_a_malformed_node_is_named_once_and_the_rest_is_sent(
 
 
 def test_a_text_that_is_no_unicode_is_sent_with_question_marks(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     scene.upsert("tf", "names", Labels(XYZ, ("caf\udce9", "基座"), 0.1))
     scene.flush()
@@ -273,7 +277,7 @@ def test_a_text_that_is_no_unicode_is_sent_with_question_marks(
     assert [m["props"]["text"] for m in labels] == ["caf?", "基座"]
 
 
-def test_a_node_has_a_pose_in_its_group_and_only_changes_are_sent(scene: Scene) -> None:
+def test_a_node_has_a_pose_in_its_group_and_only_changes_are_sent(scene: ViserScene) -> None:
     mesh = Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.uint32), (1, 2, 3))
     glb_pose = Pose((1.0, 2.0, 3.0), (0.0, 1.0, 0.0, 0.0))
     scene.upsert("robot", "link", mesh, glb_pose)

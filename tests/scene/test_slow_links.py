@@ -10,7 +10,7 @@ import numpy as np
 from viser import _messages as wire
 
 from webviz.api.nodes import Points, Pose
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.edges.scene.adapter.acknowledging import Marker
 from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
 from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
@@ -90,7 +90,7 @@ def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
 
 
 def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
-    scene: Scene,
+    scene: ViserScene,
 ) -> None:
     for count in (3, 2 * PART + 1, 5, PART + 5):
         xyz = np.arange(3 * count, dtype=np.float32).reshape(-1, 3)
@@ -110,7 +110,7 @@ def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
 
 
 def test_a_stalled_browser_gets_the_newest_change_of_the_panel_before_the_cloud(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     peer = call()
     peer.replay()
@@ -126,7 +126,7 @@ def test_a_stalled_browser_gets_the_newest_change_of_the_panel_before_the_cloud(
 
 
 def test_a_connection_holds_little_that_nothing_can_overtake(
-    scene: Scene, call: Callable[..., Any]
+    scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     call().replay()
     (connection,) = scene.link._socket._live_connections.values()

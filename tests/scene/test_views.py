@@ -25,7 +25,7 @@ from webviz.api.views import (
     XYOrbit,
     target_group,
 )
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 WIDTH, HEIGHT = 900, 600
@@ -36,7 +36,7 @@ HALF = math.tan(FIELD_OF_VIEW / 2)
 class Window(Page):
     """One browser tab, in which the panel is on the right."""
 
-    def __init__(self, browser: playwright.Browser, scene: Scene) -> None:
+    def __init__(self, browser: playwright.Browser, scene: ViserScene) -> None:
         self.scene = scene
         self.server = scene.link.server
         self.clicks: list[Any] = []
@@ -104,7 +104,7 @@ class Window(Page):
 @pytest.fixture(scope="module")
 def opened(browser: playwright.Browser) -> Iterator[Window]:
     server = open_server(port=0)
-    window = Window(browser, Scene(server))
+    window = Window(browser, ViserScene(server))
     yield window
     window.close()
     server.stop()

@@ -10,7 +10,7 @@ import playwright.sync_api as playwright
 import pytest
 import viser
 
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.shell.pictures.browser import Page
 
 FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
@@ -18,7 +18,7 @@ MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
 
 
 @pytest.fixture
-def page(browser: playwright.Browser, server: viser.ViserServer, scene: Scene):
+def page(browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene):
     page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
     yield page
     page.close()

@@ -5,10 +5,11 @@ from __future__ import annotations
 from webviz.api.display import Display
 
 
-class Group(Display):
+class DisplayGroup(Display):
     """A group of displays; switched off, none of them is drawn.
 
     In a config file, its type is `Group` and its displays are listed under `displays`.
     """
 
+    title = "Group"
     rviz = "rviz_common/Group"

@@ -200,7 +200,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class History:
+class UndoHistory:
     """What can be undone and redone, each with the newest step first."""
 
     undo: tuple[Step, ...] = ()
@@ -246,5 +246,5 @@ class State:
     between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
-    history: History = History()
+    history: UndoHistory = UndoHistory()
     more: Mapping[str, Any] = field(default_factory=dict)

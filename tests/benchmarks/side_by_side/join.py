@@ -23,7 +23,7 @@ from viser import _messages as wire
 from side_by_side import viser_wire
 from side_by_side.websocket import WebSocket
 from webviz.api.nodes import Axes, Pose
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 
 FRAMES, LINKS = 200, 60
 UNTURNED = np.array([1, 0, 0, 0], np.float32)
@@ -35,7 +35,7 @@ Push = Callable[[], int]
 def webviz_scene() -> tuple[viser.ViserServer, Push]:
     """A server of webviz's with its scene."""
     server = open_server(port=0)
-    scene = Scene(server)
+    scene = ViserScene(server)
     turn = 0
 
     def push() -> int:

@@ -136,7 +136,7 @@ class Tools(ToPage, frozen=True):
     tools: tuple[ToolButton, ...]
 
 
-class Told(ToPage, frozen=True):
+class Result(ToPage, frozen=True):
     """What came of a stroke: a sentence, and its level "ok", "warn" or "error".
 
     Args:

@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.status import Level, Status
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import Published, StrokeDone, Told, ToolButton, Tools
+from webviz.edges.page.messages import Published, Result, StrokeDone, ToolButton, Tools
 from webviz.engine.commands import Command, Sender, UseTool
 from webviz.engine.state import State
 
@@ -39,7 +39,7 @@ class Toolbar:
     def _use(self, browser: int, stroke: StrokeDone) -> None:
         def tell(status: Status) -> None:
             level = Level(status.level).name.lower()
-            self._channel.send(Told(stroke.number, level, status.text), browser)
+            self._channel.send(Result(stroke.number, level, status.text), browser)
 
         def published(topic: str, type: str, values: Mapping[str, Any]) -> None:
             encoded = msgspec.Raw(msgspec.json.encode(values, enc_hook=_plain))

@@ -1,13 +1,13 @@
 """The scene in every browser, drawn by viser."""
 
 from webviz.edges.scene.listener import CannotListen, PortInUse
-from webviz.edges.scene.scene import Scene
+from webviz.edges.scene.scene import ViserScene
 from webviz.edges.scene.server import open_server, set_background
 
 __all__ = [
     "CannotListen",
     "PortInUse",
-    "Scene",
+    "ViserScene",
     "open_server",
     "set_background",
 ]

@@ -51,7 +51,7 @@ class _Browser:
     size: tuple[float, float]
 
 
-class Cameras:
+class ViserCameras:
     """The cameras of all browsers of a server, which users move independently.
 
     All methods belong to one thread, which takes the reports of pages when it needs them.

@@ -25,7 +25,7 @@ from webviz.api.nodes import (
 )
 from webviz.edges.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.edges.scene.axes import AxesDrawn
-from webviz.edges.scene.cameras import Cameras
+from webviz.edges.scene.cameras import ViserCameras
 from webviz.edges.scene.drawn import Drawn
 from webviz.edges.scene.images import ImageDrawn
 from webviz.edges.scene.instances import InstancesDrawn
@@ -51,7 +51,7 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
 _IDENTITY = Pose()
 
 
-class Scene:
+class ViserScene:
     """Groups of nodes, each with one pose in the fixed frame.
 
     Methods only record changes; `flush` compares the result with what was sent and sends the
@@ -67,7 +67,7 @@ class Scene:
         self._dirty: dict[str, _Group] = {}
         self._gone: list[_Group] = []
         keep_shaders(server.scene, ROOT)
-        self.cameras = Cameras(self.link)
+        self.cameras = ViserCameras(self.link)
 
     def has_watchers(self) -> bool:
         """Whether any browser is connected."""

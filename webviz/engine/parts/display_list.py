@@ -15,12 +15,12 @@ import msgspec
 
 from webviz.api.declared import Topic, make, set_property, to_values
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.steps import Kept, kept, made_again
+from webviz.engine.parts.steps import Snapshot, kept, made_anew
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.state import Row
 from webviz.files import config as config_file
@@ -44,7 +44,7 @@ class Entry:
     """
 
     id: str
-    content: Runner | Group | Unreadable
+    content: Runner | DisplayGroup | Unreadable
     parent: Entry | None = None
 
     @property
@@ -154,7 +154,7 @@ class DisplayList:
     def group(self, id: str) -> Entry | None:
         """The entry of an id if it is a group, else None."""
         entry = self.find(id)
-        return entry if entry and isinstance(entry.content, Group) else None
+        return entry if entry and isinstance(entry.content, DisplayGroup) else None
 
     def find(self, id: str) -> Entry | None:
         """The entry of an id, None if it is unknown."""
@@ -239,14 +239,14 @@ class DisplayList:
         """The contents of a group or of the list to save: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
-    def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
+    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
         """What undo needs of the entries, by id; unchanged ones are those from `before`."""
         return {
             entry.id: kept(entry.declared, _id(entry.parent), before.get(entry.id))
             for entry in self._entries
         }
 
-    def restore(self, wanted: Mapping[str, Kept]) -> None:
+    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
         """Have the entries that were kept, in their order; those still there go on."""
         active = set(self.active())
         now = {entry.id: entry for entry in self._entries}
@@ -265,13 +265,13 @@ class DisplayList:
         for runner in active - set(self.active()):
             runner.hide()
 
-    def _made_again(self, id: str, wanted: Kept) -> Runner | Group | Unreadable:
-        own = made_again(wanted)
-        if isinstance(own, Group | Unreadable):
+    def _made_again(self, id: str, wanted: Snapshot) -> Runner | DisplayGroup | Unreadable:
+        own = made_anew(wanted)
+        if isinstance(own, DisplayGroup | Unreadable):
             return own
         return Runner(id, cast(Display, own), self._services)
 
-    def _set_back(self, entry: Entry, wanted: Kept) -> None:
+    def _set_back(self, entry: Entry, wanted: Snapshot) -> None:
         """Give an entry its old properties; one that could not be shown then stays as it is."""
         content = entry.content
         if isinstance(content, Unreadable):
@@ -286,7 +286,7 @@ class DisplayList:
         """The list for a panel; the statuses of a group summarize the displays in it."""
         rows = [self._row(entry, statuses_of) for entry in self._entries]
         for index, entry in enumerate(self._entries):
-            if isinstance(entry.content, Group) and entry.is_enabled:
+            if isinstance(entry.content, DisplayGroup) and entry.is_enabled:
                 inner = [
                     row
                     for other, row in zip(self._entries, rows, strict=True)
@@ -295,9 +295,9 @@ class DisplayList:
                 rows[index] = replace(rows[index], statuses=_summary(inner))
         return tuple(rows)
 
-    def _content(self, id: str, item: Item) -> Runner | Group | Unreadable:
+    def _content(self, id: str, item: Item) -> Runner | DisplayGroup | Unreadable:
         content = item.group if isinstance(item, Branch) else item
-        if isinstance(content, Group | Unreadable):
+        if isinstance(content, DisplayGroup | Unreadable):
             return content
         return Runner(id, content, self._services)
 
@@ -317,7 +317,7 @@ class DisplayList:
 
     def _item(self, entry: Entry) -> Item:
         copied = copy.copy(entry.declared)
-        return Branch(copied, self.items(entry)) if isinstance(copied, Group) else copied
+        return Branch(copied, self.items(entry)) if isinstance(copied, DisplayGroup) else copied
 
     def _row(self, entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
         own, content = entry.declared, entry.content

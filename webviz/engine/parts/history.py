@@ -16,7 +16,7 @@ from webviz.engine.parts.steps import Difference, Moment, difference
 from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
-from webviz.engine.state import History, Step
+from webviz.engine.state import Step, UndoHistory
 from webviz.files.config import ConfigError
 
 MAX_STEPS = 100
@@ -75,7 +75,7 @@ class HistoryPart(Part):
         """The steps."""
         undo = tuple(done.step for done in reversed(self._undo))
         redo = tuple(done.step for done in reversed(self._redo))
-        return {"history": History(undo, redo)}
+        return {"history": UndoHistory(undo, redo)}
 
     def noting(self, do: Do) -> Do:
         """Like `do`, which carries out commands, but notes what they change."""

@@ -16,7 +16,7 @@ from webviz.files.config import Settings, Unreadable
 
 
 @dataclass(frozen=True)
-class Kept:
+class Snapshot:
     """One entry of the list of displays, or one tool.
 
     Args:
@@ -37,16 +37,16 @@ class Kept:
         return self.content.name if self.content else str(self.values["name"])
 
 
-def kept(content: Declared | Unreadable, group: str, before: Kept | None) -> Kept:
+def kept(content: Declared | Unreadable, group: str, before: Snapshot | None) -> Snapshot:
     """A snapshot of an entry; the one from before if it is still the same, to save memory."""
     if isinstance(content, Unreadable):
-        now = Kept(None, {}, content, group)
+        now = Snapshot(None, {}, content, group)
     else:
-        now = Kept(type(content), msgspec.to_builtins(content), None, group)
+        now = Snapshot(type(content), msgspec.to_builtins(content), None, group)
     return before if now == before and before is not None else now
 
 
-def made_again(kept: Kept) -> Declared | Unreadable:
+def made_anew(kept: Snapshot) -> Declared | Unreadable:
     """What was kept, made anew."""
     if kept.class_ is None:
         assert kept.content is not None
@@ -67,8 +67,8 @@ class Moment:
     """
 
     settings: Settings = field(default_factory=Settings)
-    displays: Mapping[str, Kept] = field(default_factory=dict)
-    tools: Mapping[str, Kept] = field(default_factory=dict)
+    displays: Mapping[str, Snapshot] = field(default_factory=dict)
+    tools: Mapping[str, Snapshot] = field(default_factory=dict)
     path: Path | None = None
     report: Sequence[str] = ()
 
@@ -111,13 +111,13 @@ def difference(before: Moment, after: Moment) -> Difference:
     return _of_settings(before.settings, after.settings)
 
 
-def _changed(old: Kept, new: Kept) -> list[str]:
+def _changed(old: Snapshot, new: Snapshot) -> list[str]:
     if old.class_ is None or new.class_ is None:
         return []
     return [name for name in new.values if old.values.get(name) != new.values[name]]
 
 
-def _of_changes(new: Mapping[str, Kept], changes: list[tuple[str, str]]) -> Difference:
+def _of_changes(new: Mapping[str, Snapshot], changes: list[tuple[str, str]]) -> Difference:
     ids = list(dict.fromkeys(id for id, _ in changes))
     if len(ids) > 1:
         return Difference(f"Change {len(ids)} displays")
@@ -133,7 +133,7 @@ def _of_changes(new: Mapping[str, Kept], changes: list[tuple[str, str]]) -> Diff
     return Difference(f"Change {labels.get(name, name)} of {kept.name}", changes[0])
 
 
-def _moved(old: Mapping[str, Kept], new: Mapping[str, Kept]) -> str:
+def _moved(old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]) -> str:
     """The name of what was moved, "" if nothing was."""
     for id, kept in new.items():
         if kept.group != old[id].group:

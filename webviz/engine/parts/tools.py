@@ -21,7 +21,7 @@ from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.steps import Kept, kept, made_again
+from webviz.engine.parts.steps import Snapshot, kept, made_anew
 from webviz.engine.sources.graph import Outlet
 from webviz.engine.state import ToolButton
 from webviz.files.config import ConfigError, ToolItem, Unreadable, nearest
@@ -64,15 +64,15 @@ class ToolsPart(Part):
         """The tools to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
 
-    def kept(self, before: Mapping[str, Kept]) -> dict[str, Kept]:
+    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
         """What undo needs of the tools, by id; unchanged ones are those from `before`."""
         return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
 
-    def restore(self, wanted: Mapping[str, Kept]) -> None:
+    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
         """Have the tools that were kept."""
         now = self.kept({})
         self._items = {
-            id: self._items[id] if now.get(id) == each else cast(ToolItem, made_again(each))
+            id: self._items[id] if now.get(id) == each else cast(ToolItem, made_anew(each))
             for id, each in wanted.items()
         }
 

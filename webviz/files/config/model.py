@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.declared import Color, Prop, make
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
@@ -78,7 +78,7 @@ class Unreadable:
 class Branch:
     """A group and its displays, in order."""
 
-    group: Group
+    group: DisplayGroup
     displays: list[Item]
 
 

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import msgspec
 
 from webviz.api.declared import P, make, set_property
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.files.config import (
     Branch,
     Config,
@@ -100,7 +100,7 @@ class _Assignment:
 
     def _in_item(self, item: Entry, steps: Path) -> Entry:
         if isinstance(item, Branch):
-            if len(steps) < 2 and (not steps or steps[0] in Group.__struct_fields__):
+            if len(steps) < 2 and (not steps or steps[0] in DisplayGroup.__struct_fields__):
                 return Branch(self._in_display(item.group, steps), item.displays)
             inner = steps[1:] if steps[0] == "displays" else steps
             return Branch(item.group, self._in_list(item.displays, inner))

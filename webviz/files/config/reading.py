@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.declared import P, make
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.registry import broken_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.api.views import with_type
@@ -134,7 +134,7 @@ def read_display(entry: Any, place: Location) -> Item:
     if not isinstance(inner, list):
         return Unreadable(entry, place.at("displays").says(NO_LIST))
     display = _read_plugin(Display, entry, place, ("displays",) if is_group else ())
-    if not isinstance(display, Group):
+    if not isinstance(display, DisplayGroup):
         return display
     places = (place.at("displays", index) for index in range(len(inner)))
     return Branch(display, [read_display(e, at) for e, at in zip(inner, places, strict=True)])

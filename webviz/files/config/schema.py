@@ -16,7 +16,7 @@ from msgspec import inspect
 
 from webviz.api.declared import Declared, Topic
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.properties import Property, properties_of
 from webviz.api.tool import Tool
 from webviz.files.config.model import VERSION, Settings
@@ -108,7 +108,7 @@ class _Schemas:
         """Define the entries of a list of displays or tools."""
         for name, cls in types.items():
             properties = {"type": {"const": name}, **self.properties(cls)}
-            if cls is Group:
+            if cls is DisplayGroup:
                 inner = _list_of(Display, "What is in the group, in the order of the list.")
                 properties["displays"] = inner
             self.definitions[_definition(base, name)] = _object(properties, _words(cls))

@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.declared import Declared, P, make, to_values
 from webviz.api.display import Display
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
 from webviz.files.config import Branch, Item, Location, Unreadable, read_display
 from webviz.files.rviz import values
@@ -65,10 +65,10 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
     display = _read(found, tree, name, report, place)
     if found.rviz != cls:
         report.note(name, cls, f"ROS 1's class, written as {found.rviz}")
-    inner = tree.pop("Displays", []) if isinstance(display, Group) else []
+    inner = tree.pop("Displays", []) if isinstance(display, DisplayGroup) else []
     rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, bare(display))
     kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
-    if not isinstance(display, Group):
+    if not isinstance(display, DisplayGroup):
         return display
     entries = inner if isinstance(inner, list) else []
     return Branch(display, read_items(entries, report, kept, place.at("Displays")))
@@ -138,7 +138,7 @@ def _is_enabled(tree: Tree, reading: Reading) -> bool:
 def bare(display: Display) -> Tree:
     """RViz's tree of a display, without kept parts of a file."""
     switch = {"Enabled": display.enabled, "Value": display.enabled}
-    if isinstance(display, Group):
+    if isinstance(display, DisplayGroup):
         del switch["Value"]
     return {"Class": type(display).rviz, "Name": display.name, **switch, **struct_tree(display)}
 

@@ -78,7 +78,7 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
             from webviz.edges.page.pages import Pages
-            from webviz.edges.scene import Scene, open_server
+            from webviz.edges.scene import ViserScene, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
@@ -95,7 +95,7 @@ class Running:
             shown = shown or read(path)
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
-            scene = self._scene = Scene(server)
+            scene = self._scene = ViserScene(server)
             self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
             self._pages = Pages(server.channel, self._loop.enqueue)
             self._host, self.port = host, server.get_port()

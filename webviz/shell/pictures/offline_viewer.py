@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.frames import Frames
-from webviz.api.group import Group
+from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.engine.loop import FrameLoop
@@ -169,5 +169,5 @@ def _enabled(rows: Collection[Row]) -> Iterator[Row]:
         if hidden_below is not None and row.depth > hidden_below:
             continue
         hidden_below = None if row.enabled else row.depth
-        if row.enabled and not isinstance(row.display, Group):
+        if row.enabled and not isinstance(row.display, DisplayGroup):
             yield row

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from webviz.api.errors import Error
 from webviz.api.views import View
-from webviz.edges.scene import Scene
+from webviz.edges.scene import ViserScene
 from webviz.engine.state import State
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import LOADING
@@ -27,7 +27,7 @@ class Snapshots:
     """
 
     def __init__(
-        self, scene: Scene, draw: Callable[[], State], look: Callable[[View, int], None]
+        self, scene: ViserScene, draw: Callable[[], State], look: Callable[[View, int], None]
     ) -> None:
         self._scene = scene
         self._draw = draw

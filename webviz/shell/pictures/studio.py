@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from webviz.api.nodes import Rgb
 from webviz.api.views import View
-from webviz.edges.scene import Scene, open_server
+from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
 
@@ -18,7 +18,7 @@ PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
 
-class StudioScene(Scene):
+class StudioScene(ViserScene):
     """A scene that is updated only while a picture is wanted."""
 
     is_watched = True

@@ -14,7 +14,7 @@ from webviz.api.nodes import Node, Pose, Rgb
 from webviz.engine.scene import Cameras, NoCameras
 
 if TYPE_CHECKING:
-    from webviz.edges.scene import Scene
+    from webviz.edges.scene import ViserScene
 
 
 @dataclass
@@ -33,10 +33,10 @@ class RecordingScene:
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
-    _targets: list[Scene] = field(default_factory=list)
+    _targets: list[ViserScene] = field(default_factory=list)
     """The attached scene, if any."""
 
-    def attach(self, target: Scene) -> None:
+    def attach(self, target: ViserScene) -> None:
         """Draw everything in another scene as well, from now on."""
         with self.lock:
             self._targets = [target]

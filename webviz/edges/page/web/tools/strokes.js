@@ -16,7 +16,7 @@ const HINTS = {
 
 export function install() {
   channel.on("Tools", ({ tools }) => provide("viewer", tools.map(strokeTool)));
-  channel.on("Told", ({ number, level, text }) => {
+  channel.on("Result", ({ number, level, text }) => {
     history.told(number, level, text);
     tell(level, text);
   });

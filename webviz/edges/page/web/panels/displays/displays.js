@@ -23,7 +23,8 @@ export const displays = {
     });
     const hint = el("kbd", { class: "wv-tree-hint", "aria-hidden": "true" }, keyText("Ctrl+f"));
     const more = el("button", {
-      type: "button", class: "wv-icon", "aria-label": "More", "aria-haspopup": "menu", "data-tip": "More",
+      type: "button", class: "wv-icon", "aria-label": "List options", "aria-haspopup": "menu",
+      "data-tip": "List options",
       onclick: () => openMenuBelow(more, menu()),
     }, icon("dots"));
     const add = el("button", { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
