@@ -167,8 +167,13 @@ def test_nonsense_is_ignored(
     assert heard == [Wish("sense")]
 
 
+@pytest.mark.parametrize(("count", "size"), [(40 * MAX_WAITING, 10_000), (60, 1 << 20)])
 def test_a_page_that_reads_nothing_has_to_connect_anew(
-    server: Server, call: Callable[..., Any], wait_until: Callable[[Callable[[], bool]], None]
+    server: Server,
+    call: Callable[..., Any],
+    wait_until: Callable[[Callable[[], bool]], None],
+    count: int,
+    size: int,
 ) -> None:
     peer = call()
     browser, key = key_of(peer)
@@ -178,8 +183,8 @@ def test_a_page_that_reads_nothing_has_to_connect_anew(
         for _ in range(MAX_WAITING):
             server.channel.send(Weather("x" * 10_000))  # of these the newest only
         assert browser in live
-        for _ in range(40 * MAX_WAITING):
-            server.channel.send(News("x" * 10_000), browser)
+        for _ in range(count):
+            server.channel.send(News("x" * size), browser)
         wait_until(lambda: browser not in live)
 
 

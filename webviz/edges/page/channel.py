@@ -21,6 +21,8 @@ from webviz.edges.page.stores import Stores, Watched
 
 MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
+MAX_WAITING_BYTES = 32 << 20
+"""Of these messages together; the largest are configs to download."""
 MAX_CHARACTERS = 3 << 20
 """Of a message of a page; the longest is a config."""
 MAX_QUOTED = 200
@@ -174,13 +176,13 @@ class Channel:
             while True:
                 outbox.filled.clear()
                 while (message := self._next(outbox)) is not None:
-                    await connection.send(msgspec.json.encode(message).decode())
+                    await connection.send(message.decode())
                 await outbox.filled.wait()
 
-    def _next(self, outbox: _Outbox) -> ToPage | None:
+    def _next(self, outbox: _Outbox) -> bytes | None:
         with self._lock:
             if (values := outbox.watched.next(self._stores)) is not None:
-                return values
+                return msgspec.json.encode(values)
             return outbox.waiting.pop(next(iter(outbox.waiting))) if outbox.waiting else None
 
     def _hear(self, browser: int, text: str, log: logging.Logger) -> None:
@@ -230,7 +232,7 @@ class _Outbox:
         self.key: str | None = key
         self.abort: Callable[[], None] = lambda: None
         """Ends the connection of the page, if it has one."""
-        self.waiting: dict[object, ToPage] = {}
+        self.waiting: dict[object, bytes] = {}
         self.watched = Watched()
         self.is_full = False
         """Whether something did not fit any more."""
@@ -240,8 +242,10 @@ class _Outbox:
     def put(self, message: ToPage) -> None:
         key = type(message) if message.kept else next(self._numbers)
         self.waiting.pop(key, None)
-        if len(self.waiting) < MAX_WAITING and not self.is_full:
-            self.waiting[key] = message
+        data = msgspec.json.encode(message)
+        size = len(data) + sum(map(len, self.waiting.values()))
+        if len(self.waiting) < MAX_WAITING and size <= MAX_WAITING_BYTES and not self.is_full:
+            self.waiting[key] = data
         else:
             self.waiting.clear()
             self.is_full = True
