@@ -24,7 +24,7 @@ QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages
 # Processes for the others, one more than processors: they wait for browsers and ROS graphs.
 WAITING := 3
 # A long file that comes last would leave one of the processes without work.
-FIRST := $(addprefix tests/,benchmarks e2e testing sim gui capture)
+FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
 
 .PHONY: install test quick check bench browser docs
 
