@@ -115,7 +115,13 @@ class Driver:
         return self.odometry
 
     def drive(self, speed: float, seconds: float) -> None:
-        """Drive straight on, then stand."""
+        """Drive straight on, then stand; again if the simulator had no processor meanwhile."""
+        start, rest = self.where(), seconds
+        while rest > 0.1 * seconds:
+            self._command(speed, rest)
+            rest = seconds - float(np.linalg.norm(self.where() - start)) / abs(speed)
+
+    def _command(self, speed: float, seconds: float) -> None:
         twist = Twist()
         end = time.monotonic() + seconds
         while time.monotonic() < end:

@@ -72,7 +72,8 @@ def test_a_display_goes_where_the_line_is(
     drag(tree, name, to, share, dx)
     assert tree.tab.page.locator(".wv-tree-drop").is_visible()
     tree.tab.page.mouse.up()
-    tree.tab.turn()
+    if command:
+        tree.tab.wait_for_command(command)
     tree.tab.turn()
     assert loop.commands == ([command] if command else [])
     assert not tree.tab.page.locator(".wv-tree-drop").is_visible()
