@@ -144,7 +144,7 @@ class Tab:
         self.page.wait_for_timeout(20)
         self.loop.turn()
 
-    def wait_for(self, condition: Callable[[], object], timeout: float = 20.0) -> None:
+    def wait_for(self, condition: Callable[[], object], timeout: float = 60.0) -> None:
         """Wait until a condition holds while the page and the loop run."""
         for _ in range(int(timeout / 0.02)):
             self.loop.turn()
