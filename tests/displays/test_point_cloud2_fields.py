@@ -96,7 +96,12 @@ def test_bytes_that_mean_nothing_do_no_harm(data: bytes, is_bigendian: bool) -> 
     values = xyz_cloud([(0, 0, 0)] * 2, {"rgb": [0, 0]})
     values |= {"data": np.frombuffer(data, np.uint8), "is_bigendian": is_bigendian}
     read = Cloud(decoded(values))
-    xyz, _ = read.positions()
+    try:
+        xyz, _ = read.positions()
+    except CloudError:
+        if is_bigendian:  # bytes that make sense only without the flag are refused
+            return
+        raise
     drawable(xyz)
     assert packed_colors(read, None)[0].shape == (2, 3)
 
