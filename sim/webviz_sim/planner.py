@@ -52,8 +52,8 @@ class Planner:
             goal: In the map frame; likewise. The yaw is ignored.
 
         Returns:
-            Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None if there
-            is no path.
+            Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None without
+            a path.
         """
         source, target = self._nearest_open(start), self._nearest_open(goal)
         if source is None or target is None:

@@ -161,7 +161,7 @@ def test_a_file_of_the_browser_is_uploaded(tab: Tab, tmp_path: Path, size: int) 
         ("photo.yaml", b"\xff\xd8\xff\xe0", "photo.yaml is not UTF-8 text."),
         ("large.yaml", b"#" * (2 << 20) + b"#", "large.yaml is larger than 2 MB"),
         ("lines.yaml", b"\n" * (2 << 20), "lines.yaml is larger than 2 MB"),
-        ("photo.png", b"", "photo.png is no config"),
+        ("photo.png", b"", "photo.png is not a config"),
     ],
 )
 def test_what_is_no_config_is_not_sent(

@@ -65,7 +65,7 @@ class Form(Panel):
 
 
 class Moody(Panel):
-    """A panel that fails while there is no frame."""
+    """A panel that fails until a frame is known."""
 
     def build(self, ui: Ui, send: Send) -> None:
         ui.button("Half", lambda browser: None, width=0.5)

@@ -1,4 +1,4 @@
-"""What the page is told of the properties that a class declares."""
+"""The declarations of properties, as the page receives them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page is told of the tree of displays."""
+"""The content of the tree of displays."""
 
 from __future__ import annotations
 

@@ -160,7 +160,7 @@ class Instances(_Node):
         scales: float32 (N, 3), extents along x, y and z, metres; cylinders and cones are along z.
         colors: uint8 (N, 3), or one colour for all.
         shape: of all solids.
-        wxyzs: float32 (N, 4), unit quaternions with w first; None is no rotation.
+        wxyzs: float32 (N, 4), unit quaternions with w first; None means not rotated.
         opacity: 0 to 1, float32 (N,) or one for all.
         is_data: whether colours are data, which shading must hardly change.
     """

@@ -151,7 +151,7 @@ class ToolContext:
 
         Raises:
             EncodeError: a value does not fit the request.
-            UnknownTypeError: the type is unknown, and there is no definition.
+            UnknownTypeError: the message type has no known definition.
         """
         parts = interfaces.service(type, definition)
 

@@ -33,7 +33,7 @@ class Pick:
 def picks(
     topics: Mapping[str, tuple[str, ...]], displays: Mapping[str, type[Display]]
 ) -> list[Pick]:
-    """Every live topic with each display that fits its type, sorted; topics nobody shows are left
+    """Every live topic with each display that fits its type, sorted; topics without one are left
     out.
 
     Args:

@@ -91,7 +91,7 @@ class Clock:
         ros_elapsed_ns: since the viewer started or was reset.
         wall_s: seconds since 1970.
         wall_elapsed_s: since the viewer started or was reset.
-        is_paused: whether somebody let the time stand still.
+        is_paused: whether time is paused.
         pace: how the time that is shown goes on.
         is_simulated: whether ROS time comes from /clock or a bag instead of this machine.
         clock_hz: messages per second on /clock, 0 while ROS time is wall time.
@@ -126,7 +126,7 @@ class Inspected:
     """The inspected topic.
 
     Args:
-        type: of its messages, "" if nobody publishes it.
+        type: of its messages, "" without a publisher.
         message: the last one, see `webviz.data.messages.to_tree`; None without one.
         problem: why there is none, or why it cannot be read; a sentence.
         size: of it in bytes.
@@ -222,9 +222,9 @@ class State:
         clock: the time.
         offers: publishers and QoS by topic name.
         traffic: by topic name, of the topics that are subscribed to.
-        inspected: the topics that somebody looks into, by name.
-        transforms: the tree of transforms, None if nobody wants to see it.
-        between: transforms that somebody reads out, by target and source frame.
+        inspected: the inspected topics, by name.
+        transforms: the tree of transforms, None while no page shows it.
+        between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
         history: what can be undone and redone.

@@ -140,7 +140,7 @@ class PointsDisplay(Display):
             xyz: points (N, 3).
             own: of their coordinates in the frame of the sensor.
             fixed: of their coordinates in the fixed frame.
-            ctx: is told what the colours stand for.
+            ctx: gets the colour scale.
         """
         pose = fixed if self.use_fixed_frame else own
         values = coordinate(pose, xyz, _AXES.index(self.axis))

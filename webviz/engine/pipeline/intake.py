@@ -245,7 +245,7 @@ class Intake:
         return Status(Level.WARN, text)
 
     def _nearest(self, offers: Mapping[str, Offer]) -> str:
-        """The topic of this type whose name is most like this one's, "" if nobody publishes any."""
+        """The topic of this type whose name is most like this one's, "" if there is none."""
         if offers is not self._others[0]:  # else nothing has changed
             others = (
                 topic

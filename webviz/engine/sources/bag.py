@@ -148,7 +148,7 @@ class BagSource:
         return self._time.at(self._position_ns)
 
     def clock_messages(self) -> int | None:
-        """Time comes from the bag; nobody sees its /clock one by one."""
+        """Time comes from the bag; its /clock is not counted."""
         return 0
 
     def resolve(self, topic: str) -> str:

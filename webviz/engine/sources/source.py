@@ -69,7 +69,7 @@ class Offer:
         requested: reliability and durability of our subscription, None without one.
         problem: why no message can arrive, "" if it can.
         type: of our subscription, "" without one; a topic can be read as one type only.
-        subscribers: how many there are, us included; None if nobody can know.
+        subscribers: their number, webviz included; None if unknown.
     """
 
     publishers: tuple[Publisher, ...]

@@ -47,7 +47,7 @@ def between(state: State, pair: str) -> Mapping[str, Any]:
 
 
 def pair_of(argument: str) -> tuple[str, str] | None:
-    """Target and source frame of a store's argument, None if it is no pair."""
+    """Target and source frame of a store's argument, None unless there are two."""
     try:
         pair = json.loads(argument)
     except (ValueError, RecursionError):

@@ -8,7 +8,8 @@ const MAX_TEXT = 100_000;
 /**
  * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
  * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
- * when the text has changed.
+ * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed, and
+ * `take()` takes over what is typed so far.
  */
 export function entry(field, { change, refused, encode, decode, after = () => {} }) {
   const isLong = field instanceof HTMLTextAreaElement;
@@ -53,6 +54,13 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
     }
   }
 
+  function put(value) {
+    if (value === current) return;
+    current = value;
+    write();
+    state.edit(value);
+  }
+
   field.addEventListener("input", () => {
     isTyped = true;
     state.hold();
@@ -83,5 +91,11 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
     describe: (text) => set(field, { title: text }),
     update: state.show,
     edit: state.edit,
+    value: () => current,
+    isTyped: () => isTyped,
+    take,
+    put,
+    hold: state.hold,
+    release: state.release,
   };
 }

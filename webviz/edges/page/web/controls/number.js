@@ -1,7 +1,7 @@
 // A number: typed with or without its unit, stepped by arrow keys, dragged sideways.
 
 import { el, set } from "../dom.js";
-import { sync } from "./sync.js";
+import { entry } from "./entry.js";
 import { format, parse, stepOf, within } from "./units.js";
 
 const DRAG_PX = 4; // less is a click
@@ -10,13 +10,9 @@ const DOUBLE_PX = 70; // for what can only be positive, right doubles and left h
 
 /** A field for a number; see `control.js`. `prefix` stands in it at the left, such as "X". */
 export function number(property, { label, change, refused, prefix = "" }) {
-  let current;
-  let isTyped = false;
-
   const input = el("input", {
     class: "wv-field", type: "text", role: "spinbutton", inputmode: "decimal", "aria-label": label,
     "aria-valuemin": property.low ?? property.above, "aria-valuemax": property.high ?? property.below,
-    autocomplete: "off", spellcheck: "false",
   });
   const element = el(
     "div", { class: "wv-number-input" },
@@ -24,99 +20,48 @@ export function number(property, { label, change, refused, prefix = "" }) {
     input,
     property.unit && el("span", { class: "wv-number-unit", "aria-hidden": "true" }, property.unit),
   );
-  const state = sync({
-    show(value) {
-      current = value;
-      write();
+  const field = entry(input, {
+    change,
+    refused,
+    encode: format,
+    decode(text) {
+      const value = parse(text, property.unit);
+      if (property.kind !== "int" || Number.isInteger(value)) return value;
+      throw new Error(`Not changed: expected a whole number, got ${format(value)}.`);
     },
-    send: change,
-    refused(text) {
-      set(input, { "aria-invalid": text ? "true" : null });
-      refused(text);
+    after() {
+      const text = format(field.value());
+      set(input, { "aria-valuenow": text, "aria-valuetext": `${text} ${property.unit ?? ""}`.trim() });
     },
   });
-
-  function write() {
-    const text = format(current);
-    if (input.value !== text) input.value = text;
-    set(input, { "aria-valuenow": text, "aria-valuetext": `${text} ${property.unit ?? ""}`.trim() });
-  }
-
-  function take() {
-    isTyped = false;
-    if (input.value.trim() === format(current) && !input.getAttribute("aria-invalid")) {
-      return state.release();
-    }
-    try {
-      const value = parse(input.value, property.unit);
-      if (property.kind === "int" && !Number.isInteger(value)) {
-        throw new Error(`Not changed: expected a whole number, got ${format(value)}.`);
-      }
-      current = value;
-      state.release();
-      state.edit(value);
-    } catch (error) {
-      state.refuse(error.message);
-    }
-  }
-
-  function put(value) {
-    if (value === current) return;
-    current = value;
-    write();
-    state.edit(value);
-  }
 
   function step(event) {
     const by = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    const size = stepOf(property, current) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
-    put(within(property, current + by * size * (event.shiftKey ? 10 : 1), size));
+    const size = stepOf(property, field.value()) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
+    field.put(within(property, field.value() + by * size * (event.shiftKey ? 10 : 1), size));
     input.select();
   }
 
-  input.addEventListener("input", () => {
-    isTyped = true;
-    state.hold();
-  });
   input.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") {
-      take();
-      input.select();
-    } else if (event.key === "Escape") {
-      if (!isTyped && !input.getAttribute("aria-invalid")) return;
-      isTyped = false;
-      state.cancel();
-      write();
-      input.select();
-    } else if (/^(Arrow(Up|Down)|Page(Up|Down))$/.test(event.key)) {
-      if (isTyped) take();
-      if (!input.getAttribute("aria-invalid")) step(event);
-    } else {
-      return;
-    }
+    if (!/^(Arrow(Up|Down)|Page(Up|Down))$/.test(event.key)) return;
+    if (field.isTyped()) field.take();
+    if (!input.getAttribute("aria-invalid")) step(event);
     event.preventDefault();
     event.stopPropagation();
   });
-  input.addEventListener("blur", () => {
-    if (isTyped) take();
-  });
   drag(input, {
-    begin: () => (isTyped ? null : { value: current, size: stepOf(property, current) }),
+    begin: () =>
+      field.isTyped() ? null : { value: field.value(), size: stepOf(property, field.value()) },
     move({ value, size }, by) {
-      state.hold();
+      field.hold();
       const isScale = property.above === 0 && property.kind !== "int";
       const moved = isScale ? value * 2 ** (by / DOUBLE_PX) : value + Math.round(by / STEP_PX) * size;
-      put(within(property, moved, isScale ? size / 10 : size));
+      field.put(within(property, moved, isScale ? size / 10 : size));
     },
-    end: state.release,
+    end: field.release,
   });
 
-  return {
-    element,
-    focus: () => input.focus(),
-    describe: (text) => set(input, { title: text }),
-    update: state.show,
-  };
+  return { ...field, element };
 }
 
 /** Calls `move(start, pixels)` while a field is dragged sideways; a click selects what is in it. */

@@ -41,7 +41,7 @@ export function install() {
     if (Object.keys(factors).length > 0) scene.traverse(teach);
   });
 
-  // What is transparent hides nothing, as in RViz: not even what of itself is drawn later.
+  // As in RViz, a transparent object does not hide anything behind it, its own back included.
   viser.beforeDraw((material) => {
     if (material.transparent && material.isMeshStandardMaterial) material.depthWrite = false;
   });

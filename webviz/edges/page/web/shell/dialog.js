@@ -8,7 +8,7 @@ let count = 0;
 /**
  * Opens a dialog; resolves with the value of the button that was chosen, null on Escape.
  *
- * `content`: a string, an element or several, or what makes them when it is told how to close the
+ * `content`: a string, an element or several, or a function that makes them from what closes the
  * dialog: `(close) => element`, to be called with a value. `buttons`: `{label, value, primary,
  * danger, focused, accept}`; Enter in a field is the primary one. `accept()`, which may be
  * asynchronous, is asked first: unless it returns true the dialog stays. `isLight`: a click beside

@@ -171,7 +171,7 @@ export async function load(upload) {
   const fail = (text) => toast(text, { level: "error" });
   const name = baseName(upload.name);
   if (!hasSuffix(name))
-    return fail(`Not opened: ${name} is no config; those end with .yaml or .rviz.`);
+    return fail(`Not opened: ${name} is not a config. Choose a .yaml or .rviz file.`);
   const large = `Not opened: ${name} is larger than 2 MB, which no config is.`;
   if (upload.size > MAX_BYTES) return fail(large);
   let text;

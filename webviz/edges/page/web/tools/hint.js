@@ -17,7 +17,7 @@ export function tell(level, text) {
   if (SHOWN_MS[level]) timer = setTimeout(() => show("hint", resting), SHOWN_MS[level]);
 }
 
-/** Shows where a gesture is, until something else is told; "" shows the hint again. */
+/** Shows where a gesture is, until another text; "" shows the hint again. */
 export function tellLive(text) {
   clearTimeout(timer);
   show("hint", text || resting);
