@@ -119,7 +119,7 @@ def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path, scre
     assert (tmp_path / "a.png").exists()
     first, *table = result.errors.splitlines()
     assert first == "webviz: not all displays are OK at 6 s of the bag:"
-    assert table[0].startswith("  WARN   Scan  No publisher on /scann. The nearest ")
+    assert table[0].startswith("  WARN   Scan  No publisher on /scann. Choose /scan, the nearest ")
 
 
 def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):

@@ -45,7 +45,7 @@ def test_nobody_publishes(bench: Callable[..., Any]) -> None:
 def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -> None:
     b = bench(Dot(name="Dot"))
     b.source.known = {"/another": offer(), "/goal_pose": offer()}
-    text = "No publisher on /pose. The nearest topic of its type is /goal_pose."
+    text = "No publisher on /pose. Choose /goal_pose, the nearest topic of its type."
     assert b.statuses()["Topic"] == ("WARN", text)
     remedy = b.states[-1].rows[0].statuses["Topic"].remedy
     assert remedy == Remedy("topic.name", "/goal_pose")

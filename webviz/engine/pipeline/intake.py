@@ -236,7 +236,7 @@ class Intake:
             )
             return Status(Level.WARN, text)
         if other := self._nearest(offers):
-            text = f"No publisher on {self.name}. The nearest topic of its type is {other}."
+            text = f"No publisher on {self.name}. Choose {other}, the nearest topic of its type."
             return Status(Level.WARN, text, Remedy(f"{self.path}.name", other))
         text = (
             f"No publisher on {self.name}. Start the node that publishes it or choose another "
