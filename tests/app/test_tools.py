@@ -184,11 +184,22 @@ def test_seen_from_above_a_pixel_up_lifts_by_a_pixel(page: Page, graph: Remember
     assert (position.x, position.y, position.z) == expected
 
 
+HEIGHT = """async (xy) => {
+  const { surfaceAt } = await import("/webviz/scene/ground.js");
+  return surfaceAt(xy)[2];
+}"""
+STAYS = """async (name) => {
+  const { all } = await import("/webviz/tools/registry.js");
+  return all().find((tool) => tool.name === name).stays;
+}"""
+
+
 @pytest.fixture
 def box(viewer: webviz.Viewer, page: Page) -> Iterator[None]:
     """Axes whose x axis, a rod with a radius of 1 m, lies on the ground."""
     axes = viewer.add("Axes", length=4.0, radius=1.0)
-    page.draw()
+    x, y = middle(page)
+    page.wait_for(lambda: page.evaluate(HEIGHT, [x + 2 * SCALE, y]) > 0.9, "the rod")
     yield
     axes.remove()
 
@@ -210,12 +221,30 @@ def test_points_follow_each_other_without_single_click(
     page: Page, graph: RememberingGraph, viewer: webviz.Viewer
 ) -> None:
     viewer.do(SetToolProperty("Publish Point", "single_click", False))
+    page.wait_for(lambda: page.evaluate(STAYS, "Publish Point"), "the changed tool")
     page.tab.keyboard.press("u")
     for x in (0.0, 50.0):
         drag(page, (x, 0.0), (x, 0.0))
     page.wait_for(lambda: len(graph.published) == 2, "two points")
     assert active(page) == "Publish Point"
     viewer.do(SetToolProperty("Publish Point", "single_click", True))
+    page.wait_for(lambda: not page.evaluate(STAYS, "Publish Point"), "the tool as before")
+
+
+def test_a_gesture_goes_on_when_somebody_changes_its_tool(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer
+) -> None:
+    page.tab.keyboard.press("u")
+    x, y = middle(page)
+    page.tab.mouse.move(x, y)
+    page.tab.mouse.down()
+    viewer.do(SetToolProperty("Publish Point", "single_click", False))
+    page.wait_for(lambda: page.evaluate(STAYS, "Publish Point"), "the changed tool")
+    page.tab.mouse.up()
+    page.wait_for(lambda: len(graph.published) == 1, "the point")
+    assert active(page) == "Publish Point"
+    viewer.do(SetToolProperty("Publish Point", "single_click", True))
+    page.wait_for(lambda: not page.evaluate(STAYS, "Publish Point"), "the tool as before")
 
 
 def test_a_pose_estimate_is_published_by_a_drag(page: Page, graph: RememberingGraph) -> None:

@@ -133,8 +133,6 @@ def test_visers_panel_is_hidden_but_for_debugging(tab: Tab, server: Server) -> N
 
 def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
     tab.loop.state = State(offers={"/scan": offer("/driver")})
-    for _ in range(10):
-        tab.turn()
     watch = """() => {
       window.changes = [];
       const observer = new MutationObserver((records) => {
@@ -146,6 +144,10 @@ def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
       }
     }"""
     tab.page.evaluate(watch)
-    for _ in range(40):
-        tab.turn()
-    assert tab.page.evaluate("window.changes") == []
+    for _ in range(10):  # what was sent before still arrives on a slow machine
+        tab.page.evaluate("window.changes = []")
+        for _ in range(40):
+            tab.turn()
+        if not (changes := tab.page.evaluate("window.changes")):
+            break
+    assert changes == []

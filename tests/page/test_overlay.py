@@ -114,6 +114,11 @@ def test_what_is_under_the_resting_mouse_is_named(
     scene.flush()
     loop.show(make_row("display7", "Front scan"))
     tab.button("Look from Z").dispatch_event("click")
+    hit = """async (xy) => {
+      const { hit } = await import("/webviz/scene/mouse.js");
+      return Boolean(hit(xy)?.object);
+    }"""
+    tab.wait_for(lambda: tab.page.evaluate(hit, CENTER))
     tab.page.mouse.move(*CENTER)
     tab.wait_for(lambda: "Front scan: laser" in tab.text())
     assert "z 0.2" in tab.text()

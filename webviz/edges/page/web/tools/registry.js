@@ -13,13 +13,13 @@ const sets = new Map();
 let fallback = null;
 let current = null;
 
-/** Replaces the tools that come from one origin. */
+/** Replaces the tools that come from one origin. A gesture goes on if its tool is still there. */
 export function provide(origin, tools) {
   sets.set(origin, tools);
   const known = all();
   if (current && !known.includes(current)) {
     const same = known.find(({ id }) => id === current.id);
-    current.leave?.();
+    if (!same) current.leave?.();
     current = same ?? fallback;
   }
   tellAll();

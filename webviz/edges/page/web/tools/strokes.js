@@ -4,7 +4,7 @@ import * as channel from "../channel.js";
 import { canvas } from "../viser_page.js";
 import { tell, tellLive } from "./hint.js";
 import * as history from "./history.js";
-import { provide, select } from "./registry.js";
+import { active, provide, select } from "./registry.js";
 import * as stroke from "./stroke.js";
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
@@ -49,7 +49,7 @@ function follow(event, tool) {
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
   event.preventDefault();
   const done = (made) => {
-    if (!tool.stays) select(null);
+    if (!active().stays) select(null); // as it is now: somebody may have changed it meanwhile
     history.send(tool, made);
   };
   if (!stroke.begin(event, tool, { done, live: tellLive })) {
