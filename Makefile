@@ -25,6 +25,7 @@ QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages
 WAITING := 3
 # A long file that comes last would leave one of the processes without work.
 FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
+SLOW := $(FIRST) tests $(addprefix --ignore=,$(QUICK))
 
 .PHONY: install test quick check bench browser docs
 
@@ -36,7 +37,9 @@ ifdef ARGS
 	@$(PYTEST) -n 2 $(ARGS)
 else
 	@$(MAKE) --no-print-directory -j2 check quick
-	@$(PYTEST) -n $(WAITING) --no-loadscope-reorder $(FIRST) tests $(addprefix --ignore=,$(QUICK))
+	@$(PYTEST) -n $(WAITING) --no-loadscope-reorder --cache-clear $(SLOW) || { [ $$? = 1 ] && \
+		echo "Running the failed tests once more, alone: a busy machine may have delayed them." && \
+		$(PYTEST) -n 0 --last-failed --maxfail 3 $(SLOW); }
 endif
 
 quick: $(VENV)/ready-to-test
