@@ -46,6 +46,13 @@ def to_pose(position: Any, orientation: Any) -> Pose2D | None:
     return Pose2D(position.x, position.y, yaw)
 
 
+def to_map_pose(header: Any, pose: Any) -> Pose2D | str:
+    """The pose in the map, or why it is invalid."""
+    if header.frame_id.removeprefix("/") != "map":
+        return f"in the frame {header.frame_id!r}: send it in map"
+    return to_pose(pose.position, pose.orientation) or "that is not finite"
+
+
 def clock(nanoseconds: int) -> bytes:
     """A rosgraph_msgs/Clock."""
     return encode("rosgraph_msgs/msg/Clock", {"clock": stamp(nanoseconds)})

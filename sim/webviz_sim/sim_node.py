@@ -7,11 +7,11 @@ from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist, Twi
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from std_msgs.msg import Header
 from std_srvs.srv import Empty
 
 from webviz_sim import messages, options
 from webviz_sim.broadcaster import Broadcaster
+from webviz_sim.navigation import Navigation
 from webviz_sim.pose import Pose2D
 from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import load_world
@@ -47,6 +47,7 @@ class SimNode(Node):
         self._simulation = Simulation(world, self._settings, start_pose, values["seed"])
         latched_at = 0 if values["publish_clock"] else start
         self._broadcaster = Broadcaster(self, self._simulation, values, latched_at)
+        self._navigation = Navigation(self, self._simulation)
         self._publish(start)
 
         if values["stamped_cmd_vel"]:
@@ -69,6 +70,7 @@ class SimNode(Node):
             now: The time in nanoseconds, for the stamps; ignored with `publish_clock`.
         """
         self._simulation.step(self.period)
+        self._navigation.step()
         self._publish(now)
 
     def _publish(self, now: int) -> None:
@@ -97,14 +99,14 @@ class SimNode(Node):
             self._warn("Ignored a /cmd_vel that is not finite.")
 
     def _go(self, message: PoseStamped) -> None:
-        goal = to_map_pose(message.header, message.pose)
+        goal = messages.to_map_pose(message.header, message.pose)
         if isinstance(goal, str):
             self._warn(f"Ignored a /goal_pose {goal}.")
         elif not self._simulation.go_to(goal):
             self._warn(f"No path to the goal at x {goal.x:.2f} m, y {goal.y:.2f} m.")
 
     def _put(self, message: PoseWithCovarianceStamped) -> None:
-        pose = to_map_pose(message.header, message.pose.pose)
+        pose = messages.to_map_pose(message.header, message.pose.pose)
         if isinstance(pose, str):
             self._warn(f"Ignored an /initialpose {pose}.")
         else:
@@ -116,10 +118,3 @@ class SimNode(Node):
 
     def _warn(self, sentence: str) -> None:
         self.get_logger().warning(sentence)
-
-
-def to_map_pose(header: Header, pose) -> Pose2D | str:
-    """The pose in the map, or why it is invalid."""
-    if header.frame_id.removeprefix("/") != "map":
-        return f"in the frame {header.frame_id!r}: send it in map"
-    return messages.to_pose(pose.position, pose.orientation) or "that is not finite"

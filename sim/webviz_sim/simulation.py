@@ -74,6 +74,9 @@ class Simulation:
         self._follower: Follower | None = None
         self._touring = False
         self._rest_until = 0.0
+        self._goal: Pose2D | None = None
+        self.reached: Pose2D | None = None
+        """The last goal that was reached."""
         self._progress = (start, 0.0)
 
     @property
@@ -81,20 +84,36 @@ class Simulation:
         """The planned path from here on, in the map frame, shape (n, 2)."""
         return self._follower.remaining() if self._follower else np.empty((0, 2))
 
+    @property
+    def goal(self) -> Pose2D | None:
+        """The goal it drives to."""
+        return self._goal if self._follower and not self._touring else None
+
     def command(self, linear: float, angular: float) -> None:
         """Drives with velocities in m/s and rad/s for `cmd_vel_timeout`."""
         self._command = linear, angular
         self._commanded_at = self.time
         self._follower = None
 
-    def go_to(self, goal: Pose2D) -> bool:
-        """Plans a path to a goal in the map frame and follows it; False if there is none."""
+    def go_to(self, goal: Pose2D, turn: bool = True) -> bool:
+        """Plans a path to a goal in the map frame and follows it; False if there is none.
+
+        Args:
+            goal: The goal.
+            turn: Whether to turn to its heading at the end.
+        """
         path = self.planner.plan(self.robot.pose, goal)
         if path is None or math.dist(path[-1], goal[:2]) > BESIDE_GOAL:
             return False
-        self._follow(Follower(path, goal.yaw), touring=False)
+        self._follow(Follower(path, goal.yaw if turn else None), touring=False)
+        self._goal = goal
         self._commanded_at = -math.inf
         return True
+
+    def stop(self) -> None:
+        """Drops the goal; the tour continues after a rest."""
+        self._follower = None
+        self._rest_until = self.time + REST_AT_GOAL
 
     def put(self, pose: Pose2D) -> None:
         """Moves the robot to a place in the map; its odometry does not change."""
@@ -153,6 +172,8 @@ class Simulation:
 
     def _arrive(self) -> None:
         self._rest_until = self.time + (REST if self._touring else REST_AT_GOAL)
+        if not self._touring:
+            self.reached = self._goal
         self._follower = None
 
     def _is_stuck(self) -> bool:

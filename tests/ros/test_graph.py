@@ -29,6 +29,7 @@ from webviz.engine.sources import NotConnected, Outlet, ReadOnly
 STRING = "std_msgs/msg/String"
 FIBONACCI = "test_msgs/action/Fibonacci"
 SUCCEEDED, CANCELED = 4, 5  # of action_msgs/msg/GoalStatus
+TERMINATED = 3  # of action_msgs/srv/CancelGoal
 
 ACTION_SERVER = """
 import time
@@ -206,6 +207,7 @@ def test_a_goal_gets_feedback_and_its_result(source: RosSource) -> None:
 def test_a_goal_can_be_cancelled(source: RosSource) -> None:
     goal = source.graph.send_goal("/count", FIBONACCI, order(40), lambda _: goal.cancel())
     assert goal.result.result(60.0)[0] == CANCELED
+    assert goal.cancel().result(60.0) == TERMINATED
 
 
 @pytest.mark.usefixtures("counter")

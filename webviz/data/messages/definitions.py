@@ -49,6 +49,10 @@ DEFINITIONS = {
         uint32 size_x
         uint32 size_y
         uint8[] data""",
+    "nav2_msgs/msg/MissedWaypoint": """
+        uint32 index
+        geometry_msgs/PoseStamped goal
+        uint16 error_code""",
     "nav2_msgs/msg/VoxelGrid": """
         std_msgs/Header header
         uint32[] data

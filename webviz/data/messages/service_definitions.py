@@ -44,4 +44,25 @@ builtin_interfaces/Duration navigation_time
 builtin_interfaces/Duration estimated_time_remaining
 int16 number_of_recoveries
 float32 distance_remaining""",
+    "nav2_msgs/action/NavigateThroughPoses": """geometry_msgs/PoseStamped[] poses
+string behavior_tree
+---
+uint16 error_code
+string error_msg
+---
+geometry_msgs/PoseStamped current_pose
+builtin_interfaces/Duration navigation_time
+builtin_interfaces/Duration estimated_time_remaining
+int16 number_of_recoveries
+float32 distance_remaining
+int16 number_of_poses_remaining""",
+    "nav2_msgs/action/FollowWaypoints": """uint32 number_of_loops
+uint32 goal_index
+geometry_msgs/PoseStamped[] poses
+---
+nav2_msgs/MissedWaypoint[] missed_waypoints
+uint16 error_code
+string error_msg
+---
+uint32 current_waypoint""",
 }

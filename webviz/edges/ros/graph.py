@@ -27,7 +27,7 @@ from webviz.edges.ros.types import (
     service_class,
     to_cdr,
 )
-from webviz.engine.sources.graph import Goal, NotConnected, Outlet
+from webviz.engine.sources.graph import Goal, Missing, NotConnected, Outlet
 
 log = logging.getLogger("webviz")
 
@@ -38,7 +38,10 @@ MOST_CALLS = 100
 """Pending service calls."""
 FEEDBACK_DEPTH = 10
 WAIT_S = 2.0
-"""How long to wait for a service or action to appear."""
+"""How long to wait for a service or action to appear, and for an answer that is still on its way
+when the node has ended."""
+GOAL_ID = slice(4, 20)
+"""Of a serialised feedback message, after the encapsulation header."""
 
 
 @dataclass(eq=False)
@@ -53,6 +56,7 @@ class _Call:
         give_up: monotonic time by which the service must appear.
         may_send: false as long as the request has to wait.
         sent: rclpy's future, None until the request is sent.
+        gone: monotonic time at which the service was found missing after that.
     """
 
     client: Client
@@ -62,6 +66,12 @@ class _Call:
     give_up: float
     may_send: Callable[[], bool] = lambda: True
     sent: Any = None
+    gone: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Of the service, or of the action that it is a part of."""
+        return self.client.service_name.partition("/_action/")[0]
 
 
 class RosGraph:
@@ -79,7 +89,7 @@ class RosGraph:
         self._advertised: frozenset[Outlet] = frozenset()
         self._clients: dict[tuple[str, str], Client] = {}
         self._subscriptions: dict[str, Subscription] = {}
-        self._feedback: dict[bytes, Callable[[bytes], None]] = {}
+        self._feedback: dict[bytes, Callable[[bytes], object]] = {}
         self._calls: list[_Call] = []
         self._nodes: tuple[str, ...] = ()
 
@@ -116,17 +126,19 @@ class RosGraph:
         return answer
 
     def send_goal(
-        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], None]
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Send a goal to an action."""
         goal_id = uuid.uuid4().bytes
         accepted: Future[bool] = Future()
         result: Future[tuple[int, bytes]] = Future()
 
-        def cancel() -> None:
+        def cancel() -> Future[int]:
             values = {"goal_info": {"goal_id": _id(goal_id)}}
-            request = encode(interfaces.service(CANCEL).request, values)
-            self.call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
+            parts = interfaces.service(CANCEL)
+            request = encode(parts.request, values)
+            answer = self.call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
+            return _then(answer, lambda cdr: int(decode(parts.response, cdr).return_code))
 
         sent = Goal(goal_id, accepted, result, cancel)
         self._start(accepted, lambda: self._offer(action, type, goal, sent, feedback))
@@ -204,27 +216,33 @@ class RosGraph:
         client = self._client(service, type)
         message = from_cdr(request, service_class(type).Request)
         now = time.monotonic()
-        self._calls.append(_Call(client, message, answer, now + timeout_s, now + WAIT_S, may_send))
+        give_up = now + min(timeout_s, WAIT_S)
+        self._calls.append(_Call(client, message, answer, now + timeout_s, give_up, may_send))
 
     def _advance(self, call: _Call, now: float) -> bool:
         """Advance a call by one step; whether it has finished."""
-        name = call.client.service_name
-        if call.sent is None and call.client.service_is_ready() and call.may_send():
-            call.sent = call.client.call_async(call.request)
-        elif call.sent is None and now > call.give_up:
-            call.answer.set_exception(
-                NotConnected(f"No node offers {name}. Start one, or choose another name.")
-            )
-            return True
-        elif call.sent is not None and call.sent.done():
+        name = call.name
+        is_ready = call.client.service_is_ready()
+        if call.sent is None:
+            if is_ready and call.may_send():
+                call.sent = call.client.call_async(call.request)
+            elif now > call.give_up:
+                call.answer.set_exception(Missing(f"No node offers {name}."))
+                return True
+            return False
+        if call.sent.done():
             call.answer.set_result(to_cdr(call.sent.result()))
             return True
+        call.gone = None if is_ready else call.gone or now
+        error = None
+        if call.gone is not None and now > call.gone + WAIT_S:
+            error = Missing(f"The node that offered {name} has ended.")
         elif now > call.deadline:
-            if call.sent is not None:
-                call.client.remove_pending_request(call.sent)
-            call.answer.set_exception(NotConnected(f"{name} did not answer in time."))
-            return True
-        return False
+            error = NotConnected(f"{name} did not answer in time.")
+        if error is not None:
+            call.client.remove_pending_request(call.sent)
+            call.answer.set_exception(error)
+        return error is not None
 
     def _offer(
         self,
@@ -232,7 +250,7 @@ class RosGraph:
         type: str,
         goal: bytes,
         sent: Goal,
-        feedback: Callable[[bytes], None],
+        feedback: Callable[[bytes], object],
     ) -> None:
         """Send a goal, and wait for its result if it is accepted."""
         learn(type)
@@ -289,7 +307,7 @@ class RosGraph:
             return self._subscriptions[topic]
 
         def arrive(cdr: bytes) -> None:
-            listener = self._feedback.get(bytes(decode(type, cdr).goal_id.uuid))
+            listener = self._feedback.get(cdr[GOAL_ID])
             if listener is not None:
                 try:
                     listener(cdr)
@@ -300,6 +318,20 @@ class RosGraph:
             message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
         )
         return self._subscriptions[topic]
+
+
+def _then(future: Future[bytes], read: Callable[[bytes], int]) -> Future[int]:
+    """A future of what `read` makes of the result of another one."""
+    then: Future[int] = Future()
+
+    def finish(done: Future[bytes]) -> None:
+        try:
+            then.set_result(read(done.result()))
+        except Exception as error:
+            then.set_exception(error)
+
+    future.add_done_callback(finish)
+    return then
 
 
 def _id(goal_id: bytes) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Sources of messages: a live ROS graph or a bag, behind one interface."""
 
-from webviz.engine.sources.graph import Goal, Graph, NotConnected, Outlet, ReadOnly
+from webviz.engine.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Offer, Publisher, Source, Subscription, merged
 
@@ -8,6 +8,7 @@ __all__ = [
     "Goal",
     "Graph",
     "Inbox",
+    "Missing",
     "NotConnected",
     "Offer",
     "Outlet",

@@ -17,6 +17,18 @@ class NotConnected(Error):
     """A source cannot send, or the other side is missing; one sentence with a remedy."""
 
 
+class Missing(NotConnected):
+    """No node offers a service or action, or the one that did has ended.
+
+    Args:
+        cause: one sentence, without a remedy.
+    """
+
+    def __init__(self, cause: str) -> None:
+        super().__init__(f"{cause} Start the node, or choose another name.")
+        self.cause = cause
+
+
 @dataclass(frozen=True)
 class Outlet:
     """A topic to publish, with its type and the offered QoS.
@@ -43,13 +55,14 @@ class Goal:
         accepted: whether the server accepts it.
         result: status of action_msgs/msg/GoalStatus, and the serialised
             `<action>_GetResult_Response`.
-        cancel: asks the server to stop; `result` has the outcome.
+        cancel: asks the server to stop, and returns the return code of action_msgs/srv/CancelGoal;
+            `result` has the outcome.
     """
 
     id: bytes
     accepted: Future[bool]
     result: Future[tuple[int, bytes]]
-    cancel: Callable[[], None]
+    cancel: Callable[[], Future[int]]
 
 
 class Graph(Protocol):
@@ -74,7 +87,7 @@ class Graph(Protocol):
         ...
 
     def send_goal(
-        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], None]
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Send a goal to an action.
 
@@ -115,10 +128,11 @@ class ReadOnly:
         return _failed(self._reason)
 
     def send_goal(
-        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], None]
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Refuse."""
-        return Goal(b"", _failed(self._reason), _failed(self._reason), lambda: None)
+        refused = _failed(self._reason)
+        return Goal(b"", refused, refused, lambda: refused)
 
     def nodes(self) -> tuple[str, ...]:
         """None."""

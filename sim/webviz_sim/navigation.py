@@ -1,0 +1,157 @@
+"""Nav2's actions for the simulated robot: navigate_to_pose and two for several poses."""
+
+import functools
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from rclpy.node import Node
+
+from webviz_sim import messages
+from webviz_sim.action_server import ActionServer, ServerGoal
+from webviz_sim.messages import stamp, to_map_pose
+from webviz_sim.pose import Pose2D
+from webviz_sim.simulation import Simulation
+
+TO_POSE, THROUGH_POSES, WAYPOINTS = "navigate_to_pose", "navigate_through_poses", "follow_waypoints"
+ACTIONS = {
+    TO_POSE: "nav2_msgs/action/NavigateToPose",
+    THROUGH_POSES: "nav2_msgs/action/NavigateThroughPoses",
+    WAYPOINTS: "nav2_msgs/action/FollowWaypoints",
+}
+
+# Nav2's error codes.
+STUCK, TF_ERROR, OUTSIDE, OCCUPIED, NO_PATH = 105, 202, 204, 206, 208
+
+
+@dataclass
+class _Task:
+    """What the robot does for a goal of a client."""
+
+    action: str
+    goal: ServerGoal
+    poses: list[Any]
+    began: float
+    """Simulated time."""
+    at: int = 0
+    """The pose that it drives to."""
+    target: Pose2D | None = None
+    """The same in the map; None before it sets out."""
+    missed: list[dict[str, Any]] = field(default_factory=list)
+
+
+class Navigation:
+    """Serves Nav2's actions with the goals of a simulation, one at a time.
+
+    As in Nav2, a new goal of the same action replaces the active one, which is aborted, and a goal
+    of another action is rejected meanwhile. Loops of waypoints are ignored.
+
+    Args:
+        node: The node that serves them.
+        simulation: Drives the robot.
+    """
+
+    def __init__(self, node: Node, simulation: Simulation):
+        self._simulation = simulation
+        self._task: _Task | None = None
+        for name, type in ACTIONS.items():
+            accept = functools.partial(self._accept, name)
+            ActionServer(node, name, type, accept, functools.partial(self._begin, name))
+
+    def step(self) -> None:
+        """Advances the goal after a step of the simulation."""
+        task, simulation = self._task, self._simulation
+        if task is None:
+            return
+        if task.goal.is_canceling:
+            simulation.stop()
+            self._task = None
+            task.goal.cancel({})
+        elif task.target is None:
+            self._set_out(task)
+        elif simulation.goal is task.target:
+            task.goal.report(self._feedback(task))
+        elif simulation.reached is task.target:
+            self._next(task)
+        else:
+            self._fail(task, STUCK, "The robot makes no progress, or something else moves it.")
+
+    def _accept(self, action: str, request: Any) -> bool:
+        is_free = self._task is None or self._task.action == action
+        return is_free and bool(len(_poses(action, request)))
+
+    def _begin(self, action: str, goal: ServerGoal) -> None:
+        if self._task is not None:
+            self._task.goal.abort({})
+        poses = list(_poses(action, goal.request))
+        self._task = _Task(action, goal, poses, self._simulation.time)
+
+    def _set_out(self, task: _Task) -> None:
+        pose = task.poses[task.at]
+        target = to_map_pose(pose.header, pose.pose)
+        if isinstance(target, str):
+            self._fail(task, TF_ERROR, f"A pose {target}.")
+        elif (is_free := self._is_free(target)) is None:
+            self._fail(task, OUTSIDE, "The goal is outside the map.")
+        elif not is_free:
+            self._fail(task, OCCUPIED, "The goal is in an obstacle or in unknown space.")
+        elif self._simulation.go_to(target, turn=_stops(task)):
+            task.target = target
+        else:
+            self._fail(task, NO_PATH, "No path to the goal.")
+
+    def _is_free(self, pose: Pose2D) -> bool | None:
+        """Whether a pose is in known free space, None outside the map."""
+        free = self._simulation.world.traversable
+        x, y, _ = self._simulation.world.to_grid(pose)
+        height, width = free.shape
+        return bool(free[int(y), int(x)]) if 0 <= x < width and 0 <= y < height else None
+
+    def _next(self, task: _Task) -> None:
+        task.at, task.target = task.at + 1, None
+        if task.at == len(task.poses):
+            self._task = None
+            task.goal.succeed({"missed_waypoints": task.missed} if task.missed else {})
+
+    def _fail(self, task: _Task, code: int, reason: str) -> None:
+        """Aborts the goal; waypoints are skipped instead, and reported at the end."""
+        if task.action == WAYPOINTS and task.at < len(task.poses):
+            missed = {"index": task.at, "goal": task.poses[task.at], "error_code": code}
+            task.missed.append(missed)
+            return self._next(task)
+        self._task = None
+        task.goal.abort({"error_code": code, "error_msg": reason})
+        return None
+
+    def _feedback(self, task: _Task) -> dict[str, Any]:
+        if task.action == WAYPOINTS:
+            return {"current_waypoint": task.at}
+        simulation = self._simulation
+        later = [pose.pose.position for pose in task.poses[task.at + 1 :]]
+        points = np.array([*simulation.path, *((point.x, point.y) for point in later)])
+        distance = float(np.hypot(*np.diff(points, axis=0).T).sum())
+        now = round(simulation.time * 1e9)
+        here = messages.planar("map", "base_link", now, simulation.robot.pose)
+        values = {
+            "current_pose": {
+                "header": {"stamp": stamp(now), "frame_id": "map"},
+                "pose": {"position": here.translation, "orientation": here.rotation},
+            },
+            "navigation_time": stamp(round((simulation.time - task.began) * 1e9)),
+            "estimated_time_remaining": stamp(
+                round(distance / simulation.settings.tour_speed * 1e9)
+            ),
+            "distance_remaining": distance,
+        }
+        if task.action == THROUGH_POSES:
+            values["number_of_poses_remaining"] = len(task.poses) - task.at
+        return values
+
+
+def _poses(action: str, request: Any) -> Any:
+    return [request.pose] if action == TO_POSE else request.poses
+
+
+def _stops(task: _Task) -> bool:
+    """Whether it takes the heading of the pose that it drives to, too."""
+    return task.action != THROUGH_POSES or task.at == len(task.poses) - 1
