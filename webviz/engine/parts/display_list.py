@@ -8,7 +8,6 @@ import itertools
 import logging
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from typing import Any, TypeVar, cast
 
 import msgspec
@@ -17,8 +16,9 @@ from webviz.api.declared import Topic, make, set_property, to_values
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
-from webviz.api.registry import type_name
-from webviz.api.status import Level, Status
+from webviz.api.status import Status
+from webviz.engine.parts.display_rows import rows
+from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
 from webviz.engine.pipeline import Runner, Services
@@ -31,42 +31,6 @@ from webviz.files.config.reading import MAX_DISPLAYS
 log = logging.getLogger("webviz")
 
 D = TypeVar("D", bound=Display)
-
-
-@dataclass(eq=False)
-class Entry:
-    """One line of the list.
-
-    Args:
-        id: for commands.
-        content: a running display, a group, or an entry of a config that cannot be shown.
-        parent: the group it is in.
-    """
-
-    id: str
-    content: Runner | DisplayGroup | Unreadable
-    parent: Entry | None = None
-
-    @property
-    def declared(self) -> Display | Unreadable:
-        """The display, the group, or the entry that cannot be shown."""
-        return self.content.display if isinstance(self.content, Runner) else self.content
-
-    @property
-    def depth(self) -> int:
-        """How many groups it is in."""
-        return 0 if self.parent is None else 1 + self.parent.depth
-
-    @property
-    def is_enabled(self) -> bool:
-        """Whether it and all groups it is in are enabled."""
-        declared = self.declared
-        own = isinstance(declared, Unreadable) or declared.enabled
-        return own and (self.parent is None or self.parent.is_enabled)
-
-    def is_within(self, other: Entry) -> bool:
-        """Whether it is `other` or in it."""
-        return self is other or (self.parent is not None and self.parent.is_within(other))
 
 
 class DisplayList:
@@ -265,6 +229,10 @@ class DisplayList:
         for runner in active - set(self.active()):
             runner.hide()
 
+    def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
+        """The list for a panel."""
+        return rows(self._entries, statuses_of)
+
     def _made_again(self, id: str, wanted: Snapshot) -> Runner | DisplayGroup | Unreadable:
         own = made_anew(wanted)
         if isinstance(own, DisplayGroup | Unreadable):
@@ -281,19 +249,6 @@ class DisplayList:
             with contextlib.suppress(ConfigError, AttributeError):
                 if msgspec.to_builtins(getattr(entry.declared, name)) != value:
                     self.set(entry.id, name, value)
-
-    def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
-        """The list for a panel; the statuses of a group summarize the displays in it."""
-        rows = [self._row(entry, statuses_of) for entry in self._entries]
-        for index, entry in enumerate(self._entries):
-            if isinstance(entry.content, DisplayGroup) and entry.is_enabled:
-                inner = [
-                    row
-                    for other, row in zip(self._entries, rows, strict=True)
-                    if other is not entry and other.is_within(entry)
-                ]
-                rows[index] = replace(rows[index], statuses=_summary(inner))
-        return tuple(rows)
 
     def _content(self, id: str, item: Item) -> Runner | DisplayGroup | Unreadable:
         content = item.group if isinstance(item, Branch) else item
@@ -318,18 +273,6 @@ class DisplayList:
     def _item(self, entry: Entry) -> Item:
         copied = copy.copy(entry.declared)
         return Branch(copied, self.items(entry)) if isinstance(copied, DisplayGroup) else copied
-
-    def _row(self, entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
-        own, content = entry.declared, entry.content
-        if isinstance(own, Unreadable):
-            status = {"Config": Status(Level.ERROR, own.reason)}
-            return Row(entry.id, "", None, own.name, status, entry.depth, own.enabled)
-        kind = type_name(type(own))
-        statuses: Mapping[str, Status] = {}
-        scale = None
-        if isinstance(content, Runner) and entry.is_enabled:
-            statuses, scale = statuses_of(content), content.color_scale()
-        return Row(entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
 
     def _insert(
         self, block: list[Entry], parent: Entry | None, before: Entry | None = None
@@ -368,12 +311,3 @@ def _fresh(name: str, taken: set[str]) -> str:
 
 def _id(entry: Entry | None) -> str:
     return entry.id if entry else ""
-
-
-def _summary(rows: Iterable[Row]) -> dict[str, Status]:
-    """The statuses of a group: the worst of each display in it that has a problem."""
-    return {
-        row.name: max(row.statuses.values(), key=lambda status: status.level)
-        for row in rows
-        if row.level is not Level.OK
-    }
