@@ -8,6 +8,7 @@ in the docs and in .rviz files.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
@@ -89,13 +90,19 @@ def make(cls: type[P], values: dict[str, Any]) -> P:
     Raises:
         msgspec.ValidationError: a value is invalid; the text ends with its path.
     """
-    defaults = {f.name: f.default for f in msgspec.structs.fields(cls)}
+    defaults = _defaults(cls)
     merged = {key: _merge(defaults.get(key), value) for key, value in values.items()}
     declared = msgspec.convert(merged, cls, strict=True)
     _check_finite(declared, "$")
     if not declared.name:
         declared.name = default_name(cls)
     return declared
+
+
+@functools.cache
+def _defaults(cls: type[Declared]) -> dict[str, Any]:
+    """The defaults of properties by name; msgspec evaluates annotations anew for each call."""
+    return {field.name: field.default for field in msgspec.structs.fields(cls)}
 
 
 def set_property(declared: Declared, path: str, value: Any) -> None:
@@ -129,7 +136,7 @@ def _merge(default: Any, value: Any) -> Any:
     if isinstance(default, Topic) and isinstance(value, str):
         value = {"name": value}
     if isinstance(default, msgspec.Struct) and isinstance(value, dict):
-        whole = {f.name: getattr(default, f.name) for f in msgspec.structs.fields(default)}
+        whole = {name: getattr(default, name) for name in default.__struct_fields__}
         return msgspec.to_builtins(
             {**whole, **{key: _merge(whole.get(key), item) for key, item in value.items()}}
         )

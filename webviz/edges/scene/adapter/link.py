@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from viser import _messages as wire
 
 from webviz.edges.scene.adapter.acknowledging import Acknowledgements, Marker
+from webviz.edges.scene.adapter.hints import evaluate_hints_once
 from webviz.edges.scene.adapter.poses import (
     Move,
     OrientationMessage,
@@ -49,6 +50,7 @@ class Adapter:
         self._acknowledgements = Acknowledgements(server, self.late)
         self._removed = 0
         replay_live_messages_only(self._buffer, last=Marker)
+        evaluate_hints_once()
 
     def set_position(self, name: str, position: Position) -> None:
         """Places a node relative to its parent."""
