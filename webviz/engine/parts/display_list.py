@@ -7,7 +7,7 @@ import copy
 import itertools
 import logging
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 import msgspec
@@ -16,13 +16,10 @@ from webviz.api.declared import Topic, make, set_property, to_values
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
-from webviz.api.status import Status
-from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
 from webviz.engine.pipeline import Runner, Services
-from webviz.engine.state import Row
 from webviz.files import config as config_file
 from webviz.files import rviz
 from webviz.files.config import Branch, ConfigError, Item, Location, Settings, Unreadable
@@ -45,23 +42,24 @@ class DisplayList:
         self._entries: list[Entry] = []
         self._made = 0
 
-    def add(self, item: Item, parent: Entry | None = None) -> Entry:
-        """Add a display, or a group with its contents, at the end of a group or the list.
+    @property
+    def entries(self) -> Sequence[Entry]:
+        """All lines in their order."""
+        return self._entries
+
+    def add(self, items: Iterable[Item], parent: Entry | None = None) -> list[Entry]:
+        """Add displays, and groups with their contents, at the end of a group or the list.
+
+        Returns:
+            All new entries.
 
         Raises:
-            ConfigError: the list is full.
+            ConfigError: the list has no room for all of them; nothing was added.
         """
-        self._make_room(1)
-        self._made += 1
-        id = f"display{self._made}"
-        if isinstance(item, Unreadable) and not item.is_from_rviz:  # else it is in the report
-            log.warning("%s", item.reason)
-        entry = Entry(id, self._content(id, item), parent)
-        self._insert([entry], parent)
-        if isinstance(item, Branch):
-            for each in item.displays:
-                self.add(each, entry)
-        return entry
+        block = [entry for item in items for entry in self._made_of(item, parent)]
+        self._make_room(len(block))
+        self._insert(block, parent)
+        return block
 
     def remove(self, id: str) -> None:
         """Remove a display, or a group with its contents."""
@@ -93,7 +91,7 @@ class DisplayList:
         if not isinstance(copied, Unreadable):
             own = copied.group if isinstance(copied, Branch) else copied
             own.name = _fresh(own.name, names)
-        twin = self.add(copied, original.parent)
+        twin, *_ = self.add([copied], original.parent)
         siblings = [entry for entry in self._entries if entry.parent is original.parent]
         self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
         return twin
@@ -229,10 +227,6 @@ class DisplayList:
         for runner in active - set(self.active()):
             runner.hide()
 
-    def rows(self, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> tuple[Row, ...]:
-        """The list for a panel."""
-        return rows(self._entries, statuses_of)
-
     def _made_again(self, id: str, wanted: Snapshot) -> Runner | DisplayGroup | Unreadable:
         own = made_anew(wanted)
         if isinstance(own, DisplayGroup | Unreadable):
@@ -249,6 +243,16 @@ class DisplayList:
             with contextlib.suppress(ConfigError, AttributeError):
                 if msgspec.to_builtins(getattr(entry.declared, name)) != value:
                     self.set(entry.id, name, value)
+
+    def _made_of(self, item: Item, parent: Entry | None) -> list[Entry]:
+        """The entry of a display, or those of a group and its contents."""
+        if isinstance(item, Unreadable) and not item.is_from_rviz:  # else it is in the report
+            log.warning("%s", item.reason)
+        self._made += 1
+        id = f"display{self._made}"
+        entry = Entry(id, self._content(id, item), parent)
+        inner = item.displays if isinstance(item, Branch) else ()
+        return [entry, *(below for each in inner for below in self._made_of(each, entry))]
 
     def _content(self, id: str, item: Item) -> Runner | DisplayGroup | Unreadable:
         content = item.group if isinstance(item, Branch) else item

@@ -23,6 +23,7 @@ from webviz.engine.commands import (
     TraceDisplay,
 )
 from webviz.engine.parts.display_list import DisplayList
+from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.sources import Subscription, merged
@@ -73,7 +74,7 @@ class DisplaysPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The list of displays."""
-        return {"rows": self.list.rows(self._statuses_of)}
+        return {"rows": rows(self.list.entries, self._statuses_of)}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core
@@ -87,7 +88,8 @@ class DisplaysPart(Part):
 
     def _add(self, command: AddDisplay, sender: Sender) -> None:
         new = _new(command.type, command.values)
-        command.made(self.list.add(new, self.list.group(command.group)).id)
+        (entry,) = self.list.add([new], self.list.group(command.group))
+        command.made(entry.id)
 
     def _remove(self, command: RemoveDisplay, sender: Sender) -> None:
         self.list.remove(command.display)

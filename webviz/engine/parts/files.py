@@ -178,8 +178,7 @@ class FilesPart(Part):
 
     def _show(self, config: Config, path: Path | None) -> None:
         self._displays.list.clear()
-        for item in config.displays:
-            self._displays.list.add(item)
+        self._displays.list.add(config.displays)
         self._settings.settings = config.settings
         self._tools.show(config.tools)
         self._path = path
