@@ -2,29 +2,37 @@
 
     python tests/benchmarks/bench_page.py
 
-Updates: processor time of the frame loop for all stores that a page watches, which it spends five
-times a second; nothing new, and one display with a new status. Page: seconds from the request until
-the tree of displays is filled, in fresh browser sessions that take turns; the least of all rounds
-and the median. Then changes of the page's elements in ten seconds in which nothing new is shown.
+Updates: processor time of the viewer for all stores, which it spends five times a second, and of
+what sends them to one page or ten, without the network; nothing new, and one display with a new
+status. Page: seconds from the request until the tree of displays is filled, in fresh browser
+sessions that take turns; the least of all rounds and the median. Then changes of the page's
+elements in ten seconds in which nothing new is shown.
 
 Times depend on the machine, on whether it has a GPU, and on the hour; compare them within a run.
 """
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import itertools
+import logging
 import statistics
+import threading
 import time
 import timeit
+from collections.abc import Iterator
 from concurrent.futures import Future
 from dataclasses import replace
 
+import msgspec
 import playwright.sync_api as playwright
 
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import Hello, Watch
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
@@ -35,13 +43,14 @@ from webviz.shell.pictures.browser import launched
 
 FEW, MANY = 5, 100
 ROUNDS = 7
+FEW_PAGES, MANY_PAGES = 1, 10
 UPDATES = 100
 UPDATE_S = 0.2
 SETTLE_S = 3.0
 """For what a page shows only once it is loaded."""
 STILL_S = 10.0
 STORES = {
-    *("addable", "clock", "displays", "file", "frames", "graph", "history", "legend", "settings"),
+    *("clock", "displays", "file", "frames", "graph", "history", "legend", "settings"),
     *(
         "topics",
         "traffic",
@@ -73,12 +82,57 @@ WATCH = """() => {
 }"""
 
 
-class Watched(Channel):
-    """A channel to a page that watches all stores and never reads."""
+class Reader:
+    """A page that watches all stores and reads whatever it is sent.
 
-    def watched(self) -> set[str]:
-        """All stores."""
-        return STORES
+    Args:
+        key: of the page.
+    """
+
+    def __init__(self, key: str) -> None:
+        self.logger = logging.getLogger(__name__)
+        self.transport = self
+        said = (Hello(key), *(Watch(store) for store in sorted(STORES)))
+        self._said = [msgspec.json.encode(message).decode() for message in said]
+
+    async def recv(self) -> str:
+        """What the page says, then nothing more."""
+        return self._said.pop(0) if self._said else await asyncio.Future()
+
+    async def send(self, message: str, /) -> None:
+        """Take it."""
+
+    async def close(self, code: int = 1000, reason: str = "") -> None:
+        """Do nothing."""
+
+    def abort(self) -> None:
+        """Do nothing."""
+
+
+@contextlib.contextmanager
+def watched(count: int) -> Iterator[Channel]:
+    """A channel to so many pages."""
+    channel, ended = Channel(), asyncio.Event()
+
+    async def serve() -> None:
+        keys = map(channel.join, range(count))
+        pages = [
+            asyncio.create_task(channel.serve(Reader(key), contextlib.nullcontext)) for key in keys
+        ]
+        await ended.wait()
+        for page in pages:
+            page.cancel()
+        await asyncio.gather(*pages, return_exceptions=True)
+
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=lambda: loop.run_until_complete(serve()))
+    thread.start()
+    while channel.watched() != STORES:
+        time.sleep(UPDATE_S / 10)
+    yield channel
+    loop.call_soon_threadsafe(ended.set)
+    thread.join()
+    loop.close()
 
 
 def state_of(count: int) -> State:
@@ -108,20 +162,24 @@ def with_status(state: State, text: str) -> State:
 
 def updates() -> None:
     """Print what an update costs, in processor time."""
-    for count in (FEW, MANY):
+    for count, pages in itertools.product((FEW, MANY), (FEW_PAGES, MANY_PAGES)):
         state = state_of(count)
-        same, news = cost(state), cost(*(with_status(state, word) for word in ("late", "lost")))
-        print(f"update, {count:>3} displays: {same:.0f} us   with a new status: {news:.0f} us")
+        same = cost(pages, state)
+        news = cost(pages, *(with_status(state, word) for word in ("late", "lost")))
+        print(
+            f"update, {count:>3} displays, pages {pages:>2}: {same:.0f} us"
+            f"   with a new status: {news:.0f} us"
+        )
 
 
-def cost(*states: State) -> float:
-    """Microseconds per update with these states in turn."""
-    pages, turns = Pages(Watched(), ignored), itertools.cycle(states)
-    for _ in states:
-        pages.update(next(turns))
-    seconds = timeit.repeat(
-        lambda: pages.update(next(turns)), timer=time.thread_time, number=UPDATES, repeat=ROUNDS
-    )
+def cost(readers: int, *states: State) -> float:
+    """Microseconds per update with these states in turn: the least of all rounds."""
+    with watched(readers) as channel:
+        pages, turns = Pages(channel, ignored), itertools.cycle(states)
+        for _ in states:
+            pages.update(next(turns))
+        timer = timeit.Timer(lambda: pages.update(next(turns)), timer=time.process_time)
+        seconds = timer.repeat(ROUNDS, UPDATES)
     return min(seconds) / UPDATES * 1e6
 
 

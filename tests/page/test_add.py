@@ -10,18 +10,20 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
-from webviz.edges.page.content.types import addable, types
+from webviz.edges.page.content.types import types
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
 
 SCAN, IMU = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Imu"
-TOPICS = {
-    "/back": (SCAN,),
-    "/front": (SCAN,),
-    "/imu": (IMU,),
-    "/map": ("nav_msgs/msg/OccupancyGrid",),
-}
+MAP = "nav_msgs/msg/OccupancyGrid"
+
+
+def offer(type_: str) -> Offer:
+    return Offer((Publisher("/driver", type_, "reliable", "volatile"),))
+
+
+OFFERS = {"/back": offer(SCAN), "/front": offer(SCAN), "/imu": offer(IMU), "/map": offer(MAP)}
 
 
 def commands(loop: Loop) -> list[tuple[str, object]]:
@@ -36,12 +38,7 @@ def commands(loop: Loop) -> list[tuple[str, object]]:
 @pytest.fixture
 def dialog(tab: Tab) -> playwright.Locator:
     """The dialog by type, while four topics are live."""
-    publisher = Publisher("/driver", SCAN, "reliable", "volatile")
-    tab.loop.show(
-        topics=TOPICS,
-        offers={"/front": Offer((publisher,))},
-        traffic={"/front": Traffic(39.84, 1e4)},
-    )
+    tab.loop.show(offers=OFFERS, traffic={"/front": Traffic(39.84, 1e4)})
     tab.page.keyboard.press("Insert")
     dialog = tab.page.get_by_role("dialog", name="Add display")
     dialog.get_by_role("tab", name="By type").click()
@@ -109,7 +106,7 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
 ) -> None:
     dialog.get_by_role("tab", name="By topic").click()
     dialog.get_by_role("option").filter(has_text="/front").click()
-    tab.loop.show(topics={**TOPICS, "/a": (SCAN,)})
+    tab.loop.show(offers={**OFFERS, "/a": offer(SCAN)})
     first = dialog.get_by_role("option").first
     tab.wait_for(lambda: first.inner_text().startswith("/a"))
     front = dialog.get_by_role("option").filter(has_text="/front")
@@ -118,17 +115,14 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
     assert tab.loop.commands == []
 
 
-def test_types_have_their_help_and_topics_what_fits() -> None:
+def test_types_have_the_messages_that_they_show() -> None:
     assert types(State(), "")["LaserScan"]["topics"] == [SCAN]
-    offers = addable(State(topics=TOPICS), "")
-    assert [tuple(pick) for pick in offers["/front"]["displays"]] == [("LaserScan", "topic")]
-    assert offers["/imu"]["why"] == f"No display for {IMU}."
 
 
 def test_a_closed_dialog_costs_nothing(
     tab: Tab, server: Server, dialog: playwright.Locator
 ) -> None:
-    assert {"addable", "types"} <= server.channel.watched()
+    assert {"topics", "traffic", "types"} <= server.channel.watched()
     dialog.get_by_role("button", name="Cancel").click()
-    tab.wait_for(lambda: not {"addable", "types"} & server.channel.watched())
+    tab.wait_for(lambda: not {"topics", "traffic", "types"} & server.channel.watched())
     assert dialog.count() == 0

@@ -258,17 +258,15 @@ def test_name_and_message_are_copied(loop: Loop, open_tab: Callable[..., Tab]) -
     tab.wait_for(lambda: tab.page.evaluate("navigator.clipboard.readText()") == text)
 
 
-def test_nothing_is_made_anew_while_the_topics_are_the_same() -> None:
-    state = State(offers={"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))})
-    made = topics(state, "")
-    assert topics(state, "") is made
-    assert made["/scan"]["qos"] == "best effort, volatile"
-    assert made["/mixed"]["qos"] == "mixed, mixed"
-
-
 def test_a_name_that_cannot_be_sent_stops_no_other_store(loop: Loop, panel: Tab) -> None:
     show(loop, scan=(SCAN,))
     choose(panel, "/scan")
     bad = {"/half \ud800": Offer((SCAN,))}
     loop.show(offers=bad, inspected={"/scan": Inspected("x", {"fields": {"a": "still read"}})})
     panel.wait_for(lambda: "still read" in panel.text())
+
+
+def test_where_publishers_differ_the_qos_is_mixed() -> None:
+    made = topics(State(offers={"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))}), "")
+    assert made["/scan"]["qos"] == "best effort, volatile"
+    assert made["/mixed"]["qos"] == "mixed, mixed"

@@ -28,6 +28,7 @@ from webviz.engine.pipeline import Services, Workers
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.requests import Requests
 from webviz.engine.scene import Scene
+from webviz.engine.settled import settled
 from webviz.engine.showing import Showing
 from webviz.engine.sources import Source
 from webviz.engine.state import State
@@ -76,6 +77,7 @@ class FrameLoop:
         self._requests = Requests(self._guard, self._wake)
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
+        self._shown = State()
         core = self._core = Core(source, scene, self._guard, clock)
         services = Services(scene, self._workers, source.resolve, strict, clock)
         self._tracer = services.tracer
@@ -169,7 +171,7 @@ class FrameLoop:
         if answers or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
             parts.keep_up(bool(answers))
-            self._guard("Panel", self._show, self.state())
+            self._guard("Panel", self._show_state)
         for answer in answers:
             answer()  # once the effect is visible
 
@@ -182,6 +184,10 @@ class FrameLoop:
     def config(self) -> Config:
         """The current config."""
         return self._files.config()
+
+    def _show_state(self) -> None:
+        self._shown = settled(self.state(), self._shown)
+        self._show(self._shown)
 
     def _move_on(self) -> None:
         """Look up frames at the time that is shown now."""

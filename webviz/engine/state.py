@@ -30,6 +30,7 @@ class Row:
         depth: number of groups it is in.
         enabled: its own switch, whatever its groups are.
         color_scale: the meaning of its colours.
+        revision: how often the display was changed, which is the same object then.
     """
 
     id: str
@@ -40,6 +41,7 @@ class Row:
     depth: int = 0
     enabled: bool = True
     color_scale: ColorScale | None = None
+    revision: int = 0
 
     @property
     def level(self) -> Level:

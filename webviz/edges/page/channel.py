@@ -99,9 +99,9 @@ class Channel:
         """
         with self._lock:
             changed = self._stores.replace(store, values)
-            for outbox in self._outboxes.values():
-                outbox.watched.mark(store, changed)
-        self._wake_soon()
+            is_new = [outbox.watched.mark(store, changed) for outbox in self._outboxes.values()]
+        if any(is_new):
+            self._wake_soon()
 
     def watched(self) -> set[str]:
         """The names of all stores that pages watch; the values of others are forgotten."""

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future
 
+from webviz.api.registry import display_types
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.messages import Ping, Pong, Shell
 from webviz.edges.page.plugin_panels import PluginPanels
+from webviz.edges.page.reading import Reading
 from webviz.edges.page.toolbar import Toolbar
 from webviz.edges.page.wishes import Wishes
 from webviz.engine.commands import Command, Refresh, Sender
@@ -35,12 +37,14 @@ class Pages:
         self._acts = Acts(channel, enqueue)
         self._wishes = Wishes(enqueue)
         self._panels = panels = PluginPanels(channel, enqueue)
-        self._makers = {
-            **MAKERS,
+        self._of_panels = {
             "commands": panels.commands,
             "panel": panels.panel,
             "panels": panels.panels,
         }
+        self._read: dict[str, Reading] = {}
+        """What the stores were made of that are kept."""
+        self._types = display_types()
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
@@ -57,13 +61,28 @@ class Pages:
         self._panels.update(state)
         watched = self._channel.watched()
         self._wishes.update(watched)
+        self._forget(watched)
         for store in watched:
-            self._guard(store, self._fill, store, state)
+            read = self._read.get(store)
+            if read is None or not read.is_as_in(state):
+                self._guard(store, self._fill, store, state)
 
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")
-        if (make := self._makers.get(name)) is not None:
+        if (make := self._of_panels.get(name)) is not None:
             self._channel.show(store, make(state, argument))
+        elif (make := MAKERS.get(name)) is not None:
+            reading = Reading(state)
+            self._channel.show(store, make(reading.state, argument))
+            self._read[store] = reading
+
+    def _forget(self, watched: set[str]) -> None:
+        """Have stores made anew that are not watched any more, and all if there are other types."""
+        if (types := display_types()) != self._types:
+            self._types = types
+            self._read.clear()
+        for store in self._read.keys() - watched:
+            del self._read[store]
 
 
 def _may_watch(browser: int, store: str) -> bool:

@@ -26,13 +26,23 @@ class Stores:
         self._made_of: dict[str, Mapping[str, Any]] = {}
 
     def replace(self, store: str, values: Mapping[str, Any]) -> list[str]:
-        """Makes these the values of a store, and returns the keys that are new, changed or gone."""
-        if self._made_of.get(store) is values:
-            return []  # large ones are the same object while nothing changes
-        old = self._content.get(store, {})
-        new = {_sendable(key): _encoded(value) for key, value in values.items()}
-        self._content[store], self._made_of[store] = new, values
-        changed = [key for key, value in new.items() if old.get(key) != value]
+        """Makes these the values of a store, and returns the keys that are new, changed or gone.
+
+        Values are not changed once they are here: the same object is the same value.
+        """
+        old, made_of = self._content.get(store, {}), self._made_of.get(store, {})
+        new: Content = {}
+        changed: list[str] = []
+        for name, value in values.items():
+            key = _sendable(name)
+            known = old.get(key)
+            if known is None or made_of.get(name) is not value:
+                encoded = _encoded(value)
+                if encoded != known:
+                    changed.append(key)
+                known = encoded
+            new[key] = known
+        self._content[store], self._made_of[store] = new, dict(values)
         return changed + [key for key in old if key not in new]
 
     def get(self, store: str) -> Content | None:
@@ -71,10 +81,12 @@ class Watched:
         self._dirty.pop(store, None)
         self._fresh.discard(store)
 
-    def mark(self, store: str, keys: list[str]) -> None:
-        """Notes keys that are new, changed or gone."""
-        if (dirty := self._dirty.get(store)) is not None:
-            dirty.update(dict.fromkeys(keys))
+    def mark(self, store: str, keys: list[str]) -> bool:
+        """Notes keys that are new, changed or gone; whether the page has yet to be sent any."""
+        if (dirty := self._dirty.get(store)) is None:
+            return False
+        dirty.update(dict.fromkeys(keys))
+        return bool(dirty) or store in self._fresh
 
     def next(self, stores: Stores) -> Values | None:
         """What is to be sent next, if anything."""

@@ -137,6 +137,7 @@ class DisplayList:
         entry = self.find(id)
         if entry is None or isinstance(entry.declared, Unreadable):
             return
+        entry.revision += 1
         try:
             with self._hiding_disabled():
                 if isinstance(entry.content, Runner):

@@ -40,7 +40,8 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
     scale = None
     if isinstance(content, Runner) and entry.is_enabled:
         statuses, scale = statuses_of(content), content.color_scale()
-    return Row(entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
+    common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
+    return Row(*common, entry.revision)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

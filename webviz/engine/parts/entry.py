@@ -18,11 +18,13 @@ class Entry:
         id: for commands.
         content: a running display, a group, or an entry of a config that cannot be shown.
         parent: the group it is in.
+        revision: how often its properties were changed.
     """
 
     id: str
     content: Runner | DisplayGroup | Unreadable
     parent: Entry | None = None
+    revision: int = 0
 
     @property
     def declared(self) -> Display | Unreadable:

@@ -18,13 +18,12 @@ from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.tools import tool
 from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.transforms import between, transforms
-from webviz.edges.page.content.types import addable, types
+from webviz.edges.page.content.types import types
 from webviz.edges.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.edges.page.content.views import view, views
 from webviz.engine.state import State
 
 MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
-    "addable": addable,
     "between": between,
     "clock": clock,
     "displays": displays,

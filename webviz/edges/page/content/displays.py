@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from webviz.api.display import inputs
@@ -18,8 +18,7 @@ _CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
 
 def displays(state: State, _: str) -> Mapping[str, Any]:
     """The rows by id, and "order": the ids from top to bottom."""
-    rows = {row.id: _row(row) for row in state.rows}
-    return {"order": [row.id for row in state.rows], **rows}
+    return {"order": [row.id for row in state.rows], **_rows(state.rows)}
 
 
 def rate(state: State, id_: str) -> Mapping[str, Any]:
@@ -27,6 +26,24 @@ def rate(state: State, id_: str) -> Mapping[str, Any]:
     row = next((row for row in state.rows if row.id == id_), None)
     known = [state.traffic[name].rate_hz for name in _topics(row) if name in state.traffic]
     return {"hz": _rounded(known[0])} if known else {}
+
+
+class _Rows:
+    """What the page shows of rows, by id; the same object for a row as long as it is the same."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[Row, Mapping[str, Any]]] = {}
+
+    def __call__(self, rows: Iterable[Row]) -> Mapping[str, Mapping[str, Any]]:
+        before = self._known
+        self._known = now = {
+            row.id: known if (known := before.get(row.id)) and known[0] is row else (row, _row(row))
+            for row in rows
+        }
+        return {id_: shown for id_, (_, shown) in now.items()}
+
+
+_rows = _Rows()
 
 
 def _row(row: Row) -> Mapping[str, Any]:

@@ -18,7 +18,7 @@ def topics(state: State, _: str) -> Mapping[str, Any]:
     "show" has the displays that fit, each with the property that takes the topic; "why" says why
     there is none.
     """
-    return _made(state.offers, display_types())
+    return _topics(state.offers, display_types())
 
 
 def traffic(state: State, _: str) -> Mapping[str, Any]:
@@ -44,26 +44,6 @@ def message(state: State, topic: str) -> Mapping[str, Any]:
         "size": inspected.size,
         "received": round(inspected.received_s, 1),
     }
-
-
-class _Memo:
-    """What was made of the last offers: with thousands of topics it takes a while."""
-
-    def __init__(self) -> None:
-        self._last: tuple[object, object, Mapping[str, Any]] = (None, None, {})
-
-    def __call__(
-        self, offers: Mapping[str, Offer], displays: Mapping[str, type[Display]]
-    ) -> Mapping[str, Any]:
-        """The topics; the same object while nothing has changed."""
-        known, shown, made = self._last
-        if known is not offers or shown != displays:
-            made = _topics(offers, displays)
-            self._last = offers, displays, made
-        return made
-
-
-_made = _Memo()
 
 
 def _topics(

@@ -14,7 +14,7 @@ const WAYS = { type: "By type", topic: "By topic" };
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
-  const state = { way: recall("add", "type"), types: null, topics: null };
+  const state = { way: recall("add", "type"), types: null, topics: null, traffic: null, shown: null };
   const checked = new Map();
   const input = el("input", {
     class: "wv-field wv-search",
@@ -48,8 +48,17 @@ export function openAdd({ group = "" } = {}) {
       state.types = [...types];
       show();
     }),
-    watch("addable", (topics) => {
+    watch("topics", (topics) => {
       state.topics = [...topics].sort(([a], [b]) => (a < b ? -1 : 1));
+      show();
+    }),
+    watch("traffic", (traffic) => {
+      state.traffic = traffic;
+      show();
+    }),
+    watch("displays", (displays) => {
+      const topics = [...displays.values()].flatMap((display) => display.topics ?? []);
+      state.shown = new Set(topics.map(absolute));
       show();
     }),
   ];
@@ -108,7 +117,7 @@ export function openAdd({ group = "" } = {}) {
   });
 }
 
-function rows({ way, types, topics }, checked) {
+function rows({ way, types, topics, traffic, shown }, checked) {
   if (way === "type") {
     return (types ?? []).map(([name, { help, topics: takes }]) => ({
       id: name,
@@ -119,13 +128,13 @@ function rows({ way, types, topics }, checked) {
       pick: { type: name, values: {} },
     }));
   }
-  const fits = ([, { displays }]) => displays.length > 0;
+  const isShown = (topic) => shown?.has(topic) ?? false;
   const all = topics ?? [];
-  const rank = (one) => (fits(one) ? Number(one[1].shown) : 2);
+  const rank = ([topic, { show }]) => (show.length ? Number(isShown(topic)) : 2);
   const sorted = all.toSorted((a, b) => rank(a) - rank(b));
   return sorted.flatMap(([topic, offer]) => {
-    const about = { title: topic, note: noteOf(offer) };
-    if (!offer.displays.length) {
+    const about = { title: topic, note: noteOf(offer, traffic?.get(topic), isShown(topic)) };
+    if (!offer.show.length) {
       return [
         {
           ...about,
@@ -137,7 +146,7 @@ function rows({ way, types, topics }, checked) {
         },
       ];
     }
-    return offer.displays.map(([display, input]) => ({
+    return offer.show.map(([display, input]) => ({
       ...about,
       id: `${topic} ${display}`,
       icon: typeIcon(display),
@@ -148,10 +157,13 @@ function rows({ way, types, topics }, checked) {
   });
 }
 
-function noteOf({ rate, publishers, shown }) {
-  const parts = [shown ? "already shown" : "", rate ? `${rate} Hz` : "", `${publishers} publisher${publishers === 1 ? "" : "s"}`];
-  return parts.filter(Boolean).join(" · ");
+function noteOf({ nodes }, traffic, isShown) {
+  const rate = traffic?.hz ? `${Number(traffic.hz.toPrecision(2))} Hz` : "";
+  const publishers = `${nodes.length} publisher${nodes.length === 1 ? "" : "s"}`;
+  return [isShown ? "already shown" : "", rate, publishers].filter(Boolean).join(" · ");
 }
+
+const absolute = (topic) => (topic.startsWith("/") ? topic : `/${topic}`);
 
 function remark({ way, types, topics }, all, count) {
   if ((way === "type" ? types : topics) === null) return "Loading…";
