@@ -8,24 +8,45 @@ import * as views from "./view.js";
 import * as viser from "../viser_page.js";
 
 const { ROOT, EYE, FIELD_OF_VIEW } = constants;
+const MAX_SLIDE = 1; // metres
 const NEAR_PX = 4; // what the mouse points at although it is not quite there
 
 const isFPS = () => views.type() === "FPS";
 const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
 let mouse = null;
+let isSliding = false;
 
 export function arm(event) {
   const controls = viser.controls();
   const ACTION = viser.actions();
   const buttons = controls.mouseButtons;
-  buttons.left = event && event.shiftKey ? ACTION.TRUCK : ACTION.ROTATE;
-  buttons.middle = ACTION.TRUCK;
+  const move = slides() ? ACTION.NONE : ACTION.TRUCK;
+  buttons.left = event && event.shiftKey ? move : ACTION.ROTATE;
+  buttons.middle = move;
   buttons.right = buttons.wheel = ACTION.NONE;
-  controls.verticalDragToForward = slides();
+  isSliding = slides() && (event?.button === 1 || (event?.button === 0 && event.shiftKey));
   // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
   const tall = viser.canvas().clientHeight;
   controls.azimuthRotateSpeed = controls.polarRotateSpeed = (0.005 * tall) / (2 * Math.PI);
   controls.truckSpeed = isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
+}
+
+// RViz's XYOrbit keeps the point of the ground under the mouse, but moves at most a metre for an
+// event, because the ground is far away near the horizon.
+function slide(from, to) {
+  const [before, now] = [from, to].map(groundOfView);
+  if (!before || !now) return;
+  const controls = viser.controls();
+  const at = controls.getTarget(before.clone()).add(before.sub(now).clampLength(0, MAX_SLIDE));
+  controls.moveTo(...at.toArray(), false);
+}
+
+// In the coordinates of the camera's controls, which may follow a frame.
+function groundOfView(xy) {
+  const { ray } = casterAt(xy);
+  const { origin, direction } = ray.applyMatrix4(views.followed().clone().invert());
+  const steps = -origin.y / direction.y;
+  return steps > 0 ? origin.addScaledVector(direction, steps) : null;
 }
 
 function walk(meters) {
@@ -120,7 +141,10 @@ export function install() {
     else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
   }, { passive: false });
   events.addEventListener("pointermove", (event) => {
+    const before = mouse;
     mouse = [event.clientX, event.clientY];
+    if (event.buttons === 0) isSliding = false;
+    if (isSliding && before) slide(before, mouse);
     if (event.buttons !== 2 || event.pointerType === "touch") return;
     if (isFPS()) walk(-0.1 * event.movementY);
     else zoom(Math.pow(1.01, event.movementY));
