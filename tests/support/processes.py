@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Iterator
+import time
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 
 import psutil
+
+PATIENCE_S = 60.0
 
 
 def command_lines(pid: int | None = None) -> dict[psutil.Process, str]:
@@ -31,7 +34,19 @@ def send(number: int, processes: Iterable[psutil.Process]) -> None:
 
 @contextmanager
 def no_thread_left() -> Iterator[None]:
-    """Fails if a thread that was started in the block still runs; older ones may end in it."""
+    """Fails if a thread that was started in the block does not end; older ones may end in it."""
     before = set(threading.enumerate())
     yield
-    assert set(threading.enumerate()) - before == set()
+    for thread in set(threading.enumerate()) - before:
+        thread.join(PATIENCE_S)  # a viewer does not wait for what takes long on a busy machine
+        assert not thread.is_alive(), thread
+
+
+def eventually(condition: Callable[[], bool]) -> bool:
+    """Whether a condition holds within a minute."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.02)
+    return True

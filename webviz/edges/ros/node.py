@@ -179,6 +179,8 @@ class RosSource:
             self._release(topic)
             self.inbox.close(topic)
         for topic, wish in wanted.items():
+            if self._stop.is_set():  # the first subscriptions take longest
+                return
             publishers = self._offers[topic].publishers if topic in self._offers else ()
             if publishers and all(p.type != wish.type for p in publishers):
                 self._release(topic)  # rclpy allows one type per topic, and none matches

@@ -6,6 +6,7 @@ import atexit
 import contextlib
 import itertools
 import logging
+import math
 import os
 import threading
 import time
@@ -36,8 +37,10 @@ log = logging.getLogger("webviz")
 
 PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
-CLOSING_S = 1.5
-"""For a part to close."""
+CLOSING_S, ALL_CLOSING_S = 1.5, 2.0
+"""For a part to close, and for all: a program that is asked to end has three seconds."""
+LAST_S = 0.1
+"""For each part that remains after that."""
 
 
 def read_config(path: Path | None) -> Config:
@@ -68,8 +71,9 @@ class Running:
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
+            closing = _Closing(stack)
             if source is not None:
-                stack.callback(_end, "The source of messages", source.close)
+                closing.add("The source of messages", source.close)
             files = [Path(file) for file in plugins]
             watcher = plugin_files.Watcher(files)
             for file in files:
@@ -83,11 +87,11 @@ class Running:
             from webviz.shell.pictures.snapshots import Snapshots
 
             server = open_server(host, port, allow_hosts)
-            stack.callback(_end, "The server of the page", server.stop)
+            closing.add("The server of the page", server.stop)
             control = None
             if source is None:
                 source = ros_source(ros_args)
-                stack.callback(_end, "The ROS node", source.close)
+                closing.add("The ROS node", source.close)
                 control = source.control
                 if path is None and control.initial["config_file"]:
                     path = Path(control.initial["config_file"])
@@ -102,13 +106,13 @@ class Running:
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
             thread.start()
-            stack.callback(_end, "The frame loop", thread.join)
+            closing.add("The frame loop", thread.join)
             stack.callback(self._loop.stop)
             scene.link.late.wake = source.inbox.arrived.set
             self._snapshots = Snapshots(scene, self._drawn, self._look)
-            stack.callback(_end, "The browser of pictures", self._snapshots.close)
+            closing.add("The browser of pictures", self._snapshots.close)
             watcher.start(self._loop.enqueue)
-            stack.callback(_end, "The plug-in watcher", watcher.stop)
+            closing.add("The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
             if control is not None:
                 if name := control.initial["view"]:
@@ -248,13 +252,28 @@ class Running:
         self._pages.update(state)
 
 
-def _end(what: str, close: Callable[[], object]) -> None:
-    """Close a part of the viewer; if it hangs, report that and continue."""
-    thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
-    thread.start()
-    thread.join(CLOSING_S)
-    if thread.is_alive():
-        log.warning("%s did not close within %g s.", what, CLOSING_S)
+class _Closing:
+    """Closes the parts of a viewer in the reverse order; those that hang are reported and left.
+
+    They share one time limit, so that a program ends in time however many of them are slow.
+    """
+
+    def __init__(self, stack: contextlib.ExitStack) -> None:
+        self._stack = stack
+        self._until = math.inf
+
+    def add(self, what: str, close: Callable[[], object]) -> None:
+        """Close a part when the stack is closed."""
+        self._stack.callback(self._close, what, close)
+
+    def _close(self, what: str, close: Callable[[], object]) -> None:
+        self._until = min(self._until, time.monotonic() + ALL_CLOSING_S)
+        thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
+        thread.start()
+        patience_s = min(CLOSING_S, max(LAST_S, self._until - time.monotonic()))
+        thread.join(patience_s)
+        if thread.is_alive():
+            log.warning("%s did not close within %.1f s.", what, patience_s)
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:

@@ -5,6 +5,7 @@ printed. Imports are few, because signals are handled only once this module is l
 """
 
 import contextlib
+import math
 import os
 import signal
 import sys
@@ -90,14 +91,20 @@ class Stop:
     """A request to end the program, and what to do then."""
 
     def __init__(self) -> None:
-        self._asked = threading.Event()
+        self._asked_s = math.inf
         self._holds = False
         self._actions: list[Callable[[], object]] = []
 
     @property
     def is_asked(self) -> bool:
         """Whether the program was asked to end."""
-        return self._asked.is_set()
+        return self._asked_s < math.inf
+
+    @property
+    def left_s(self) -> float:
+        """Time for what closes now: until the program exits by force, once it was asked to end."""
+        passed = time.monotonic() - self._asked_s if self.is_asked else 0.0
+        return max(0.0, PATIENCE_S - passed)
 
     def hold(self) -> bool:
         """Let the program close its resources itself from now on; False if it was asked to end."""
@@ -108,7 +115,7 @@ class Stop:
         """Ask the program to end, from any thread or a signal handler."""
         if self.is_asked:
             return
-        self._asked.set()
+        self._asked_s = time.monotonic()
         end_in_time()
         for action in self._actions:
             action()

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from webviz.api.registry import display_types
+from webviz.data.messages import type_exists
 from webviz.files.config import Config
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say
@@ -71,6 +72,7 @@ def serve(
 def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
+    type_exists("std_msgs/msg/Header")  # reads the definitions of all messages
     import webviz.edges.page.pages
     import webviz.edges.scene
     import webviz.shell.pictures.snapshots

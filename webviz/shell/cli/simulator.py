@@ -12,7 +12,8 @@ from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop
 from webviz.shell.ros_source import NO_ROS
 
-PATIENCE_S = 2.0
+SPARE_S = 0.5
+"""Time that the program keeps for itself when the simulator has to be killed."""
 
 
 @contextlib.contextmanager
@@ -50,7 +51,7 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
     finally:
         simulator.terminate()
         try:
-            simulator.wait(PATIENCE_S)
+            simulator.wait(max(0.0, stop.left_s - SPARE_S))
         except subprocess.TimeoutExpired:
             simulator.kill()
         watcher.join()
