@@ -26,7 +26,7 @@ CONFIG = "fixed_frame: map\nview: {type: TopDownOrtho, scale: 50}\ndisplays: [{t
 
 @pytest.fixture(scope="module")
 def source() -> HandFedSource:
-    return HandFedSource()
+    return HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
 
 
 @pytest.fixture(scope="module")
@@ -430,10 +430,20 @@ def drag_works(page: Page, graph: RememberingGraph) -> None:
 def test_a_source_that_only_reads_says_so(
     page: Page, source: HandFedSource, graph: RememberingGraph
 ) -> None:
-    source.graph = HandFedSource().graph
+    reason = "This source can only be read."
+    disabled = page.tab.locator(".wv-tools [aria-disabled=true]")
     page.tab.keyboard.press("g")
-    drag(page, (0.0, 0.0), (50.0, 0.0))
-    page.wait_for(lambda: answer(page) == "This source can only be read.", "the reason")
+    source.graph = HandFedSource().graph
+    # The tool that is active is left, and none of them can be chosen.
+    page.wait_for(lambda: answer(page) == reason, "the reason")
+    assert not is_active(page)
+    assert disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)") == [reason] * 3
+    page.tab.evaluate("async () => (await import('/webviz/tools/hint.js')).tell('hint', '')")
+    page.tab.keyboard.press("g")
+    assert answer(page) == reason
+    assert not is_active(page)
+    source.graph = graph  # pyright: ignore[reportAttributeAccessIssue]
+    page.wait_for(lambda: disabled.count() == 0, "the tools")
 
 
 def test_a_program_uses_a_tool_as_a_page_does(

@@ -51,7 +51,7 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
         hint, *marks = typing.get_args(hint)
         for mark in marks:
             if isinstance(mark, msgspec.Meta):
-                limits = {name: getattr(mark, name) for name in ("gt", "ge", "lt", "le")}
+                limits = {name: getattr(mark, name) for name in ("gt", "ge", "lt", "le", "pattern")}
                 bounds = bounds | {
                     name: limit for name, limit in limits.items() if limit is not None
                 }
@@ -61,6 +61,8 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
             return st.one_of([structs(part) for part in parts])
         case origin if origin is Literal:
             return st.sampled_from(parts)
+        case origin if origin is tuple and Ellipsis in parts:
+            return st.lists(values_of(parts[0], {}), max_size=3)
         case origin if origin is tuple:
             return st.tuples(*(values_of(part, {}) for part in parts)).map(list)
         case origin if origin is list:
@@ -70,7 +72,7 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
         case kind if kind is bool:
             return st.booleans()
         case kind if kind is str:
-            return TEXTS
+            return st.from_regex(bounds["pattern"]) if "pattern" in bounds else TEXTS
         case kind if kind in (int, float):
             return numbers(kind, bounds)
     return structs(hint)

@@ -14,7 +14,7 @@ from webviz.api import registry
 from webviz.api.display import Display
 from webviz.api.status import Status
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import UseTool
+from webviz.engine.commands import Load, Refresh, UseTool
 from webviz.engine.plugins import load
 from webviz.shell.testing.messages import header
 
@@ -85,16 +85,21 @@ def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(
             b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=told.append))
             b.turn()
             graph.responses["/spawn"] = encode("turtlesim/srv/Spawn_Response", {"name": "turtle2"})
+        b.do(Load("publish: [/goal_pose]\n", "x.yaml"))
+        b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=told.append))
+        (button,) = (tool for tool in b.do(Refresh()).tools if tool.name == "Spawn Turtle")
     finally:
         registry.register(str(path), {})
-    service, type_, request = graph.requests[1]
+    _, (service, type_, request) = graph.requests
     assert (service, type_) == ("/spawn", "turtlesim/srv/Spawn")
     spawn = decode("turtlesim/srv/Spawn_Request", request)
     assert (spawn.x, spawn.y, spawn.theta, spawn.name) == (1.0, 2.0, 0.0, "")
     assert [status.text for status in told] == [
         "No node offers /spawn. Start one.",
         "Spawned turtle2.",
+        "/spawn is not in the list `publish` of this config. Add it to the file.",
     ]
+    assert button.refusal == told[-1].text
 
 
 def test_every_example_is_listed() -> None:

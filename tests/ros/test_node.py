@@ -21,7 +21,7 @@ from std_msgs.msg import Int32, String
 from webviz.api.declared import Topic
 from webviz.data.messages import decode
 from webviz.edges.ros.node import RosSource
-from webviz.engine.sources import Subscription
+from webviz.engine.sources import Gate, Rights, Subscription
 
 STRING = "std_msgs/msg/String"
 
@@ -177,13 +177,19 @@ def test_an_unknown_type_is_reported(listen: Callable[..., RosSource]) -> None:
     assert "no_such_msgs/msg/Thing" in offer.problem
 
 
-def test_names_are_resolved_and_remapped(listen: Callable[..., RosSource]) -> None:
+def test_names_are_resolved_and_remapped_those_that_may_be_published_too(
+    listen: Callable[..., RosSource],
+) -> None:
     source = listen("--ros-args", "-r", "/scan:=/front/scan", "-r", "__ns:=/robot")
     assert source.resolve("/scan") == "/front/scan"
     assert source.resolve("odom") == "/robot/odom"
     for wrong in ("", "/a b", "9lives", "/a//b"):
         with pytest.raises(ValueError, match="is not a valid topic name: "):
             source.resolve(wrong)
+    gate = Gate(source, Rights(publish=("/scan", "odom", "arm/*", "~/*")), lambda: ("/*",))
+    names = ("/front/scan", "/robot/odom", "/robot/arm/goal", "/robot/webviz/x")
+    assert [gate.refusal(name) for name in names] == [""] * 4
+    assert all(map(gate.refusal, ("/scan", "/odom", "/arm/goal", "/webviz/x")))
 
 
 def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., RosSource]) -> None:

@@ -32,17 +32,20 @@ class Bench:
         autosave: Path | None = None,
         cameras: Cameras | None = None,
         parts: Sequence[Callable[[Core], Part]] = (),
+        publish: tuple[str, ...] = ("/*",),
+        may_publish: bool = True,
     ) -> None:
         self.source = HandFedSource()
         self.scene = RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0
-        config = Config(Settings(fixed_frame=fixed_frame), list(displays))
+        config = Config(Settings(fixed_frame=fixed_frame, publish=publish), list(displays))
         self.viewer = FrameLoop(
             config,
             self.source,
             self.scene,
             self.states.append,
+            may_publish=may_publish,
             autosave=autosave,
             parts=parts,
             strict=strict,

@@ -203,6 +203,11 @@ class Tool(Declared, kw_only=True):
         """Whether it remains the active tool after a gesture."""
         return False
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The services and actions it sends to, for the button to say whether that is allowed."""
+        return ()
+
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Act on a finished gesture; called by the frame loop."""
 

@@ -30,7 +30,7 @@ from webviz.engine.requests import Requests
 from webviz.engine.scene import Scene
 from webviz.engine.settled import settled
 from webviz.engine.showing import Showing
-from webviz.engine.sources import Source
+from webviz.engine.sources import Gate, Rights, Source
 from webviz.engine.state import State
 from webviz.engine.statuses import failures
 from webviz.files.config import Config, Settings
@@ -51,6 +51,7 @@ class FrameLoop:
         scene: where to draw.
         show: called with the state whenever panels should be updated.
         path: the file of the config, None if it has none.
+        may_publish: whether tools may publish, call services and send goals.
         autosave: a file that follows every change, None for no autosave.
         parts: factories of additional parts.
         strict: let exceptions of displays through, for tests.
@@ -65,6 +66,7 @@ class FrameLoop:
         show: Callable[[State], None] = lambda state: None,
         *,
         path: Path | None = None,
+        may_publish: bool = True,
         autosave: Path | None = None,
         parts: Sequence[Callable[[Core], Part]] = (),
         strict: bool = False,
@@ -78,7 +80,9 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._shown = State()
-        core = self._core = Core(source, scene, self._guard, clock)
+        rights = Rights(may_publish, config.settings.publish)
+        gate = Gate(source, rights, lambda: self._settings.settings.publish)
+        core = self._core = Core(source, gate, scene, self._guard, clock)
         services = Services(scene, self._workers, source.resolve, strict, clock)
         self._tracer = services.tracer
         transforms = TransformsPart(core)

@@ -172,6 +172,7 @@ class ToolButton:
         icon: of the page, "" for that of the gesture.
         surface: whether the gesture starts on a surface.
         stays: whether it remains active after a gesture.
+        refusal: why it cannot be used, a sentence; "" if it can.
         tool: read-only.
     """
 
@@ -183,6 +184,7 @@ class ToolButton:
     icon: str = ""
     surface: bool = False
     stays: bool = False
+    refusal: str = ""
     tool: Tool = field(default_factory=Tool)
 
 

@@ -10,6 +10,11 @@ class SpawnTurtle(Tool):
     shortcut = "t"
     service: str = "/spawn"
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The service, which the list `publish` of a config may leave out."""
+        return (self.service,)
+
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Call the service, and report the name of the turtle."""
         x, y, _ = stroke.position

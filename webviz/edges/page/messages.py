@@ -126,6 +126,7 @@ class ToolButton(msgspec.Struct, frozen=True):
     icon: str
     surface: bool
     stays: bool
+    refusal: str
 
 
 class Tools(ToPage, frozen=True):

@@ -12,7 +12,7 @@ from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.requests import Job
 from webviz.engine.scene import Scene
-from webviz.engine.sources import Offer, Raw, Source, Subscription
+from webviz.engine.sources import Gate, Offer, Raw, Source, Subscription
 
 Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""
@@ -29,15 +29,22 @@ class Core:
 
     Args:
         source: where messages come from.
+        gate: where messages, requests and goals go to.
         scene: where to draw.
         guard: for all calls.
         clock: monotonic time in seconds.
     """
 
     def __init__(
-        self, source: Source, scene: Scene, guard: Guard, clock: Callable[[], float]
+        self,
+        source: Source,
+        gate: Gate,
+        scene: Scene,
+        guard: Guard,
+        clock: Callable[[], float],
     ) -> None:
         self.source = source
+        self.gate = gate
         self.scene = scene
         self.guard = guard
         self.clock = clock

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import inspect
 import logging
@@ -22,7 +23,7 @@ from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
-from webviz.engine.sources.graph import Outlet
+from webviz.engine.sources import Outlet
 from webviz.engine.state import ToolButton
 from webviz.files.config import ConfigError, ToolItem, Unreadable, nearest
 
@@ -44,7 +45,6 @@ class ToolsPart(Part):
         super().__init__(core)
         self._items: dict[str, ToolItem] = {}
         self._made = 0
-        self._advertised: set[Outlet] = set()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -78,19 +78,14 @@ class ToolsPart(Part):
 
     def keep_up(self, commanded: bool) -> None:
         """Advertise the outputs of all tools, so that their first messages arrive."""
-        wanted = {
-            outlet
-            for tool in self._tools().values()
-            for _, output, topic in outputs(tool)
-            if (outlet := self._outlet(output, topic))
-        }
-        if wanted != self._advertised:
-            self._advertised = wanted
-            self.core.source.graph.advertise(wanted)
+        self.core.gate.advertise(
+            {outlet for tool in self._tools().values() for outlet in self._outlets(tool)}
+        )
 
     def state(self) -> Mapping[str, Any]:
         """The buttons of the toolbar."""
-        return {"tools": tuple(_button(id, tool) for id, tool in self._tools().items())}
+        tools = self._tools().items()
+        return {"tools": tuple(_button(id, tool, self._refusal(tool)) for id, tool in tools)}
 
     def statuses(self) -> Mapping[str, Status]:
         """Which tools cannot be used."""
@@ -122,25 +117,41 @@ class ToolsPart(Part):
 
         def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
             output, topic = ports[name]
-            command.published(topic.name, output.type, values)
-            self._publish(output, topic, payload, command.report)
+            if self._publish(output, topic, payload, command.report):
+                command.published(topic.name, output.type, values)
 
         context = ToolContext(
             tool, self.core.frames, self.core.now_ns, publish, self._call, command.report
         )
         tool.done(stroke, context)
 
-    def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> None:
+    def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> bool:
+        """Publish a message, and report the result; whether it may be published."""
         outlet = self._outlet(output, topic)
         if outlet is None:
             report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
-            return
-        sent = self.core.source.graph.publish(outlet, payload)
+            return False
+        sent = self.core.gate.publish(outlet, payload)
         sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
+        return not self.core.gate.refusal(outlet.topic)
 
     def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         name = self.core.source.resolve(service)
-        return self.core.source.graph.call(name, type, request, timeout_s)
+        return self.core.gate.call(name, type, request, timeout_s)
+
+    def _refusal(self, tool: Tool) -> str:
+        """Why a tool can send nothing, "" if it can or is not known to send anything."""
+        names = [outlet.topic for outlet in self._outlets(tool)]
+        for name in tool.uses:
+            with contextlib.suppress(ValueError):
+                names.append(self.core.source.resolve(name))
+        refusals = [self.core.gate.refusal(name) for name in names]
+        return refusals[0] if refusals and all(refusals) else ""
+
+    def _outlets(self, tool: Tool) -> list[Outlet]:
+        """The outlets of a tool whose topics have valid names."""
+        found = [self._outlet(output, topic) for _, output, topic in outputs(tool)]
+        return [outlet for outlet in found if outlet]
 
     def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
         """The outlet of an output; None if its topic has no valid name."""
@@ -166,7 +177,7 @@ class ToolsPart(Part):
             raise not_changed(error, type(tool), path, value) from error
 
 
-def _button(id: str, tool: Tool) -> ToolButton:
+def _button(id: str, tool: Tool, refusal: str) -> ToolButton:
     tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
     return ToolButton(
         id,
@@ -177,6 +188,7 @@ def _button(id: str, tool: Tool) -> ToolButton:
         tool.icon,
         tool.surface,
         tool.stays,
+        refusal,
         tool,
     )
 

@@ -1,10 +1,13 @@
 """Sources of messages: a live ROS graph or a bag, behind one interface."""
 
+from webviz.engine.sources.gate import AllowList, Gate, Rights
 from webviz.engine.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Offer, Publisher, Source, Subscription, merged
 
 __all__ = [
+    "AllowList",
+    "Gate",
     "Goal",
     "Graph",
     "Inbox",
@@ -15,6 +18,7 @@ __all__ = [
     "Publisher",
     "Raw",
     "ReadOnly",
+    "Rights",
     "Source",
     "Subscription",
     "merged",

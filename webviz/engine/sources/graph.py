@@ -113,25 +113,25 @@ class ReadOnly:
     """
 
     def __init__(self, reason: str) -> None:
-        self._reason = reason
+        self.reason = reason
 
     def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         """Refuse."""
-        return _failed(self._reason)
+        return _failed(self.reason)
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
         """Refuse."""
-        return _failed(self._reason)
+        return _failed(self.reason)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Refuse."""
-        return _failed(self._reason)
+        return _failed(self.reason)
 
     def send_goal(
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Refuse."""
-        refused = _failed(self._reason)
+        refused = _failed(self.reason)
         return Goal(b"", refused, refused, lambda: refused)
 
     def nodes(self) -> tuple[str, ...]:

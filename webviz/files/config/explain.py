@@ -30,7 +30,8 @@ WORDS = {
 }
 _STEP = re.compile(r"\.(?P<key>\w+)|\[(?P<index>\d+)\]|\[\.\.\.\]")
 _BOUND = re.compile(r"Expected `[^`]*` ([<>]=?) (\S+)")
-_LENGTH = re.compile(r"Expected `array` of length (\d+)")
+_LENGTH = re.compile(r"Expected `(?:array|str)` of length (?:(<=) )?(\d+)")
+_PATTERN = "Expected `str` matching regex "
 _TYPE = re.compile(r"Expected `([^`]*)`, got `[^`]*`")
 _UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 _MISSING = re.compile(r"Object missing required field `(.*)`")
@@ -184,7 +185,10 @@ def _clause(text: str, hint: Any, value: Any) -> str:
     if found := _BOUND.match(text):
         return f"expected {found[1]} {float(found[2]):g}{got}"
     if found := _LENGTH.match(text):
-        return f"expected {found[1]} values{got}"
+        unit = "characters" if isinstance(value, str) else "values"
+        return f"expected {'at most ' * bool(found[1])}{found[2]} {unit}{got}"
+    if text.startswith(_PATTERN):
+        return f"expected a name such as `/goal_pose` or `/nav/*`{got}"
     if found := _MISSING.match(text):
         return f"the key `{found[1]}` is missing"
     if typing.get_origin(hint) is Literal:
@@ -210,7 +214,8 @@ def _expected(words: str, hint: Any) -> str:
     if fields := _fields(hint):
         return f"keys such as `{fields[0]}:`"
     if typing.get_origin(hint) is tuple:
-        return f"a list of {len(typing.get_args(hint))} numbers"
+        items = typing.get_args(hint)
+        return "a list" if Ellipsis in items else f"a list of {len(items)} numbers"
     return " or ".join(WORDS.get(word, word) for word in words.split(" | "))
 
 

@@ -20,6 +20,12 @@ STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 """The displays shown without a config."""
 
 
+_WORD = "[A-Za-z_*][A-Za-z0-9_*]*"
+Name = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^(~?/)?{_WORD}(/{_WORD})*$")]
+"""Of a topic, service or action; `*` stands for any characters."""
+EVERYTHING = ("/*",)
+
+
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
     """A config file without its displays."""
 
@@ -29,6 +35,11 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     frame_rate: Annotated[float, Prop(ge=1, le=240, unit="Hz", help="Maximum rate of updates.")] = (
         60.0
     )
+    publish: Annotated[
+        tuple[Name, ...],
+        msgspec.Meta(max_length=1000),
+        Prop(help="Topics, services and actions that tools may use; * matches any characters."),
+    ] = EVERYTHING
     view: View = Orbit()
     """The view new browsers start with."""
     views: dict[str, View] = {}

@@ -32,6 +32,7 @@ _BOUNDS = {
     "lt": "exclusiveMaximum",
     "min_length": "minLength",
     "max_length": "maxLength",
+    "pattern": "pattern",
 }
 
 
@@ -148,7 +149,8 @@ class _Schemas:
                 size = {"minItems": len(items), "maxItems": len(items)}
                 return {"type": "array", "items": self._type(items[0]), **size}
             case inspect.ListType(item_type=item) | inspect.VarTupleType(item_type=item):
-                return {"type": "array", "items": self._type(item)}
+                most = {} if type_.max_length is None else {"maxItems": type_.max_length}
+                return {"type": "array", "items": self._type(item), **most}
             case inspect.DictType(value_type=value):
                 return {"type": "object", "additionalProperties": self._type(value)}
             case inspect.AnyType():

@@ -68,6 +68,7 @@ class Running:
         plugins: Sequence[str | os.PathLike[str]] = (),
         autosave: Path | None = None,
         config_folders: Sequence[str | os.PathLike[str]] = (),
+        publish: bool = True,
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -100,7 +101,15 @@ class Running:
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
             scene = self._scene = ViserScene(server)
-            self._loop = FrameLoop(shown, source, scene, self._show, path=path, autosave=autosave)
+            self._loop = FrameLoop(
+                shown,
+                source,
+                scene,
+                self._show,
+                path=path,
+                may_publish=publish,
+                autosave=autosave,
+            )
             self._pages = Pages(server.channel, self._loop.enqueue)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()

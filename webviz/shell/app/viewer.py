@@ -55,6 +55,8 @@ class Viewer(Running):
         plugins: Python files with displays, reloaded whenever they are saved.
         autosave: file to which every change is saved.
         config_folders: from which ROS may open configs, besides the folder of `config`.
+        publish: whether tools may publish, call services and send goals, as far as the list
+            `publish` of the config allows. Configs opened later can only narrow it.
         read: reads a config file; called with None for the default config.
 
     Raises:

@@ -57,6 +57,7 @@ def serve(
             plugins=options.plugin,
             autosave=_last_session() if options.autosave else None,
             config_folders=options.config_folder,
+            publish=not options.no_publish,
         ) as viewer:
             stop.then(viewer.stop)
             if options.debug:

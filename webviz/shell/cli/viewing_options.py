@@ -24,6 +24,8 @@ class ViewingOptions(ConfigOptions):
     """Host name that browsers may use with --host (repeatable)."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
+    no_publish: Flag = False
+    """Watch only: no tool may publish, call a service or send a goal."""
     autosave: Flag = False
     """Save the session in ~/.local/state/webviz; restore it unless -d is given."""
     debug: Flag = False

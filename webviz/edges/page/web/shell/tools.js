@@ -74,13 +74,14 @@ export const iconItems = () =>
 function buttonOf(tool) {
   const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
   made.set(tool.id, button);
-  const { name, tooltip, shortcut, isLean } = tool;
-  const text = JSON.stringify([name, tooltip, shortcut]);
+  const { name, tooltip, shortcut, isLean, refusal } = tool;
+  const text = JSON.stringify([name, tooltip, shortcut, refusal]);
   if (button.dataset.tool !== text) {
     button.dataset.tool = text;
     set(button, {
       "aria-label": name,
-      "data-tip": isLean ? `${name}: ${tooltip}` : tooltip,
+      "data-tip": refusal || (isLean ? `${name}: ${tooltip}` : tooltip),
+      "aria-disabled": refusal ? "true" : null,
       "data-key": shortcut || null,
     });
     const key = shortcut ? [el("kbd", {}, keyText(shortcut))] : [];

@@ -1,12 +1,14 @@
 // The tools of this page, and the one that is active; each browser has its own.
 //
-// A tool is `{id, name, tooltip, shortcut, icon, hint}`, with, as far as it needs them: `cursor`;
-// `order`, its place among the others; `select()`, called when it becomes active, and `leave()`,
-// when it is not any more; `pointer(event)`, which gets the pointer's events over the scene before
-// the camera and returns whether it took them; `isLean`, whether its button is an icon only.
+// A tool is `{id, name, tooltip, shortcut, icon, hint}`, with, as far as it needs them: `refusal`, a
+// sentence on why it cannot be used; `cursor`; `order`, its place among the others; `select()`,
+// called when it becomes active, and `leave()`, when it is not any more; `pointer(event)`, which
+// gets the pointer's events over the scene before the camera and returns whether it took them;
+// `isLean`, whether its button is an icon only.
 // Interact is the default.
 
 import { canvas } from "../viser_page.js";
+import { tell } from "./hint.js";
 
 const listeners = new Set();
 const sets = new Map();
@@ -17,12 +19,14 @@ let current = null;
 export function provide(origin, tools) {
   sets.set(origin, tools);
   const known = all();
-  if (current && !known.includes(current)) {
-    const same = known.find(({ id }) => id === current.id);
-    if (!same) current.leave?.();
-    current = same ?? fallback;
+  if (!current || known.includes(current)) return tellAll();
+  const same = known.find(({ id }) => id === current.id);
+  if (same && !same.refusal) {
+    current = same;
+    return tellAll();
   }
-  tellAll();
+  select(null);
+  if (same) tell("warn", same.refusal);
 }
 
 /** All tools in the order of the toolbar. */
@@ -36,8 +40,9 @@ export function setDefault(tool) {
   fallback = current = tool;
 }
 
-/** Selects a tool; null is the default. */
+/** Selects a tool; null is the default. One that cannot be used says why. */
 export function select(tool) {
+  if (tool?.refusal) return tell("warn", tool.refusal);
   current?.leave?.();
   current = tool ?? fallback;
   canvas().style.cursor = current.cursor ?? "";

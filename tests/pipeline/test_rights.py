@@ -1,0 +1,158 @@
+"""What tools may publish, call and send: one allow-list for the whole viewer."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from remembering_graph import RememberingGraph
+
+import webviz
+from webviz.api.status import Level, Status
+from webviz.data.messages import encode
+from webviz.engine.commands import Load, Redo, Refresh, Reset, SetToolProperty, Undo, UseTool
+from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
+from webviz.shell.testing.source import HandFedSource
+
+POINT = ((1.0, 2.0, 0.0),)
+TYPE = "geometry_msgs/msg/PointStamped"
+NO_PUBLISH = "This viewer was started with --no-publish. Restart it without this option."
+OF_START = (
+    "{} is not in the list `publish` of the config that webviz was started with. Add it there, "
+    "and restart."
+)
+OF_CONFIG = "{} is not in the list `publish` of this config. Add it to the file."
+
+
+@pytest.fixture
+def make(bench: Callable[..., Any]) -> Callable[..., Any]:
+    def make(**options: Any) -> Any:
+        b = bench(**options)
+        b.source.graph = RememberingGraph()
+        b.turn()
+        return b
+
+    return make
+
+
+def use(b: Any, tool: str = "2D Goal Pose") -> str:
+    """The result of using a tool."""
+    told: list[Status] = []
+    b.ask(UseTool(tool, POINT, report=told.append))
+    assert len(b.source.graph.published) == (told[0].level is Level.OK)
+    b.source.graph.published.clear()
+    return told[0].text
+
+
+def refusals(b: Any) -> dict[str, str]:
+    return {tool.name: tool.refusal for tool in b.do(Refresh()).tools if tool.refusal}
+
+
+@pytest.mark.parametrize(
+    ("names", "name", "is_allowed"),
+    [
+        (("/*",), "/a/b", True),
+        ((), "/a", False),
+        (("/a",), "/a", True),
+        (("/a",), "/a/b", False),
+        (("/a",), "/ab", False),
+        (("a",), "/a", True),
+        (("/nav/*",), "/nav/goal", True),
+        (("/nav/*",), "/nav/deep/goal", True),
+        (("/nav/*",), "/nav", False),
+        (("/*/cmd_vel",), "/robot/cmd_vel", True),
+        (("/*/cmd_vel",), "/robot/cmd_vel_raw", False),
+        (("/b", "/a"), "/a", True),
+        (("/not valid", "/a"), "/a", True),
+        (("/a.b",), "/aXb", False),
+        (("/go",), "/go/_action/send_goal", True),
+        (("/go",), "/stay/_action/send_goal", False),
+    ],
+)
+def test_a_name_is_compared_with_the_list(
+    names: tuple[str, ...], name: str, is_allowed: bool
+) -> None:
+    source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
+    gate = Gate(source, Rights(), lambda: names)
+    assert (gate.refusal(name) == "") is is_allowed
+
+
+def test_what_is_refused_never_reaches_the_source() -> None:
+    graph = RememberingGraph()
+    source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
+    gate = Gate(source, Rights(may_publish=False), lambda: ("/*",))
+    gate.advertise({Outlet("/a", TYPE)})
+    goal = gate.send_goal("/go", "nav2_msgs/action/NavigateToPose", b"", lambda _: None)
+    answers = (
+        gate.publish(Outlet("/a", TYPE), encode(TYPE, {})),
+        gate.call("/empty", "std_srvs/srv/Empty", b"", 1.0),
+        goal.accepted,
+        goal.result,
+    )
+    for answer in answers:
+        with pytest.raises(NotConnected, match=re.escape(NO_PUBLISH)):
+            answer.result(0)
+    goal.cancel()
+    assert (graph.published, graph.requests, list(graph.advertised)) == ([], [], [])
+
+
+def test_only_the_gate_reaches_the_graph_of_a_source() -> None:
+    files = Path(webviz.__file__).parent.rglob("*.py")
+    users = {path.name for path in files if "source.graph" in path.read_text(encoding="utf-8")}
+    assert users == {"gate.py"}
+
+
+def test_without_the_right_to_publish_every_tool_says_why(make: Callable[..., Any]) -> None:
+    b = make(may_publish=False)
+    assert set(refusals(b).values()) == {NO_PUBLISH}
+    assert use(b) == NO_PUBLISH
+    b.do(Load("version: 1\npublish: ['/*']\n", "x.yaml"))
+    assert use(b) == NO_PUBLISH
+
+
+def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> None:
+    b = make(publish=("/goal_pose", "/clicked*"))
+    refusal = OF_START.format("/initialpose")
+    assert refusals(b) == {"2D Pose Estimate": refusal}
+    assert {outlet.topic for outlet in b.source.graph.advertised} == {
+        "/goal_pose",
+        "/clicked_point",
+    }
+    assert use(b) == "Published to /goal_pose, 1 subscription."
+    assert use(b, "2D Pose Estimate") == refusal
+    # A topic that is chosen later counts too.
+    b.do(SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel"))
+    assert use(b) == OF_START.format("/cmd_vel")
+    b.do(SetToolProperty("2D Pose Estimate", "topic.name", "goal_pose"))
+    assert refusals(b) == {"2D Goal Pose": OF_START.format("/cmd_vel")}
+
+
+def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
+    make: Callable[..., Any],
+) -> None:
+    b = make(publish=("/goal_pose", "/initialpose"))
+    b.do(Load("version: 1\npublish: ['/*']\n", "all.yaml"))
+    assert use(b, "Publish Point") == OF_START.format("/clicked_point")
+    b.do(Load("version: 1\npublish: [/initialpose, /clicked_point]\n", "x.yaml"))
+    narrowed = {
+        "2D Goal Pose": OF_CONFIG.format("/goal_pose"),
+        "Publish Point": OF_START.format("/clicked_point"),
+    }
+    assert refusals(b) == narrowed
+    b.do(Undo())
+    assert set(refusals(b)) == {"Publish Point"}
+    b.do(Redo())
+    b.do(Reset())
+    assert refusals(b) == narrowed
+    b.do(Undo(steps=100))
+    assert set(refusals(b)) == {"Publish Point"}
+
+
+def test_every_button_says_that_a_source_can_only_be_read(make: Callable[..., Any]) -> None:
+    b = make()
+    assert refusals(b) == {}
+    b.source.graph = HandFedSource().graph
+    assert set(refusals(b).values()) == {"This source can only be read."}
