@@ -215,9 +215,38 @@ def test_what_others_change_is_told_once(tab: Tab) -> None:
     text = "Changed in another browser: Move <b>Path"
     tab.wait_for(lambda: text in tab.text())
     for number in range(2002, 2010):
-        show_history(tab, UndoHistory(steps("Move <b>Path", browser=10**6, first=number)))
-        tab.turn()
-    assert tab.text().count(text) == 1
+        label = f"Move <b>Path {number}"
+        show_history(tab, UndoHistory(steps(label, browser=10**6, first=number)))
+    toasts = tab.page.locator(".wv-toast", has_text="Changed in another browser")
+    tab.wait_for(lambda: toasts.all_inner_texts() == [f"{text} 2009"])
+
+
+SAME = """async () => {
+  const { toast } = await import("/webviz/shell/toasts.js");
+  for (let i = 0; i < 3; i++) toast("Not done.", { level: "error" });
+  for (let i = 0; i < 9; i++) toast(`Done ${i}.`);
+  toast("Not done.", { level: "error" });
+}"""
+UNDER = """(toast) => {
+  const { left, top, height } = toast.getBoundingClientRect();
+  return document.elementFromPoint(left + 20, top + height / 2).tagName;
+}"""
+
+
+def test_toasts_are_few_and_leave_the_pointer_to_the_scene(tab: Tab) -> None:
+    tab.page.evaluate(SAME)
+    toasts = tab.page.locator(".wv-toast")
+    assert toasts.all_inner_texts() == ["Done 7.", "Done 8.", "Not done."]
+    tab.page.evaluate(SAME.replace("9", "2"))
+    assert toasts.all_inner_texts()[:1] == ["Not done. (5)"]
+    assert toasts.first.evaluate(UNDER) == "CANVAS"
+    box, size = toasts.first.bounding_box(), tab.page.viewport_size
+    assert box is not None
+    assert size is not None
+    assert box["y"] > size["height"] / 2
+    for _ in range(3):
+        toasts.get_by_role("button", name="Dismiss").first.click()
+    assert toasts.count() == 0
 
 
 def test_a_page_that_joins_is_not_told_of_old_steps(

@@ -6,11 +6,9 @@ import { openMenuBelow } from "./menu.js";
 import { toast } from "./toasts.js";
 
 const MAX_LISTED = 30;
-const QUIET_MS = 5000;
 const steps = { undo: [], redo: [] };
 const listeners = new Set();
 let newest = null;
-let told = { text: "", at: 0, remove: () => {} };
 
 export function install() {
   watch("history", (values) => {
@@ -57,7 +55,8 @@ function tell() {
   if (before === null || newest === before) return;
   const isUndone = steps.redo.includes(last);
   if (last.browser !== window.webviz.browser) {
-    tellOfOthers(`${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`);
+    const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
+    toast(text, { topic: "others" }); // dragging a slider makes many steps
   } else if (!isUndone && last.label.startsWith("Remove ")) {
     const text = last.label.replace(/^Remove /, "Removed ");
     toast(`${text}.`, { action: { label: "Undo", run: () => undo() } });
@@ -65,10 +64,3 @@ function tell() {
 }
 
 const whereOf = ({ browser }) => (browser === null ? "by a program" : "in another browser");
-
-// Dragging a slider makes many steps.
-function tellOfOthers(text) {
-  if (text === told.text && Date.now() - told.at < QUIET_MS) return;
-  told.remove();
-  told = { text, at: Date.now(), remove: toast(text) };
-}

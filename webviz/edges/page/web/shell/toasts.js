@@ -1,10 +1,12 @@
-// Short messages over the scene, which go by themselves.
+// Short messages over the scene, which go by themselves. The pointer goes through them.
 
-import { el } from "../dom.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
 
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
-const MAX_SHOWN = 4;
+const MAX_SHOWN = 3;
 
+const shown = new Map();
 let place = null;
 
 export function install(scene) {
@@ -14,23 +16,41 @@ export function install(scene) {
 
 /**
  * Shows a sentence with a level, "ok", "warn" or "error", and perhaps an action: `{label, run}`.
+ * It replaces the one about the same topic; without a topic, repetitions of a sentence are counted.
  * Returns what takes it away.
  */
-export function toast(text, { level = "ok", action = null } = {}) {
+export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
   if (!place) return () => {};
-  const remove = () => shown.remove();
-  const run = () => {
-    remove();
-    action.run();
+  const key = topic || `${level} ${text}`;
+  const one = shown.get(key) ?? make(key);
+  one.count += topic ? 0 : 1;
+  set(one.element, { "data-level": level });
+  setText(one.text, one.count > 1 ? `${text} (${one.count})` : text);
+  one.button.hidden = !action;
+  setText(one.button, action?.label ?? "");
+  one.run = action?.run;
+  clearTimeout(one.timer);
+  one.timer = setTimeout(one.remove, SHOWN_MS[level]);
+  while (shown.size > MAX_SHOWN) shown.values().next().value.remove();
+  return one.remove;
+}
+
+function make(key) {
+  const one = { count: 0, timer: 0, run: null };
+  const act = () => {
+    one.remove();
+    one.run();
   };
-  const shown = el(
-    "div",
-    { class: "wv-toast", "data-level": level, onclick: remove },
-    text,
-    action && el("button", { type: "button", class: "wv-link", onclick: run }, action.label),
-  );
-  place.append(shown);
-  while (place.children.length > MAX_SHOWN) place.firstElementChild.remove();
-  setTimeout(remove, SHOWN_MS[level]);
-  return remove;
+  one.text = el("span");
+  one.button = el("button", { type: "button", class: "wv-link", onclick: act });
+  one.remove = () => {
+    clearTimeout(one.timer);
+    if (shown.get(key) === one) shown.delete(key);
+    one.element.remove();
+  };
+  const close = { type: "button", class: "wv-icon", "aria-label": "Dismiss", onclick: one.remove };
+  one.element = el("div", { class: "wv-toast" }, one.text, one.button, el("button", close, icon("close")));
+  shown.set(key, one);
+  place.append(one.element);
+  return one;
 }
