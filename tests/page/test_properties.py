@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import playwright.sync_api as playwright
 import pytest
 
 from tests.page.conftest import Tab
@@ -20,6 +21,7 @@ from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
 from webviz_displays.point_cloud2 import PointCloud2
+from webviz_displays.tf import TF
 
 BROKEN = """(labels) => labels.flatMap((label) => {
   const text = label.firstChild;
@@ -40,6 +42,31 @@ def pane(tab: Tab, make_row: MakeRow) -> Iterator[Pane]:
     pane = Pane(tab).mount()
     yield pane
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
+
+
+def test_switches_of_hundreds_of_frames_are_searched_and_set_together(pane: Pane) -> None:
+    frames = (*(f"arm/link_{i:03}" for i in range(300)), "<img src=x onerror=alert(1)>")
+    tf = TF(name="a", frames={"gone": False})
+    pane.tab.loop.show(Row("a", "TF", tf, "a", {}), frames=frames)
+    row = pane.row("frames")
+    options = row.get_by_role("option")
+    pane.tab.wait_for(lambda: row.get_by_placeholder("Filter 302 frames").count() == 1)
+    assert options.count() < 30
+    row.get_by_role("searchbox").fill("link_29")
+    playwright.expect(options).to_have_count(10)
+    options.nth(3).click()
+    pane.wait_for_set("frames", {"gone": False, "arm/link_293": False})
+    pane.keyboard.press("ArrowDown")
+    pane.keyboard.press("Space")
+    pane.wait_for_set("frames", {"gone": False, "arm/link_293": False, "arm/link_294": False})
+    row.get_by_role("button", name="All", exact=True).click()
+    pane.wait_for_set("frames", {"gone": False})
+
+    pane.row("all_enabled").locator("input").uncheck()
+    pane.wait_for_set("all_enabled", False)
+    playwright.expect(options.nth(3)).to_have_attribute("aria-checked", "false")
+    options.nth(3).click()
+    pane.wait_for_set("frames", {"gone": False, "arm/link_293": True})
 
 
 def test_each_kind_of_property_has_its_control(pane: Pane) -> None:

@@ -40,6 +40,7 @@ def Prop(
     rviz: str = "",
     when: tuple[str, object] | None = None,
     widget: Literal["", "frame", "slider"] = "",
+    otherwise: str = "",
     gt: float | None = None,
     ge: float | None = None,
     lt: float | None = None,
@@ -52,11 +53,13 @@ def Prop(
         unit: "m", "s", "px", ...
         rviz: RViz's name, if it differs from this name with spaces and capitals.
         when: (property, value) at which this property has an effect; several values as a tuple.
-        widget: the control, if the type alone does not determine it.
+        widget: the control, if the type alone does not determine it; "frame" for the id of a frame,
+            or for switches by the ids of frames.
+        otherwise: of such switches, the property that holds for frames without one.
         gt, ge, lt, le: bounds.
     """
-    extra = {"unit": unit, "rviz": rviz, "when": when, "widget": widget}
-    extra = {key: value for key, value in extra.items() if value}
+    hints = {"unit": unit, "rviz": rviz, "when": when, "widget": widget, "otherwise": otherwise}
+    extra = {key: value for key, value in hints.items() if value}
     bounds: dict[str, Any] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
     return msgspec.Meta(description=help or None, extra=extra, **bounds)
 

@@ -27,6 +27,7 @@ class Property:
         unit: "m", "s", "px", ... or "".
         rviz: see `webviz.Prop`.
         widget: see `webviz.Prop`.
+        otherwise: path of the property that holds for names without a value here, or "".
         hint: its Python type without annotations.
         type: the same as msgspec describes it, bounds included.
         default: not to be changed; `msgspec.NODEFAULT` if it is required.
@@ -42,6 +43,7 @@ class Property:
     unit: str
     rviz: str
     widget: str
+    otherwise: str
     hint: Any
     type: msgspec.inspect.Type
     default: Any
@@ -104,6 +106,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
                 unit=said.get("unit", ""),
                 rviz=said.get("rviz", ""),
                 widget=said.get("widget", ""),
+                otherwise=prefix + other if (other := said.get("otherwise")) else "",
                 hint=bare(hint),
                 type=type_,
                 default=_default(field),

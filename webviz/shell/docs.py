@@ -203,7 +203,11 @@ def values(each: Property | inspect.Field) -> str:
     """The valid values of a property, in words."""
     if isinstance(each, Property) and is_topic(each):
         return "topic"
-    if isinstance(each, Property) and each.widget == "frame":
+    if (
+        isinstance(each, Property)
+        and each.widget == "frame"
+        and isinstance(each.type, inspect.StrType)
+    ):
         return "frame"
     if isinstance(each, Property) and each.choices:
         return ", ".join(f"`{choice}`" for choice in each.choices)

@@ -113,7 +113,11 @@ class TF(Display):
     ] = True
     frames: Annotated[
         dict[str, bool],
-        Prop(help="Switches of single frames by name; frames switched on report their pose."),
+        Prop(
+            widget="frame",
+            otherwise="all_enabled",
+            help="Switches of single frames by name; frames switched on report their pose.",
+        ),
     ] = msgspec.field(default_factory=dict)
 
     def new_state(self) -> _State:

@@ -21,7 +21,8 @@ def form(cls: type[msgspec.Struct], without: tuple[str, ...] = ()) -> msgspec.Ra
 
     Each has a "path", a "label" without its unit, a "kind", and its "default"; and, where there is
     any, "help", "unit", "bounds" in words and as "low" and "high" ("above" and "below" if they are
-    excluded), "choices", "when", the message "type" of a topic, the "items" of a list.
+    excluded), "choices", "when", the message "type" of a topic, the "items" of a list, and of
+    switches by name the path that holds "otherwise".
     """
     defaults = cls()
     declared = [
@@ -76,6 +77,7 @@ def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
         "when": each.when,
         "type": each.port.type if each.port else "",
         "items": _items(each.type),
+        "otherwise": each.otherwise,
         **_bounds(each.type),
     }
     return known | {key: value for key, value in more.items() if value or value == 0.0}
@@ -87,7 +89,7 @@ def _kind(each: Property) -> str:
     if each.children:
         return "group"
     if each.widget == "frame":
-        return "frame"
+        return "switches" if isinstance(each.type, inspect.DictType) else "frame"
     if each.choices:
         return "choice"
     match each.type:

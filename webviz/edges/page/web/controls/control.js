@@ -3,7 +3,8 @@
 // A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
 // it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
 // that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
-// unless it is being edited; `describe(text)` is its tooltip; `focus()`.
+// unless it is being edited; `describe(text)` is its tooltip; `focus()`. Some have an `end()`, and those
+// of properties with an "otherwise" are told its value by `follow(value)`.
 
 import { checkbox, choice, text } from "./simple.js";
 import { color } from "./color.js";
@@ -11,12 +12,13 @@ import { frame } from "./frame.js";
 import { lines } from "./lines.js";
 import { number } from "./number.js";
 import { slider } from "./slider.js";
+import { switches } from "./switches.js";
 import { topic } from "./topic.js";
 import { vector } from "./vector.js";
 
 const MAKERS = {
-  bool: checkbox, choice, color, dict: lines, float: number, frame, int: number, list: lines, text, topic,
-  vector,
+  bool: checkbox, choice, color, dict: lines, float: number, frame, int: number, list: lines, switches,
+  text, topic, vector,
 };
 
 const WIDEST = 1000; // a slider over more than that hits nothing

@@ -10,13 +10,14 @@ import { row } from "./property_row.js";
  *
  * `send(path, value)` sends what was entered and returns the promise of `act`. `name` is
  * what this browser remembers by which sections are folded. `marks`: whether what differs from the
- * default is marked. Returns `{element, update(values, changed)}`: values of a store with "value." and
- * "topic." before the paths, and which are new.
+ * default is marked. Returns `{element, update(values, changed), end()}`: values of a store with "value."
+ * and "topic." before the paths, and which are new.
  */
 export function form(declared, { send, name, marks = true }) {
   const rows = new Map();
   const parts = []; // what is hidden while it does not apply
   const lives = new Map();
+  const followers = [];
   let depth = 0;
 
   function deeper(make) {
@@ -38,6 +39,7 @@ export function form(declared, { send, name, marks = true }) {
     if (property.kind === "group") return section(property);
     const made = row(property, send, marks);
     rows.set(property.path, made);
+    if (property.otherwise) followers.push({ key: `value.${property.otherwise}`, made });
     return made.element;
   }
 
@@ -97,10 +99,14 @@ export function form(declared, { send, name, marks = true }) {
         if (kind === "value") rows.get(path)?.update(values.get(key));
         if (kind === "topic") lives.get(path)?.(values.get(key));
       }
+      for (const { key, made } of followers) if (changed.has(key)) made.follow(values.get(key));
       for (const part of parts) {
         const isShown = part.when.every(([path, wanted]) => wanted.includes(values.get(`value.${path}`)));
         if (part.element.hidden === isShown) part.element.hidden = !isShown;
       }
+    },
+    end() {
+      for (const made of rows.values()) made.end();
     },
   };
 }

@@ -10,7 +10,7 @@ let count = 0;
 /**
  * A row for a property as `content/forms.py` declares it. `send(path, value)` sends it to the viewer, and
  * returns the promise of `act`. `marks`: whether it shows what differs from the default. Returns
- * `{element, update(value), live(known)}`.
+ * `{element, update(value), live(known), follow(value), end()}`.
  */
 export function row(property, send, marks = true) {
   count += 1;
@@ -50,6 +50,8 @@ export function row(property, send, marks = true) {
       if (reset.hidden === isChanged) reset.hidden = !isChanged;
     },
     live: (known) => made.live?.(known),
+    follow: (value) => made.follow?.(value),
+    end: () => made.end?.(),
   };
 }
 

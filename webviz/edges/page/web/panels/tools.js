@@ -129,9 +129,13 @@ function toolSection(id) {
   const made = maker(content, (declared, values) => {
     return form(declared, { send, name: `tool.${values.get("type")}` });
   });
+  const end = watch(`tool:${id}`, made.update);
   return {
     title,
     element: el("details", { class: "wv-tool-properties", open: true }, title, content),
-    end: watch(`tool:${id}`, made),
+    end() {
+      end();
+      made.end();
+    },
   };
 }

@@ -53,7 +53,7 @@ export const views = {
           common.append(head.element);
         }
         head.update(values, changed);
-        numbers(values, changed);
+        numbers.update(values, changed);
       });
     };
     if (channel.isOpen()) watchAgain();
@@ -61,6 +61,7 @@ export const views = {
     return () => {
       end();
       endView();
+      numbers.end();
       watchAgain = () => {};
     };
   },

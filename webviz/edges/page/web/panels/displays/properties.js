@@ -27,10 +27,11 @@ export function properties(element, id) {
   const made = maker(place, (declared, values) => form(declared, { send, name: values.get("type") }));
   const end = watch(`properties:${id}`, (values, changed) => {
     if (changed.has("worst")) said.worst(values.get("worst"));
-    made(values, changed);
+    made.update(values, changed);
   });
   return () => {
     end();
+    made.end();
     said.end();
     element.replaceChildren();
   };
@@ -62,28 +63,31 @@ export function globalOptions(element) {
       said.worst(worst(lines[0]));
       show?.(...lines);
     }
-    made(values, changed);
+    made.update(values, changed);
   });
   return () => {
     end();
+    made.end();
     element.replaceChildren();
   };
 }
 
-/** Makes the form anew when something else is declared, and keeps it up to date. */
+/** Makes the form anew when something else is declared, and keeps it up to date; `end()` ends it. */
 export function maker(place, make) {
   let shown = null;
   let declared = "";
-  return (values, changed) => {
+  function update(values, changed) {
     const now = JSON.stringify(values.get("declared") ?? []);
     const isNew = now !== declared;
     if (isNew) {
       declared = now;
+      shown?.end();
       shown = make(JSON.parse(now), values);
       place.replaceChildren(shown.element);
     }
     shown?.update(values, isNew ? new Set(values.keys()) : changed);
-  };
+  }
+  return { update, end: () => shown?.end() };
 }
 
 const withFrame = (property) =>

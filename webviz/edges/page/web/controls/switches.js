@@ -1,0 +1,116 @@
+// Switches by name, such as those of frames: check boxes with a search, for hundreds of names.
+
+import { el, set, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { plain } from "../plain.js";
+import { watch } from "../stores.js";
+import { wordsOf } from "../words.js";
+import { rowList, touchable } from "./rows.js";
+import { sync } from "./sync.js";
+
+const MOST_ROWS = 8;
+const ROW_PX = 24;
+
+/**
+ * A dictionary of switches by the names of frames; see `control.js`. `follow(value)` is told what
+ * holds for names that have no switch of their own.
+ */
+export function switches(_, { label, change, refused }) {
+  const height = touchable(ROW_PX);
+  const noun = label.toLowerCase();
+  let frames = [];
+  let current = {};
+  let otherwise = true;
+  let shown = [];
+
+  const search = el("input", {
+    class: "wv-field", type: "search", autocomplete: "off", spellcheck: "false",
+    "aria-label": `Filter ${noun}`, oninput: show,
+  });
+  const button = (text, value, tip) =>
+    el("button", {
+      type: "button", class: "wv-button", "data-tip": tip, onclick: () => put(shown, value),
+    }, text);
+  const buttons = [
+    button("All", true, `Switch on all ${noun} in the list`),
+    button("None", false, `Switch off all ${noun} in the list`),
+  ];
+  const empty = el("div", { class: "wv-quiet wv-switches-empty", hidden: true });
+  const list = rowList({
+    label, height, make, update,
+    choose: ({ key }) => put([key], !isOn(key)),
+  });
+  set(list.element, { "aria-multiselectable": "true" });
+  const state = sync({
+    show(value) {
+      current = value;
+      show();
+    },
+    send: change,
+    refused,
+  });
+
+  const isOn = (name) => (Object.hasOwn(current, name) ? current[name] : otherwise);
+
+  // What holds anyway needs no switch: frames that come and go leave nothing behind.
+  function put(names, value) {
+    const own = new Map(Object.entries(current));
+    for (const name of names) {
+      if (value === otherwise) own.delete(name);
+      else own.set(name, value);
+    }
+    current = Object.fromEntries(own);
+    show();
+    state.edit(current);
+  }
+
+  function make() {
+    const box = el("span", { class: "wv-box", "aria-hidden": "true" });
+    const name = el("span", { class: "wv-ellipsis" });
+    const row = el("div", { class: "wv-switch" }, box, name);
+    row.wvParts = { box, name, mark: icon("check", 12) };
+    return row;
+  }
+
+  function update(row, { key }) {
+    const { box, name, mark } = row.wvParts;
+    setText(name, plain(key));
+    set(row, { "aria-checked": String(isOn(key)), title: key.length > 30 ? plain(key, 1000) : null });
+    setChildren(box, isOn(key) ? [mark] : []);
+  }
+
+  function show() {
+    const all = [...new Set([...frames, ...Object.keys(current)])].sort();
+    const words = wordsOf(search.value);
+    shown = all.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
+    list.element.style.height = `${Math.min(shown.length, MOST_ROWS) * height}px`;
+    list.show(shown.map((key) => ({ key })));
+    set(search, { placeholder: `Filter ${all.length} ${noun}`, disabled: !all.length });
+    for (const each of buttons) set(each, { disabled: !shown.length });
+    setText(empty, all.length ? `Nothing in ${noun} has this in its name.` : `No ${noun} yet.`);
+    set(empty, { hidden: shown.length > 0 });
+  }
+
+  const end = watch("frames", (values) => {
+    frames = values.get("frames") ?? [];
+    show();
+  });
+  show();
+  return {
+    element: el(
+      "div", { class: "wv-switches" },
+      el("div", { class: "wv-switches-head" }, search, buttons), list.element, empty,
+    ),
+    focus: () => search.focus(),
+    describe: (text) => set(list.element, { "aria-description": text }),
+    update: state.show,
+    follow(value) {
+      otherwise = value;
+      show();
+    },
+    end() {
+      end();
+      list.close();
+    },
+  };
+}
