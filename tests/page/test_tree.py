@@ -295,6 +295,7 @@ def test_several_are_put_into_a_new_group(loop: Loop, tree: Tree, make_row: Make
     assert isinstance(add, AddDisplay)
     assert (add.type, add.group) == ("Group", "")
     assert moves == [MoveDisplay("b", "g"), MoveDisplay("c", "g"), MoveDisplay("g", "", "d")]
+    assert len({sender.step for sender in loop.senders} - {0}) == 1
     inner = [replace(make_row(name), depth=1) for name in "bc"]
     loop.show(make_row("a"), group("g"), *inner, make_row("d"))
     tree.tab.page.get_by_label("Name", exact=True).wait_for()

@@ -153,6 +153,23 @@ def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: A
     assert [step.browser for step in b.do(Refresh()).history.undo][:-1] == [2, 2, 1]
 
 
+def test_commands_of_one_step_are_undone_together(b: Any) -> None:
+    before = dump(b.viewer.config())
+    first, *_, last = (row.id for row in b.states[-1].rows)
+    made: list[str] = []
+    b.do(AddDisplay("Group", made=made.append), Sender(1, step=7))
+    for id in (first, last):
+        b.do(MoveDisplay(id, made[0]), Sender(1, step=7))
+    b.do(RemoveDisplay(first), Sender(1, step=8))
+    b.do(RemoveDisplay(last), Sender(1, step=8))
+    labels = [step.label for step in b.states[-1].history.undo[:2]]
+    assert labels == ["Remove 2 displays", "Add Group"]
+    b.do(Undo(2))
+    assert dump(b.viewer.config()) == before
+    b.do(Redo(1))
+    assert [row.name for row in b.states[-1].rows][-2:] == ["Grid", "Nonsense"]
+
+
 def test_the_oldest_steps_are_forgotten(b: Any) -> None:
     for number in range(MAX_STEPS + 10):
         b.do(SetFixedFrame(f"frame{number}"))

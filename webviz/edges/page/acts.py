@@ -88,7 +88,7 @@ class Acts:
                 level, text = "error", brief(str(error), MAX_ERROR)
             self._channel.send(Done(do.number, level, text, "".join(made)), browser)
 
-        self._enqueue(command, Sender(browser)).add_done_callback(tell)
+        self._enqueue(command, Sender(browser, do.step)).add_done_callback(tell)
 
     def _deliver(self, browser: int, do: Do, text: str) -> None:
         self._channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)

@@ -225,11 +225,13 @@ class Do(FromPage, frozen=True):
         number: of the request, for the page to know its `Done`.
         command: name of a class of `webviz.commands`.
         arguments: its fields.
+        step: of several that are undone together, the number of the first; else 0.
     """
 
     number: Number
     command: str
     arguments: dict[str, Any]
+    step: Number = 0
 
 
 class Use(FromPage, frozen=True):

@@ -13,9 +13,11 @@ class Sender:
 
     Args:
         browser: id of the browser; None for Python, ROS and the command line.
+        step: commands of one sender with the same number are undone together; 0 is none.
     """
 
     browser: int | None = None
+    step: int = 0
 
 
 PROGRAM = Sender()

@@ -102,16 +102,22 @@ class HistoryPart(Part):
             return
         if self._goes_on(done, sender):
             before = self._undo.pop().moment
-        self._count += 1
-        self._undo.append(_Done(Step(self._count, done.label, sender.browser), before))
+            done = difference(before, self._now)
         self._redo.clear()
+        if done.label:  # else it is as it was before
+            self._count += 1
+            self._undo.append(_Done(Step(self._count, done.label, sender.browser), before))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
         """Whether a step belongs to the one before."""
         now = self.core.clock()
         then, *same = self._last
         self._last = now, sender, done.property
-        is_soon = now - then < SAME_S and not self._redo and bool(self._undo)
+        if self._redo or not self._undo:
+            return False
+        if sender.step:
+            return same[0] == sender
+        is_soon = now - then < SAME_S
         return is_soon and done.property is not None and same == [sender, done.property]
 
     def _take_back(self, command: Undo, sender: Sender) -> str:

@@ -100,8 +100,9 @@ def difference(before: Moment, after: Moment) -> Difference:
         if gone and come:
             return Difference("Open another config")
         if gone or come:
-            outer = next(kept.name for kept in gone or come)
-            return Difference(f"{'Remove' if gone else 'Add'} {outer}")
+            return Difference(
+                f"{'Remove' if gone else 'Add'} {_outer(old if gone else new, gone or come)}"
+            )
         changes = [(id, name) for id in new for name in _changed(old[id], new[id])]
         if changes:
             return _of_changes(new, changes)
@@ -109,6 +110,13 @@ def difference(before: Moment, after: Moment) -> Difference:
     if moved:
         return Difference(f"Move {moved}")
     return _of_settings(before.settings, after.settings)
+
+
+def _outer(all_: Mapping[str, Snapshot], some: Sequence[Snapshot]) -> str:
+    """What some of all entries are called; what is in a group goes without saying."""
+    groups = {id for id, kept in all_.items() if kept in some}
+    outer = [kept.name for kept in some if kept.group not in groups]
+    return outer[0] if len(outer) == 1 else f"{len(outer)} displays"
 
 
 def _changed(old: Snapshot, new: Snapshot) -> list[str]:

@@ -17,16 +17,20 @@ channel.onOpen(() => waiting.clear());
 /**
  * Sends a command of `webviz.commands` with its fields. Resolves with `{level, text, display}`: "ok"
  * or "error", a sentence or "", and the id of the display that it made. What there is to say is shown
- * as a toast, unless `quiet`; errors always are, unless the "caller" shows them itself.
+ * as a toast, unless `quiet`; errors always are, unless the "caller" shows them itself. Commands with
+ * the same `step`, a number of `newStep`, are undone together.
  */
-export function act(command, fields = {}, { quiet = false, errors = "toast" } = {}) {
-  const answer = request({ type: "Do", command, arguments: fields });
+export function act(command, fields = {}, { quiet = false, errors = "toast", step = 0 } = {}) {
+  const answer = request({ type: "Do", command, arguments: fields, step });
   answer.then(({ level, text }) => {
     const isShown = level === "error" ? errors === "toast" : !quiet;
     if (text && isShown) toast(text, { level });
   });
   return answer;
 }
+
+/** A number for commands that are undone together. */
+export const newStep = () => (count += 1);
 
 /** Reports the use of a widget in a plug-in's panel; otherwise like `act`. */
 export function use(panel, widget, value = null) {

@@ -1,6 +1,6 @@
 // The dialog that adds displays: by type, or for topics that are published just now.
 
-import { act } from "../act.js";
+import { act, newStep } from "../act.js";
 import { el, set, setText } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
@@ -113,7 +113,8 @@ export function openAdd({ group = "" } = {}) {
   }).then((chosen) => {
     ends.forEach((end) => end());
     const picks = chosen === "add" ? input.taken() : chosen;
-    for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group });
+    const step = newStep();
+    for (const { type, values } of picks ?? []) act("AddDisplay", { type, values, group }, { step });
   });
 }
 

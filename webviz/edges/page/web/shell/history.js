@@ -59,7 +59,7 @@ function tell() {
     toast(text, { topic: "others" }); // dragging a slider makes many steps
   } else if (!isUndone && last.label.startsWith("Remove ")) {
     const text = last.label.replace(/^Remove /, "Removed ");
-    toast(`${text}.`, { action: { label: "Undo", run: () => undo() } });
+    toast(`${text}.`, { topic: "removed", action: { label: "Undo", run: () => undo() } });
   }
 }
 

@@ -1,6 +1,6 @@
 // What is done with displays, and the menu of it.
 
-import { act } from "../../act.js";
+import { act, newStep } from "../../act.js";
 import { copy } from "../../clipboard.js";
 import { openMenu } from "../../shell/menu.js";
 import { toast } from "../../shell/toasts.js";
@@ -18,16 +18,22 @@ export const isEnabled = (item) => switching.get(item.id) ?? item.enabled;
 export async function setEnabled(items, value, refresh) {
   for (const { id } of items) switching.set(id, value);
   refresh();
-  await Promise.all(items.map(({ id }) => act("SetProperty", { display: id, path: "enabled", value })));
+  await each("SetProperty", items, { path: "enabled", value });
   for (const { id } of items) switching.delete(id);
   refresh();
 }
 
 export const focus = (item) => act("FocusDisplay", { display: item.id });
 
-export const duplicate = (items) => items.map(({ id }) => act("DuplicateDisplay", { display: id }));
+export const duplicate = (items) => each("DuplicateDisplay", items);
 
-export const reset = (items) => items.map(({ id }) => act("ResetDisplay", { display: id }));
+export const reset = (items) => each("ResetDisplay", items);
+
+// One step for undo.
+function each(command, items, fields = {}) {
+  const step = newStep();
+  return Promise.all(items.map(({ id }) => act(command, { display: id, ...fields }, { step })));
+}
 
 /** Removes displays; the row that follows them, or else the one before, is selected then. */
 export function remove(model, rows, items) {
@@ -36,7 +42,7 @@ export function remove(model, rows, items) {
   const goes = (row) => row !== null && (ids.has(row.id) || goes(row.parent));
   const last = rows.findLastIndex(goes);
   selection.leaveTo((rows.slice(last + 1).find(stays) ?? rows.slice(0, last).findLast(stays))?.id ?? null);
-  for (const { id } of items) act("RemoveDisplay", { display: id });
+  each("RemoveDisplay", items);
 }
 
 /** Copies displays as a config file has them. */
@@ -54,7 +60,8 @@ export async function copyAsYaml(items) {
 export function move(model, ids, place) {
   if (!place) return;
   if (place.group) setOpen(model.byId.get(place.group), true);
-  for (const fields of moves(model, ids, place)) act("MoveDisplay", fields);
+  const step = newStep();
+  for (const fields of moves(model, ids, place)) act("MoveDisplay", fields, { step });
 }
 
 export const moveBy = (model, ids, way) => move(model, ids, step(model, ids, way));
@@ -65,10 +72,11 @@ export async function group(model, items) {
   const parent = first.parent?.id ?? "";
   const around = siblings(model, first);
   const next = around.slice(around.indexOf(first)).find((item) => !items.includes(item));
-  const { level, display } = await act("AddDisplay", { type: "Group", group: parent });
+  const step = newStep();
+  const { level, display } = await act("AddDisplay", { type: "Group", group: parent }, { step });
   if (level === "error") return null;
-  for (const { id } of items) act("MoveDisplay", { display: id, group: display });
-  if (next) act("MoveDisplay", { display, group: parent, before: next.id });
+  for (const { id } of items) act("MoveDisplay", { display: id, group: display }, { step });
+  if (next) act("MoveDisplay", { display, group: parent, before: next.id }, { step });
   return display;
 }
 
