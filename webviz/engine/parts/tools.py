@@ -45,6 +45,7 @@ class ToolsPart(Part):
         super().__init__(core)
         self._items: dict[str, ToolItem] = {}
         self._made = 0
+        self._advertised: set[Outlet] = set()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -78,9 +79,15 @@ class ToolsPart(Part):
 
     def keep_up(self, commanded: bool) -> None:
         """Advertise the outputs of all tools, so that their first messages arrive."""
-        self.core.gate.advertise(
-            {outlet for tool in self._tools().values() for outlet in self._outlets(tool)}
-        )
+        wanted = {
+            outlet
+            for tool in self._tools().values()
+            for outlet in self._outlets(tool)
+            if not self.core.gate.refusal(outlet.topic)
+        }
+        if wanted != self._advertised:
+            self._advertised = wanted
+            self.core.gate.advertise(wanted)
 
     def state(self) -> Mapping[str, Any]:
         """The buttons of the toolbar."""

@@ -48,7 +48,6 @@ class Gate:
         self._source = source
         self._rights = rights
         self._publish = publish
-        self._advertised: Collection[Outlet] = ()
         self._pattern = functools.lru_cache(maxsize=2)(self._compiled)
 
     def refusal(self, name: str) -> str:
@@ -72,12 +71,10 @@ class Gate:
             return f"{name} is not in the list `publish` of this config. Add it to the file."
         return ""
 
-    def advertise(self, outlets: Collection[Outlet]) -> None:
+    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         """Make the advertised publishers these, without those that are refused."""
         allowed = {outlet for outlet in outlets if not self.refusal(outlet.topic)}
-        if allowed != self._advertised:
-            self._advertised = allowed
-            self._source.graph.advertise(allowed)
+        return self._source.graph.advertise(allowed)
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
