@@ -12,7 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 from hypothesis import settings
 
-from webviz.shell.pictures.browser import NoBrowser, launched
+from webviz.shell.pictures.browser import PATIENCE_S, NoBrowser, launched
 
 # An example is not wrong because the machine was busy.
 settings.register_profile("untimed", deadline=None)
@@ -56,12 +56,14 @@ def browser(said_on_consoles: list[str]) -> Iterator[playwright.Browser]:
 
     def new_context(*arguments: Any, **options: Any) -> playwright.BrowserContext:
         context = make(*arguments, **options)
+        context.set_default_timeout(1000.0 * PATIENCE_S)
         context.on("console", hear)
         context.on("weberror", lambda error: said_on_consoles.append(str(error.error)))
         return context
 
     try:
         with launched() as browser:
+            playwright.expect.set_options(timeout=1000.0 * PATIENCE_S)
             make = browser.new_context
             browser.new_context = new_context
             yield browser

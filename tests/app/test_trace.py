@@ -52,7 +52,7 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
     page = browser.new_page()
     try:
         page.goto(viewer.url)
-        first, second = plan.trace(timeout=30), plan.trace(timeout=30)
+        first, second = plan.trace(timeout=60), plan.trace(timeout=60)
     finally:
         page.close()
     times = first.times()

@@ -127,7 +127,7 @@ def draw(server: Server) -> None:
     hits = hits[np.isfinite(ranges)].astype(np.float32)
     scene.upsert("d3/all/laser|", "points", Points(hits, (255, 60, 30), 0.08), Pose())
     scene.flush()
-    scene.acknowledge(timeout=20.0)  # the map is encoded in another thread
+    scene.acknowledge(timeout=60.0)  # the map is encoded in another thread
 
 
 @pytest.fixture(scope="module")

@@ -32,9 +32,9 @@ def scene(server: viser.ViserServer) -> ViserScene:
     return ViserScene(server)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def tab(browser: playwright.Browser) -> Iterator[View]:
-    """One tab for the tests of a module: opening it takes seconds."""
+    """One tab for the tests of all modules: opening it takes seconds."""
     server = open_server(port=0)
     view = View(browser, ViserScene(server))
     yield view
@@ -95,7 +95,7 @@ class View(Page):
         return {name for name in names if name.startswith("/webviz/")}
 
     def _acknowledged(self) -> bool:
-        self.scene.acknowledge(30)
+        self.scene.acknowledge(60)
         return True
 
 

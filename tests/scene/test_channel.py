@@ -61,7 +61,7 @@ def key_of(peer: Any) -> tuple[int, str]:
 
 def receive(page: Connection) -> dict[str, Any]:
     """The next message that is not only a sign of life."""
-    while (message := msgspec.json.decode(page.recv(10)))["type"] == "Beat":
+    while (message := msgspec.json.decode(page.recv(60)))["type"] == "Beat":
         pass
     return message
 
@@ -113,7 +113,7 @@ def test_a_stranger_without_a_key_is_sent_away(
         if isinstance(first, bytes):  # not even read
             page.send("{}")
         with pytest.raises(websockets.exceptions.ConnectionClosed):
-            page.recv(10)
+            page.recv(60)
 
 
 def test_a_key_opens_one_channel_only(server: Server, call: Callable[..., Any]) -> None:
@@ -124,7 +124,7 @@ def test_a_key_opens_one_channel_only(server: Server, call: Callable[..., Any]) 
         receive(page)
         thief.send(hello(key))
         with pytest.raises(websockets.exceptions.ConnectionClosed):
-            thief.recv(10)
+            thief.recv(60)
 
 
 def test_a_channel_from_another_site_is_refused(server: Server) -> None:

@@ -38,7 +38,7 @@ def test_connections_that_never_ask_keep_no_browser_out(
     server: viser.ViserServer, ask: Callable[..., Any]
 ) -> None:
     address = ("127.0.0.1", server.get_port())
-    strangers = [socket.create_connection(address, timeout=30) for _ in range(3 * MAX_BROWSERS)]
+    strangers = [socket.create_connection(address, timeout=60) for _ in range(3 * MAX_BROWSERS)]
     for stranger in strangers:
         stranger.sendall(b"GET / HT")
     assert ask(PAGE)[0] == 200
@@ -56,7 +56,7 @@ address = ("127.0.0.1", server.get_port())
 request = b"GET / HTTP/1.1\\r\\nHost: localhost\\r\\n\\r\\n"
 resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64))
 asking, again = socket.socket(), socket.socket()
-asking.settimeout(20), again.settimeout(20)
+asking.settimeout(60), again.settimeout(60)
 taken = []
 try:
     while True:
@@ -77,7 +77,7 @@ server.stop()
 
 def test_without_file_descriptors_browsers_are_refused_and_served_again_later() -> None:
     run = subprocess.run(
-        [sys.executable, "-c", FEW_FILES], capture_output=True, text=True, timeout=60, check=True
+        [sys.executable, "-c", FEW_FILES], capture_output=True, text=True, timeout=120, check=True
     )
     assert run.stdout.split() == ["HTTP/1.1", "503", "HTTP/1.1", "200"]
     assert run.stderr == "Refused a connection: Too many open files.\n"

@@ -50,6 +50,8 @@ HOW_TO_GET_ONE = (
     f" or set {VARIABLE} to the path of a browser."
 )
 
+PATIENCE_S = 60.0
+"""For what a page does at once on a machine that does nothing else."""
 SMALLEST, LARGEST = 16, 8192
 """Edges of a picture in pixels; browsers without a GPU cannot draw larger ones."""
 
@@ -132,12 +134,13 @@ class Page:
         self._context = self._alive(
             lambda: browser.new_context(viewport=_size(width, height), device_scale_factor=1)
         )
+        self._context.set_default_timeout(1000.0 * PATIENCE_S)
         self.tab: playwright.Page = self._alive(self._context.new_page)
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.on("crash", lambda _: setattr(self, "_crashed", True))
         self._alive(lambda: self.tab.add_init_script(COUNT_UNPACKING))
         self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
-        self._alive(lambda: self.tab.wait_for_function("window.webviz?.hasView()", timeout=60_000))
+        self._alive(lambda: self.tab.wait_for_function("window.webviz?.hasView()"))
 
     def close(self) -> None:
         """Close the tab, if it has not crashed."""
@@ -160,7 +163,9 @@ class Page:
         """Call a JavaScript function in the page."""
         return self._alive(lambda: self.tab.evaluate(source, argument))
 
-    def wait_for(self, condition: Callable[[], T], what: str = "it", seconds: float = 30.0) -> T:
+    def wait_for(
+        self, condition: Callable[[], T], what: str = "it", seconds: float = PATIENCE_S
+    ) -> T:
         """Wait until a condition holds, and return its value.
 
         Raises:
@@ -193,7 +198,7 @@ class Page:
         """
         self.evaluate(HOLD)
 
-    def settle(self, seconds: float = 60.0) -> None:
+    def settle(self, seconds: float = PATIENCE_S) -> None:
         """Wait until the page has decoded everything, and no frame requests another.
 
         Raises:
