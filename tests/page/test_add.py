@@ -56,9 +56,9 @@ def test_enter_adds_the_best_match_and_closes(tab: Tab, dialog: playwright.Locat
 
 
 def test_each_type_has_a_line_of_help(dialog: playwright.Locator) -> None:
-    playwright.expect(dialog.get_by_role("option").filter(has_text="Grid").first).to_contain_text(
-        "A grid of lines for judging distances."
-    )
+    grid = dialog.get_by_role("option").filter(has_text="Grid").first
+    playwright.expect(grid).to_contain_text("A grid of lines for judging distances.")
+    assert grid.locator("img").evaluate("image => image.decode().then(() => image.naturalWidth)")
     dialog.press("Escape")
 
 
@@ -115,8 +115,12 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
     assert tab.loop.commands == []
 
 
-def test_types_have_the_messages_that_they_show() -> None:
-    assert types(State(), "")["LaserScan"]["topics"] == [SCAN]
+def test_types_have_the_messages_that_they_show_and_a_small_picture() -> None:
+    found = types(State(), "")
+    assert found["LaserScan"]["topics"] == [SCAN]
+    sizes = {name: len(each["picture"]) for name, each in found.items() if "Everything" not in name}
+    assert {name for name, size in sizes.items() if not size} == {"Group"}
+    assert sum(sizes.values()) < 30_000
 
 
 def test_a_closed_dialog_costs_nothing(

@@ -15,6 +15,7 @@ from typing import Any
 
 import msgspec
 import msgspec.inspect as inspect
+from PIL import Image
 from ruamel.yaml import YAML
 
 from webviz.api.declared import Color, Declared, P, Topic
@@ -28,6 +29,9 @@ from webviz.shell.cli import schema
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "displays/docs"
 PICTURES = ROOT / "tests/pictures"
+SMALL_PICTURES = ROOT / "displays/webviz_displays/pictures"
+SMALL = (128, 96)
+"""Size in pixels of the pictures in the dialog that adds displays."""
 COMMAND = "make docs"
 BUILT_IN = ("webviz_displays", "webviz")
 
@@ -274,10 +278,21 @@ def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
     return [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines]
 
 
+def write_small_pictures() -> None:
+    """Write the pictures of the types for the dialog that adds displays."""
+    for name in built_in(Display):
+        picture = PICTURES / snake_case(name) / "default.png"
+        if picture.exists():
+            with Image.open(picture) as image:
+                small = image.convert("RGB").resize(SMALL, Image.Resampling.LANCZOS)
+            small.save(SMALL_PICTURES / f"{name}.webp", quality=75, method=6)
+
+
 def main() -> None:
     """Write everything."""
     for name, text in pages().items():
         (PAGES / name).write_text(text, encoding="utf-8")
+    write_small_pictures()
     schema.SHIPPED.write_text(schema.text(), encoding="utf-8")
     if files := [Path(name) for name in sys.argv[1:]]:
         rviz.PAGE.write_text(rviz.page(files), encoding="utf-8")

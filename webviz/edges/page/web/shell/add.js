@@ -120,10 +120,11 @@ export function openAdd({ group = "" } = {}) {
 
 function rows({ way, types, topics, traffic, shown }, checked) {
   if (way === "type") {
-    return (types ?? []).map(([name, { help, topics: takes }]) => ({
+    return (types ?? []).map(([name, { help, topics: takes, picture }]) => ({
       id: name,
       title: name,
       icon: typeIcon(name),
+      picture,
       line: help,
       note: takes.join(", "),
       pick: { type: name, values: {} },

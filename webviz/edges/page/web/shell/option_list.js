@@ -10,7 +10,7 @@ let count = 0;
 /**
  * A list of rows that a field searches; `choose(row)` is called by Enter and by a click.
  *
- * Rows are `{id, title}`, and if there are: `icon`, `line` below the title, `note` at its right,
+ * Rows are `{id, title}`, and if there are: `icon`, `picture`, an address, `line` below the title, `note` at its right,
  * `key`, `group` above the first of several, `checked` for rows of which several are taken, and
  * `disabled`. Returns `{element, show(rows), active()}`, the last of which is an id.
  */
@@ -63,7 +63,7 @@ export function optionList(input, label, choose) {
   }
 
   function rowOf(row, number) {
-    const { title, icon: name, line, note, key, checked, disabled } = row;
+    const { title, icon: name, picture, line, note, key, checked, disabled } = row;
     return el(
       "div",
       {
@@ -82,6 +82,7 @@ export function optionList(input, label, choose) {
         ? null
         : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
       name ? el("span", { class: "wv-pick-icon" }, icon(name)) : null,
+      picture === undefined ? null : pictureOf(picture),
       el(
         "span",
         { class: "wv-pick-text" },
@@ -119,6 +120,12 @@ export function optionList(input, label, choose) {
   // With other words, the best match is chosen.
   input.addEventListener("input", () => (active = null));
   return { element, show, active: () => active };
+}
+
+// Those without one keep its place.
+function pictureOf(picture) {
+  const attributes = { class: "wv-pick-picture", width: 64, height: 48 };
+  return picture ? el("img", { ...attributes, src: picture, alt: "" }) : el("span", attributes);
 }
 
 /** Those with every word of a text in what `textOf` says of them, the best match first. */
