@@ -23,6 +23,7 @@ setup(
         ],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",
+            "Nav2Goal = webviz.tools.nav2_goal:Nav2Goal",
             "PoseEstimate = webviz.tools.pose_estimate:PoseEstimate",
             "PublishPoint = webviz.tools.publish_point:PublishPoint",
         ],

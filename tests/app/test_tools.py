@@ -65,7 +65,7 @@ def page(pages: list[Page], viewer: webviz.Viewer) -> Page:
     tab.locator(".wv-first-run, .wv-toast").evaluate_all(
         "(all) => all.forEach((one) => one.remove())"
     )
-    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 7, "the toolbar")
+    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 8, "the toolbar")
     pages[0].draw()
     tab.keyboard.press("Escape")
     return pages[0]
@@ -437,7 +437,7 @@ def test_a_source_that_only_reads_says_so(
     # The tool that is active is left, and none of them can be chosen.
     page.wait_for(lambda: answer(page) == reason, "the reason")
     assert not is_active(page)
-    assert disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)") == [reason] * 3
+    assert disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)") == [reason] * 4
     page.tab.evaluate("async () => (await import('/webviz/tools/hint.js')).tell('hint', '')")
     page.tab.keyboard.press("g")
     assert answer(page) == reason

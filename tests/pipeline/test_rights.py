@@ -114,7 +114,7 @@ def test_without_the_right_to_publish_every_tool_says_why(make: Callable[..., An
 
 
 def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> None:
-    b = make(publish=("/goal_pose", "/clicked*"))
+    b = make(publish=("/goal_pose", "/clicked*", "/navigate*"))
     refusal = OF_START.format("/initialpose")
     assert refusals(b) == {"2D Pose Estimate": refusal}
     assert {outlet.topic for outlet in b.source.graph.advertised} == {
@@ -133,10 +133,10 @@ def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> 
 def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
     make: Callable[..., Any],
 ) -> None:
-    b = make(publish=("/goal_pose", "/initialpose"))
+    b = make(publish=("/goal_pose", "/initialpose", "/navigate*"))
     b.do(Load("version: 1\npublish: ['/*']\n", "all.yaml"))
     assert use(b, "Publish Point") == OF_START.format("/clicked_point")
-    b.do(Load("version: 1\npublish: [/initialpose, /clicked_point]\n", "x.yaml"))
+    b.do(Load("version: 1\npublish: [/initialpose, /clicked_point, /navigate_to_pose]\n", "x.yaml"))
     narrowed = {
         "2D Goal Pose": OF_CONFIG.format("/goal_pose"),
         "Publish Point": OF_START.format("/clicked_point"),

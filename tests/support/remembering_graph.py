@@ -1,14 +1,31 @@
-"""A graph that remembers what is published, instead of publishing it."""
+"""A graph that remembers what is published, and goals, instead of sending them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.data.messages import decode
-from webviz.engine.sources import NotConnected, Outlet
+from webviz.engine.sources import Goal, NotConnected, Outlet
+
+
+@dataclass
+class SentGoal:
+    """A goal whose answers a test gives."""
+
+    action: str
+    type: str
+    values: Any
+    feedback: Callable[[bytes], object]
+    accepted: Future[bool] = field(default_factory=Future)
+    result: Future[tuple[int, bytes]] = field(default_factory=Future)
+    cancels: list[Future[int]] = field(default_factory=list)
+
+    def cancel(self) -> Future[int]:
+        self.cancels.append(Future())
+        return self.cancels[-1]
 
 
 @dataclass
@@ -22,6 +39,7 @@ class RememberingGraph:
     """By service, encoded."""
     requests: list[tuple[str, str, bytes]] = field(default_factory=list)
     """Service, type and encoded request."""
+    goals: list[SentGoal] = field(default_factory=list)
 
     def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
         self.advertised = outlets
@@ -38,6 +56,16 @@ class RememberingGraph:
         missing: Future[bytes] = Future()
         missing.set_exception(NotConnected(f"No node offers {service}. Start one."))
         return missing
+
+    def send_goal(
+        self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
+    ) -> Goal:
+        sent = SentGoal(action, type, decode(f"{type}_Goal", goal), feedback)
+        self.goals.append(sent)
+        return Goal(bytes(16), sent.accepted, sent.result, sent.cancel)
+
+    def nodes(self) -> tuple[str, ...]:
+        return ()
 
 
 def done(result: Any) -> Future[Any]:

@@ -27,6 +27,7 @@ import msgspec
 
 from webviz.api.declared import Declared, Topic
 from webviz.api.frames import Frames
+from webviz.api.goal import GoalRequest, nothing
 from webviz.api.ports import Output
 from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
@@ -48,22 +49,21 @@ class Stroke:
         yaw: the heading of a pose in radians, 0 for a click.
         keys: the held modifier keys: "shift", "ctrl", "alt", "meta".
         browser: id of the browser; None for a program.
+        yaws: the headings of poses that were collected, one for each point; otherwise ().
+        several: the button that sent them, one of `Tool.several`; otherwise "".
     """
 
     points: tuple[Position, ...]
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
     browser: int | None = None
+    yaws: tuple[float, ...] = ()
+    several: str = ""
 
     @property
     def position(self) -> Position:
         """The start of the gesture, in metres in the fixed frame."""
         return self.points[0]
-
-    @property
-    def orientation(self) -> dict[str, float]:
-        """The heading as the values of a geometry_msgs/Quaternion."""
-        return {"z": math.sin(self.yaw / 2.0), "w": math.cos(self.yaw / 2.0)}
 
     @property
     def point(self) -> dict[str, float]:
@@ -73,7 +73,19 @@ class Stroke:
     @property
     def pose(self) -> dict[str, dict[str, float]]:
         """Position and heading as the values of a geometry_msgs/Pose."""
-        return {"position": self.point, "orientation": self.orientation}
+        return _pose(self.position, self.yaw)
+
+    @property
+    def poses(self) -> list[dict[str, dict[str, float]]]:
+        """The poses that were collected, or the only one, as the values of geometry_msgs/Pose."""
+        if not self.several:
+            return [self.pose]
+        return list(map(_pose, self.points, self.yaws))
+
+
+def _pose(position: Position, yaw: float) -> dict[str, dict[str, float]]:
+    point = dict(zip("xyz", position, strict=True))
+    return {"position": point, "orientation": {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}}
 
 
 class ToolContext:
@@ -85,6 +97,7 @@ class ToolContext:
         publish: sends a message from an output of the tool, encoded and as its values, and reports
             the result.
         call: sends an encoded request to a service: name, type, request, timeout in seconds.
+        send_goal: sends a goal to an action.
         report: reports to the browser that made the stroke.
     """
 
@@ -95,6 +108,7 @@ class ToolContext:
         now_ns: int,
         publish: Callable[[str, bytes, Mapping[str, Any]], None],
         call: Callable[[str, str, bytes, float], Future[bytes]],
+        send_goal: Callable[[GoalRequest], None],
         report: Callable[[Status], None],
     ) -> None:
         self.frames = frames
@@ -102,6 +116,7 @@ class ToolContext:
         self._tool = tool
         self._publish = publish
         self._call = call
+        self._send_goal = send_goal
         self._report = report
 
     @property
@@ -170,6 +185,63 @@ class ToolContext:
         sent = self._call(service, type, encode(parts.request, request), timeout_s)
         sent.add_done_callback(finish)
 
+    def send_goal(
+        self,
+        action: str,
+        type: str,
+        goal: Mapping[str, Any],
+        *,
+        definition: str = "",
+        label: str = "",
+        stroke: Stroke | None = None,
+        remedy: str = "Start its node, or choose another name.",
+        success: str = "Succeeded.",
+        feedback: Callable[[Any], Mapping[str, str]] | None = None,
+        fault: Callable[[Any], str] = nothing,
+    ) -> None:
+        """Send a goal to an action. All pages show its feedback and outcome, and can cancel it.
+
+        It replaces the previous goal of the tool: the server of the same action preempts that one,
+        at another action it is cancelled first.
+
+        Args:
+            action: its name; remapped like a topic.
+            type: such as "nav2_msgs/action/NavigateToPose".
+            goal: values by field; missing fields have their defaults.
+            definition: text of the .action file, for types unknown to webviz.
+            label: what the goal is, in a few words.
+            stroke: whose poses pages show while the goal is active.
+            remedy: what to do if no node offers the action; a sentence.
+            success: what to report if it succeeds without a fault; a sentence.
+            feedback: called with the newest feedback; returns what to show of it, texts by label.
+            fault: called with the result; returns what went wrong, "" for nothing; a sentence.
+
+        `feedback` and `fault` are called by the frame loop.
+
+        Raises:
+            EncodeError: a value does not fit the goal.
+            UnknownTypeError: the message type has no known definition.
+        """
+        parts = interfaces.action(type, definition)
+        yaws = (stroke.yaws or (stroke.yaw,)) if stroke else ()
+        points = stroke.points if stroke else ()  # a drag has its end, too
+        poses = [(*point, yaw) for point, yaw in zip(points, yaws, strict=False)]
+        self._send_goal(
+            GoalRequest(
+                action=action,
+                type=type,
+                goal=encode(parts.goal, goal),
+                feedback_type=parts.feedback,
+                result_type=f"{parts.get_result}_Response",
+                label=label,
+                poses=poses,
+                remedy=remedy,
+                success=success,
+                read=feedback,
+                fault=fault,
+            )
+        )
+
     def ok(self, text: str) -> None:
         """Report a result to the browser that made the stroke."""
         self._report(Status(Level.OK, text))
@@ -195,6 +267,9 @@ class Tool(Declared, kw_only=True):
     surface: ClassVar[bool] = False
     """Whether a gesture starts on the surface under the pointer instead of on the ground, the plane
     z = 0 of the fixed frame."""
+    several: ClassVar[tuple[str, ...]] = ()
+    """Labels of the buttons that send several poses, which the page collects; () for one pose per
+    gesture."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the toolbar.")] = ""
 

@@ -16,6 +16,7 @@ from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.settings import SettingsPart
@@ -90,7 +91,8 @@ class FrameLoop:
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
         views = ViewsPart(core, settings, displays)
-        tools = ToolsPart(core)
+        goals = GoalsPart(core)
+        tools = ToolsPart(core, goals)
         files = self._files = FilesPart(core, displays, settings, views, tools, config, path)
         history = HistoryPart(core, displays, settings, views, tools, files)
         all_parts = [
@@ -100,6 +102,7 @@ class FrameLoop:
             settings,
             views,
             tools,
+            goals,
             files,
             history,
             TopicsPart(core),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
@@ -173,6 +173,7 @@ class ToolButton:
         surface: whether the gesture starts on a surface.
         stays: whether it remains active after a gesture.
         refusal: why it cannot be used, a sentence; "" if it can.
+        several: labels of the buttons that send several poses, () if it takes one.
         tool: read-only.
     """
 
@@ -185,7 +186,33 @@ class ToolButton:
     surface: bool = False
     stays: bool = False
     refusal: str = ""
+    several: tuple[str, ...] = ()
     tool: Tool = field(default_factory=Tool)
+
+
+@dataclass(frozen=True)
+class GoalProgress:
+    """A goal that a tool sent to an action.
+
+    Args:
+        id: for commands.
+        title: name of the tool.
+        label: what the goal is, in a few words.
+        frame: the fixed frame when it was sent.
+        poses: x, y, z in metres and yaw in radians in that frame.
+        phase: "sending" until the server accepts it, and "ended" with its outcome.
+        status: what is to be said of it, None for nothing.
+        values: what its feedback says, texts by label.
+    """
+
+    id: str
+    title: str
+    label: str = ""
+    frame: str = ""
+    poses: Sequence[tuple[float, float, float, float]] = ()
+    phase: Literal["sending", "active", "canceling", "ended"] = "sending"
+    status: Status | None = None
+    values: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -231,6 +258,7 @@ class State:
         between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
+        goals: that tools sent to actions, oldest first.
         history: what can be undone and redone.
         more: fields of additional parts, by name.
     """
@@ -250,5 +278,6 @@ class State:
     between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
+    goals: tuple[GoalProgress, ...] = ()
     history: UndoHistory = UndoHistory()
     more: Mapping[str, Any] = field(default_factory=dict)

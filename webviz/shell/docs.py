@@ -119,7 +119,8 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
         lines += [f"RViz2's `{cls.rviz}`. In a config file: `- type: {name}` of `tools`."]
         lines += [f"Key: `{cls.shortcut}`." if cls.shortcut else "", ""]
         rows = [(f"`{key}`", f"`{out.type}`") for key, out in outputs_of(cls).items()]
-        lines += [*table(("output", "message"), rows), "", *properties_table(cls), ""]
+        lines += [*table(("output", "message"), rows), ""] if rows else []
+        lines += [*properties_table(cls), ""]
     return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
 
 

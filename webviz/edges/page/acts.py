@@ -25,6 +25,8 @@ ALLOWED = (
     commands.ResetDisplay,
     commands.SetProperty,
     commands.SetToolProperty,
+    commands.CancelGoal,
+    commands.DismissGoal,
     commands.SetBackground,
     commands.SetFixedFrame,
     commands.SetFrameRate,

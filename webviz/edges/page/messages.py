@@ -127,6 +127,7 @@ class ToolButton(msgspec.Struct, frozen=True):
     surface: bool
     stays: bool
     refusal: str
+    several: tuple[str, ...]
 
 
 class Tools(ToPage, frozen=True):
@@ -175,6 +176,8 @@ class StrokeDone(FromPage, frozen=True):
     points: tuple[tuple[float, float, float], ...]
     yaw: float
     keys: tuple[str, ...]
+    yaws: tuple[float, ...] = ()
+    several: str = ""
     number: int = 0
 
 

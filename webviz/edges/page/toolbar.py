@@ -50,7 +50,16 @@ class Toolbar:
                 tell(Status(Level.ERROR, str(error)))
 
         keys = frozenset(stroke.keys)
-        command = UseTool(stroke.tool, stroke.points, stroke.yaw, keys, tell, published)
+        command = UseTool(
+            stroke.tool,
+            stroke.points,
+            stroke.yaw,
+            keys,
+            stroke.yaws,
+            stroke.several,
+            report=tell,
+            published=published,
+        )
         self._enqueue(command, Sender(browser)).add_done_callback(finish)
 
 

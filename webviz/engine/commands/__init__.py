@@ -11,6 +11,7 @@ from webviz.engine.commands.displays import (
     TraceDisplay,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
+from webviz.engine.commands.goals import CancelGoal, DismissGoal
 from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import Refresh
 from webviz.engine.commands.plugins import ReloadPlugin
@@ -36,8 +37,10 @@ from webviz.engine.commands.views import (
 __all__ = [
     "PROGRAM",
     "AddDisplay",
+    "CancelGoal",
     "ChangeView",
     "Command",
+    "DismissGoal",
     "DuplicateDisplay",
     "Export",
     "FileCommand",

@@ -21,7 +21,7 @@ class UseTool(Command):
 
     Args:
         tool: id of the tool, or its name.
-        points, yaw, keys: of the stroke.
+        points, yaw, keys, yaws, several: of the stroke.
         report: called with the result from any thread; must not block.
         published: called with the topic, type and values of each message.
     """
@@ -30,6 +30,8 @@ class UseTool(Command):
     points: tuple[Position, ...]
     yaw: float = 0.0
     keys: frozenset[str] = frozenset()
+    yaws: tuple[float, ...] = ()
+    several: str = ""
     report: Callable[[Status], None] = ignore
     published: Callable[[str, str, Mapping[str, Any]], None] = unheard
 

@@ -15,11 +15,13 @@ import msgspec
 
 from webviz.api.declared import Topic, set_property
 from webviz.api.errors import Error
+from webviz.api.goal import GoalRequest
 from webviz.api.ports import Output
 from webviz.api.status import Level, Status
 from webviz.api.tool import Stroke, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
+from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
@@ -37,12 +39,18 @@ Report = Callable[[Status], None]
 
 
 class ToolsPart(Part):
-    """All tools. Which one is active is known to each page alone."""
+    """All tools. Which one is active is known to each page alone.
+
+    Args:
+        core: shared by all parts.
+        goals: takes the goals of tools.
+    """
 
     name = "Tools"
 
-    def __init__(self, core: Core) -> None:
+    def __init__(self, core: Core, goals: GoalsPart) -> None:
         super().__init__(core)
+        self._goals = goals
         self._items: dict[str, ToolItem] = {}
         self._made = 0
         self._advertised: set[Outlet] = set()
@@ -90,9 +98,21 @@ class ToolsPart(Part):
             self.core.gate.advertise(wanted)
 
     def state(self) -> Mapping[str, Any]:
-        """The buttons of the toolbar."""
-        tools = self._tools().items()
-        return {"tools": tuple(_button(id, tool, self._refusal(tool)) for id, tool in tools)}
+        """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
+        keys: dict[str, str] = {}
+        for id, tool in self._tools().items():
+            keys.setdefault(tool.shortcut, id)
+        return {
+            "tools": tuple(
+                _button(
+                    id,
+                    tool,
+                    tool.shortcut if keys[tool.shortcut] == id else "",
+                    self._refusal(tool),
+                )
+                for id, tool in self._tools().items()
+            )
+        }
 
     def statuses(self) -> Mapping[str, Status]:
         """Which tools cannot be used."""
@@ -102,24 +122,18 @@ class ToolsPart(Part):
     def _tools(self) -> dict[str, Tool]:
         return {id: item for id, item in self._items.items() if isinstance(item, Tool)}
 
-    def _find(self, wanted: str) -> Tool:
+    def _find(self, wanted: str) -> tuple[str, Tool]:
+        """Id and tool by its id or name."""
         tools = self._tools()
-        if wanted in tools:
-            return tools[wanted]
-        names = {tool.name: tool for tool in tools.values()}
-        if wanted not in names:
+        ids = {tool.name: id for id, tool in tools.items()} | {id: id for id in tools}
+        if wanted not in ids:
+            names = [tool.name for tool in tools.values()]
             raise ConfigError(f"Unknown tool `{wanted[:80]}`: {nearest(wanted, names)}")
-        return names[wanted]
+        return ids[wanted], tools[ids[wanted]]
 
     def _use(self, command: UseTool, sender: Sender) -> None:
-        tool = self._find(command.tool)
-        numbers = [number for point in command.points for number in point]
-        is_finite = all(math.isfinite(n) and abs(n) <= REACH_M for n in [*numbers, command.yaw])
-        if not 1 <= len(command.points) <= MAX_POINTS or not is_finite:
-            raise ConfigError(
-                f"{tool.name}: a stroke has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
-            )
-        stroke = Stroke(command.points, command.yaw, command.keys, sender.browser)
+        id, tool = self._find(command.tool)
+        stroke = _stroke(tool, command, sender)
         ports = {name: (output, topic) for name, output, topic in outputs(tool)}
 
         def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
@@ -127,8 +141,12 @@ class ToolsPart(Part):
             if self._publish(output, topic, payload, command.report):
                 command.published(topic.name, output.type, values)
 
+        def send_goal(request: GoalRequest) -> None:
+            self._goals.send(id, tool.name, request, command.report)
+
+        core, report = self.core, command.report
         context = ToolContext(
-            tool, self.core.frames, self.core.now_ns, publish, self._call, command.report
+            tool, core.frames, core.now_ns, publish, self._call, send_goal, report
         )
         tool.done(stroke, context)
 
@@ -177,25 +195,39 @@ class ToolsPart(Part):
         )
 
     def _set(self, command: SetToolProperty, sender: Sender) -> None:
-        tool, path, value = self._find(command.tool), command.path, command.value
+        (_, tool), path, value = self._find(command.tool), command.path, command.value
         try:
             set_property(tool, path, value)
         except msgspec.ValidationError as error:
             raise not_changed(error, type(tool), path, value) from error
 
 
-def _button(id: str, tool: Tool, refusal: str) -> ToolButton:
+def _stroke(tool: Tool, command: UseTool, sender: Sender) -> Stroke:
+    points, yaws = command.points, command.yaws
+    numbers = [*(number for point in points for number in point), *yaws, command.yaw]
+    is_finite = all(math.isfinite(n) and abs(n) <= REACH_M for n in numbers)
+    if not 1 <= len(points) <= MAX_POINTS or not is_finite:
+        raise ConfigError(
+            f"{tool.name}: a stroke has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
+        )
+    if command.several and (command.several not in tool.several or len(yaws) != len(points)):
+        raise ConfigError(f"{tool.name}: expected several poses, for one of its buttons.")
+    return Stroke(points, command.yaw, command.keys, sender.browser, yaws, command.several)
+
+
+def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
     tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
     return ToolButton(
         id,
         tool.name,
         tooltip,
-        tool.shortcut,
+        shortcut,
         tool.gesture,
         tool.icon,
         tool.surface,
         tool.stays,
         refusal,
+        tool.several,
         tool,
     )
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from webviz.edges.page.content.clock import clock
 from webviz.edges.page.content.displays import displays, rate
+from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
@@ -29,12 +30,14 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "displays": displays,
     "file": file,
     "frames": frames,
+    "goals": goals,
     "graph": graph,
     "history": history,
     "legend": legend,
     "message": message,
     "properties": properties,
     "rate": rate,
+    "routes": routes,
     "settings": settings,
     "tool": tool,
     "topics": topics,

@@ -70,9 +70,11 @@ function sentRow() {
       entry = next;
       const [x, y, z] = next.points[0].map((number) => fixed(number, 2));
       const heading = `yaw ${fixed((next.yaw * 180) / Math.PI, 1)}°`;
-      const parts = [`x ${x} y ${y} z ${z}`, next.tool.gesture === "pose" && heading, next.frame];
+      const isPose = next.tool.gesture === "pose";
+      const where = [`x ${x} y ${y} z ${z}`, isPose && heading];
+      const parts = next.several ? [`${next.points.length} waypoints`, next.several] : where;
       setText(head, `${next.tool.name} · ${next.time.toLocaleTimeString()}`);
-      setText(place, parts.filter(Boolean).join(" · "));
+      setText(place, [...parts, next.frame].filter(Boolean).join(" · "));
       setText(result, next.text || "No result yet.");
       set(element, { "data-level": next.level || null });
       if (yamlButton.hidden !== !next.messages.length) yamlButton.hidden = !next.messages.length;

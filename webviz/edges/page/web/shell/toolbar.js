@@ -88,7 +88,7 @@ export function install(places) {
     { element: tools.icons, items: () => tools.iconItems() },
     { element: type, items: () => viewMenu() },
   ]);
-  places.toolbar.append(element, tools.hint);
+  places.toolbar.append(element, tools.cards, tools.hint);
   bar.watch(places.toolbar);
   // What stands at the right keeps its space.
   new ResizeObserver(() => {

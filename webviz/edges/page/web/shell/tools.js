@@ -3,11 +3,13 @@
 import { el, set, setChildren } from "../dom.js";
 import { icon } from "../icons.js";
 import { focusCamera, interact, moveCamera } from "../tools/camera.js";
+import * as goals from "../tools/goals.js";
 import { hint, tell } from "../tools/hint.js";
 import * as history from "../tools/history.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
 import * as strokes from "../tools/strokes.js";
+import * as waypoints from "../tools/waypoints.js";
 import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
@@ -15,6 +17,8 @@ import { keyText } from "./keys.js";
 /** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
 export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
+/** What goes on below the toolbar: waypoints that are collected, goals of robots. */
+export const cards = el("div", { class: "wv-cards" });
 export { hint };
 
 const listeners = new Set();
@@ -30,6 +34,7 @@ export function install() {
   registry.provide("page", [interact, moveCamera, focusCamera, measure]);
   history.install();
   strokes.install();
+  cards.append(waypoints.install(), goals.install());
   provide(() => registry.all().map((tool) => ({
     name: tool.name, icon: tool.icon, key: tool.shortcut || undefined, group: "Tools",
     run: () => registry.toggle(tool),

@@ -23,10 +23,10 @@ export function onChange(listener) {
   return () => listeners.delete(listener);
 }
 
-/** Sends a finished gesture of a tool, `{id, name, gesture}`. */
-export function send(tool, { points, yaw, keys }) {
+/** Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected. */
+export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   count += 1;
-  const stroke = { points, yaw, keys };
+  const stroke = { points, yaw, keys, yaws, several };
   const result = { level: "", text: "", messages: [] };
   const entry = { number: count, tool, ...stroke, frame, time: new Date(), ...result };
   sent = [entry, ...sent].slice(0, MAX_KEPT);

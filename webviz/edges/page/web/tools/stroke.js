@@ -1,16 +1,12 @@
 // Follows the gesture of a tool and draws its preview, without asking the server.
 
 import { set, svgElement } from "../dom.js";
+import { arrowAt } from "./arrow.js";
 import { makeLayer } from "./layer.js";
 import { fixed } from "./numbers.js";
 import { canvas } from "../viser_page.js";
 import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
 
-// RViz's arrow, in metres: a shaft and a head. It is never too small to see, nor too large.
-const SHAFT = [2.0, 0.1];
-const HEAD = [0.5, 0.175];
-const SHORTEST_PX = 60;
-const LONGEST = 0.35; // of the height of the scene
 const CLICK_PX = 4;
 
 let drawing = null;
@@ -113,23 +109,4 @@ function makeDrawing() {
   const arrow = svgElement("polygon", { class: "wv-preview-arrow" });
   const dot = svgElement("circle", { class: "wv-preview-start", r: 4 });
   return { layer: makeLayer("preview", svgElement("svg", {}, stem, arrow, dot)), stem, arrow, dot };
-}
-
-function arrowAt([x, y, z], yaw) {
-  const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-  const [from, to] = [[x, y, z], [x + 0.01 * c, y + 0.01 * s, z]].map(onCanvas);
-  if (from === null || to === null) return null;
-  const perMeter = 100 * Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const length = SHAFT[0] + HEAD[0];
-  const longest = LONGEST * canvas().clientHeight;
-  const wanted = Math.min(Math.max(length * perMeter, SHORTEST_PX), longest);
-  const scale = perMeter > 0 ? wanted / (length * perMeter) : 1;
-  const shape = [
-    [0, SHAFT[1]], [SHAFT[0], SHAFT[1]], [SHAFT[0], HEAD[1]], [length, 0],
-    [SHAFT[0], -HEAD[1]], [SHAFT[0], -SHAFT[1]], [0, -SHAFT[1]],
-  ];
-  const corners = shape.map(([ahead, left]) =>
-    onCanvas([x + scale * (ahead * c - left * s), y + scale * (ahead * s + left * c), z]),
-  );
-  return corners.includes(null) ? null : corners;
 }

@@ -6,9 +6,11 @@ import { tell, tellLive } from "./hint.js";
 import * as history from "./history.js";
 import { active, provide, select } from "./registry.js";
 import * as stroke from "./stroke.js";
+import * as waypoints from "./waypoints.js";
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
 const POSE = "drag towards the heading. Ctrl lifts. Esc cancels.";
+const SEVERAL = "Ctrl lifts, Shift collects waypoints.";
 const HINTS = {
   point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
   pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
@@ -29,11 +31,16 @@ function strokeTool(known, index) {
     ...known,
     order: FIRST + index,
     icon: known.icon || known.gesture,
-    hint: HINTS[known.gesture][Number(known.surface)],
+    hint: hintOf(known),
     cursor: "crosshair",
     leave: stroke.cancel,
     pointer: (event) => follow(event, known),
   };
+}
+
+function hintOf({ gesture, surface, several }) {
+  const hint = HINTS[gesture][Number(surface)];
+  return several?.length ? hint.replace("Ctrl lifts.", SEVERAL) : hint;
 }
 
 // While a gesture goes on, the camera stays where it is.
@@ -49,6 +56,7 @@ function follow(event, tool) {
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
   event.preventDefault();
   const done = (made) => {
+    if (waypoints.collect(tool, made)) return;
     if (!active().stays) select(null); // as it is now: somebody may have changed it meanwhile
     history.send(tool, made);
   };

@@ -1,0 +1,265 @@
+"""Goals of tools, from sending to their outcome, at a server that a test plays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from remembering_graph import RememberingGraph, SentGoal
+
+from webviz.api.status import Level, Status
+from webviz.data.messages import encode
+from webviz.engine.commands import CancelGoal, DismissGoal, Refresh, UseTool
+from webviz.engine.goals import ANSWER_S, SILENCE_S
+from webviz.engine.parts.goals import MAX_ACTIVE, SHOWN_S
+from webviz.engine.sources import Missing
+from webviz.engine.state import GoalProgress
+
+TO_POSE = "nav2_msgs/action/NavigateToPose"
+THROUGH = "nav2_msgs/action/NavigateThroughPoses"
+EACH = "nav2_msgs/action/FollowWaypoints"
+SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
+NAN = math.nan
+
+
+class Robot:
+    """A viewer, and the action servers that its goals go to."""
+
+    def __init__(self, bench: Any) -> None:
+        self.bench = bench
+        self.graph = bench.source.graph = RememberingGraph()
+        self.told: list[Status] = []
+
+    def drag(self, x: float = 1.0) -> SentGoal:
+        """Send one pose; the goal at the server."""
+        assert self.use(((x, 2.0, 0.0),)) == ""
+        return self.graph.goals[-1]
+
+    def use(self, points: Any, **stroke: Any) -> str:
+        """Why a stroke is refused, "" if it is not."""
+        command = UseTool("Nav2 Goal", points, 0.5, **stroke, report=self.told.append)
+        answer = self.bench.viewer.enqueue(command)
+        self.bench.until_done(answer)
+        return str(answer.exception(0) or "")
+
+    def shown(self) -> list[GoalProgress]:
+        """What pages show now."""
+        return list(self.bench.do(Refresh()).goals)
+
+    def only(self) -> GoalProgress:
+        (goal,) = self.shown()
+        return goal
+
+    def accept(self, goal: SentGoal) -> None:
+        goal.accepted.set_result(True)
+        self.shown()
+
+    def outcome(self) -> tuple[Level, str]:
+        goal = self.only()
+        assert goal.phase == "ended"
+        assert goal.status
+        return goal.status.level, goal.status.text
+
+
+@pytest.fixture
+def robot(bench: Callable[..., Any]) -> Robot:
+    return Robot(bench())
+
+
+def end(goal: SentGoal, status: int, type: str = TO_POSE, **result: Any) -> None:
+    values = {"status": status, "result": result}
+    goal.result.set_result((status, encode(f"{type}_GetResult_Response", values)))
+
+
+def feedback(goal: SentGoal, type: str = TO_POSE, **values: Any) -> None:
+    goal.feedback(encode(f"{type}_FeedbackMessage", {"feedback": values}))
+
+
+def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: Robot) -> None:
+    goal = robot.drag()
+    assert (goal.action, goal.type) == ("/navigate_to_pose", TO_POSE)
+    pose = goal.values.pose
+    assert (pose.header.frame_id, pose.header.stamp.sec, goal.values.behavior_tree) == (
+        "map",
+        0,
+        "",
+    )
+    assert (pose.pose.position.x, pose.pose.position.y) == (1.0, 2.0)
+    assert pose.pose.orientation.z == pytest.approx(math.sin(0.25))
+    shown = robot.only()
+    assert (shown.phase, shown.title, shown.label) == ("sending", "Nav2 Goal", "x 1.00 y 2.00 m")
+    assert shown.poses == [(1.0, 2.0, 0.0, 0.5)]
+    robot.accept(goal)
+    assert robot.told == [Status(Level.OK, "/navigate_to_pose accepted the goal.")]
+    assert robot.only().phase == "active"
+    end(goal, SUCCEEDED)
+    assert robot.outcome() == (Level.OK, "Reached the goal.")
+    robot.bench.clock += SHOWN_S
+    assert robot.shown() == []
+
+
+def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
+    bench: Callable[..., Any],
+) -> None:
+    robot = Robot(bench(strict=False))
+    goal = robot.drag()
+    robot.accept(goal)
+    for index in range(1000):
+        feedback(
+            goal,
+            navigation_time={"sec": 65},
+            estimated_time_remaining={"sec": 7500},
+            distance_remaining=index / 100,
+            number_of_recoveries=2,
+        )
+    values = {"Distance left": "10.0 m", "Time left": "2 h 05 min", "Time": "1 min 05 s"}
+    assert robot.only().values == {**values, "Recoveries": "2"}
+    feedback(goal, distance_remaining=NAN, estimated_time_remaining={"sec": -1})
+    values = {"Distance left": "unknown", "Time left": "unknown", "Time": "0 s", "Recoveries": "0"}
+    assert robot.only().values == values
+    goal.feedback(b"no message")
+    assert robot.only().values == values
+    robot.bench.clock += SILENCE_S + 1.0
+    status = robot.only().status
+    assert status == Status(Level.WARN, "No feedback for 6 s. Check /navigate_to_pose.")
+
+
+@pytest.mark.parametrize(
+    ("result", "expected"),
+    [
+        ({}, "/navigate_to_pose aborted the goal without a reason."),
+        ({"error_code": 208}, "Aborted: no valid path (208)."),
+        ({"error_code": 5, "error_msg": "No battery."}, "Aborted (5): No battery."),
+    ],
+)
+def test_an_aborted_goal_says_why_until_it_is_dismissed(
+    robot: Robot, result: dict[str, Any], expected: str
+) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    assert "Cancel it first" in robot.bench.refused(DismissGoal(robot.only().id))
+    end(goal, ABORTED, **result)
+    assert robot.outcome() == (Level.ERROR, expected)
+    robot.bench.clock += SHOWN_S
+    robot.bench.do(DismissGoal(robot.only().id))
+    assert robot.shown() == []
+
+
+def test_a_goal_that_is_not_accepted_is_reported_to_its_sender_alone(robot: Robot) -> None:
+    robot.drag().accepted.set_result(False)
+    assert robot.shown() == []
+    robot.drag().accepted.set_exception(Missing("No node offers /navigate_to_pose."))
+    assert robot.shown() == []
+    assert [status.text for status in robot.told] == [
+        "/navigate_to_pose rejected the goal.",
+        "No node offers /navigate_to_pose. Start Nav2's bt_navigator, or choose another action in "
+        "the properties of the tool.",
+    ]
+
+
+def test_a_bag_refuses_goals_with_the_reason(bench: Callable[..., Any]) -> None:
+    b, told = bench(), list[Status]()
+    b.do(UseTool("Nav2 Goal", ((1.0, 2.0, 0.0),), report=told.append))
+    assert told == [Status(Level.ERROR, "This source can only be read.")]
+    assert b.do(Refresh()).goals == ()
+
+
+def test_cancelling_is_asked_once_and_its_refusal_is_shown(robot: Robot) -> None:
+    goal = robot.drag()
+    for _ in range(2):
+        robot.bench.do(CancelGoal(robot.only().id))
+    assert goal.cancels == []  # not before it is accepted
+    robot.accept(goal)
+    assert robot.only().phase == "canceling"
+    (canceled,) = goal.cancels
+    canceled.set_result(1)
+    assert robot.only().phase == "active"
+    status = Status(Level.WARN, "/navigate_to_pose refuses to cancel the goal.")
+    assert robot.only().status == status
+    robot.bench.do(CancelGoal(robot.only().id))
+    goal.cancels[-1].set_result(0)
+    end(goal, CANCELED)
+    assert robot.outcome() == (Level.OK, "Cancelled.")
+    assert robot.bench.refused(CancelGoal("goal99")) == "This goal has ended."
+
+
+def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: Robot) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    robot.bench.do(CancelGoal(robot.only().id))
+    goal.cancels[-1].set_result(2)
+    assert robot.only().phase == "canceling"
+    robot.bench.clock += ANSWER_S + 0.1
+    text = "/navigate_to_pose does not know this goal any more. Send it again."
+    assert robot.outcome() == (Level.WARN, text)
+
+
+def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) -> None:
+    first = robot.drag()
+    robot.accept(first)
+    rejected = robot.drag(2.0)
+    assert [goal.phase for goal in robot.shown()] == ["active", "sending"]
+    rejected.accepted.set_result(False)
+    assert robot.only().label == "x 1.00 y 2.00 m"
+    second = robot.drag(3.0)
+    robot.accept(second)
+    assert robot.only().label == "x 3.00 y 2.00 m"
+    assert first.cancels == []  # the server preempts it
+    end(first, ABORTED)
+    assert robot.only().label == "x 3.00 y 2.00 m"
+    end(second, SUCCEEDED)
+    assert robot.outcome() == (Level.OK, "Reached the goal.")
+    for _ in range(MAX_ACTIVE):
+        robot.drag()
+    assert robot.use(((1.0, 2.0, 0.0),)) == "20 goals are active. Cancel one first."
+
+
+def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robot: Robot) -> None:
+    first = robot.drag()
+    robot.accept(first)
+    stroke = {"points": ((1.0, 0.0, 0.0), (2.0, 0.0, 0.5)), "yaws": (0.0, math.pi)}
+    assert robot.use(**stroke, several="Drive through") == ""
+    # At another action the previous goal has to end first.
+    assert [goal.phase for goal in robot.shown()] == ["canceling", "sending"]
+    assert len(first.cancels) == 1
+    end(first, CANCELED)
+    assert robot.only().label == "2 waypoints"
+    through = robot.graph.goals[-1]
+    assert through.action == "/navigate_through_poses"
+    one, two = through.values.poses
+    assert (two.header.frame_id, two.pose.position.z) == ("map", 0.5)
+    assert (one.pose.orientation.w, two.pose.orientation.z) == pytest.approx((1.0, 1.0))
+    robot.accept(through)
+    feedback(through, THROUGH, number_of_poses_remaining=2)
+    assert robot.only().values["Waypoints left"] == "2"
+    end(through, SUCCEEDED, THROUGH)
+    assert robot.outcome() == (Level.OK, "Drove through all 2 waypoints.")
+    assert robot.use(**stroke, several="Stop at each") == ""
+    each = robot.graph.goals[-1]
+    robot.accept(each)
+    feedback(each, EACH, current_waypoint=1)
+    assert robot.only().values == {"Waypoint": "2 of 2"}
+    end(each, SUCCEEDED, EACH, missed_waypoints=[{"index": 1, "error_code": 206}])
+    text = "Missed waypoint 2: the goal is in an obstacle (206)."
+    assert robot.outcome() == (Level.WARN, text)
+
+
+@pytest.mark.parametrize(
+    ("points", "stroke"),
+    [
+        (((1e308, 0.0, 0.0),), {}),
+        (((NAN, 0.0, 0.0),), {}),
+        (((0.0, 0.0, 0.0),) * 1001, {"yaws": (0.0,) * 1001, "several": "Drive through"}),
+        (((0.0, 0.0, 0.0),), {"yaws": (NAN,), "several": "Drive through"}),
+        (((0.0, 0.0, 0.0),), {"yaws": (0.0, 1.0), "several": "Drive through"}),
+        (((0.0, 0.0, 0.0),), {"yaws": (0.0,), "several": "Fly"}),
+    ],
+)
+def test_poses_that_are_not_valid_are_refused(
+    robot: Robot, points: Any, stroke: dict[str, Any]
+) -> None:
+    assert robot.use(points, **stroke).startswith("Nav2 Goal: ")
+    assert robot.graph.goals == []
+    assert robot.shown() == []

@@ -1,0 +1,92 @@
+// The goals that tools have sent: what every page shows of them, and can cancel.
+
+import { act } from "../act.js";
+import { el, set, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { watch } from "../stores.js";
+import { makePoses } from "./poses.js";
+
+const TEXTS = { sending: "Sending…", active: "", canceling: "Cancelling…", ended: "" };
+
+/** The list of cards, one per goal. */
+export function install() {
+  const list = el("div", { class: "wv-goals", role: "region", "aria-label": "Goals" });
+  const cards = new Map();
+  watch("goals", (goals) => {
+    for (const id of cards.keys()) if (!goals.has(id)) cards.delete(id);
+    for (const [id, goal] of goals) {
+      if (!cards.has(id)) cards.set(id, makeCard(id));
+      cards.get(id).update(goal);
+    }
+    setChildren(list, [...cards.values()].map(({ element }) => element));
+  });
+  showRoutes();
+  return list;
+}
+
+// Where robots drive to, in the frame in which it was sent.
+function showRoutes() {
+  const show = makePoses("routes");
+  let routes = new Map();
+  let frame = null;
+  const update = () => show([...routes.values()].flatMap((route) =>
+    route.frame === frame ? posesOf(route) : []));
+  watch("routes", (values) => {
+    routes = values;
+    update();
+  });
+  watch("settings", (settings) => {
+    if (frame === settings.get("fixed_frame")) return;
+    frame = settings.get("fixed_frame");
+    update();
+  });
+}
+
+const posesOf = ({ poses }) => poses.map(([x, y, z, yaw], index) => ({
+  point: [x, y, z], yaw, number: poses.length > 1 ? String(index + 1) : "",
+}));
+
+function makeCard(id) {
+  const title = el("b");
+  const label = el("span", { class: "wv-goal-label" });
+  const dismiss = el("button", {
+    type: "button", class: "wv-icon", "aria-label": "Dismiss", "data-tip": "Dismiss",
+    onclick: () => act("DismissGoal", { goal: id }),
+  }, icon("close"));
+  const values = el("dl", { class: "wv-goal-values" });
+  const text = el("p", { class: "wv-goal-text", role: "status" });
+  const cancel = el("button", {
+    type: "button", class: "wv-button", onclick: () => act("CancelGoal", { goal: id }),
+  }, "Cancel");
+  const head = el("div", { class: "wv-goal-head" }, icon("flag"), title, label, dismiss);
+  const element = el("section", { class: "wv-card wv-goal" }, head, values, text, cancel);
+  return {
+    element,
+    update(goal) {
+      set(element, { "data-level": goal.level || null, "aria-label": `${goal.title} ${goal.label}` });
+      setText(title, goal.title);
+      setText(label, goal.label);
+      setText(text, goal.text || TEXTS[goal.phase]);
+      showValues(values, goal.values);
+      const isEnded = goal.phase === "ended";
+      for (const [part, isHidden] of [
+        [dismiss, !isEnded], [cancel, isEnded], [text, !text.textContent],
+        [values, !goal.values.length],
+      ]) {
+        if (part.hidden !== isHidden) part.hidden = isHidden;
+      }
+      const isDisabled = goal.phase === "canceling";
+      if (cancel.disabled !== isDisabled) cancel.disabled = isDisabled;
+    },
+  };
+}
+
+function showValues(list, values) {
+  while (list.children.length > values.length) list.lastElementChild.remove();
+  while (list.children.length < values.length) list.append(el("div", {}, el("dt"), el("dd")));
+  values.forEach(([label, text], index) => {
+    const [term, value] = list.children[index].children;
+    setText(term, label);
+    setText(value, text);
+  });
+}

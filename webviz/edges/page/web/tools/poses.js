@@ -1,0 +1,64 @@
+// Poses over the scene, with numbers: waypoints that are collected, and where robots drive to.
+
+import { set, setText, svgElement } from "../dom.js";
+import { onCanvas } from "../scene/ground.js";
+import * as viser from "../viser_page.js";
+import { arrowAt } from "./arrow.js";
+import { makeLayer } from "./layer.js";
+
+const ARROW = 0.5; // of that of a gesture
+
+/**
+ * A layer that shows poses: `show([{point, yaw, number}])`, in metres and radians in the fixed frame;
+ * `number` is a text or "".
+ */
+export function makePoses(name) {
+  let layer = null;
+  let drawing = null;
+  let marks = [];
+  let shown = [];
+
+  function draw() {
+    if (!shown.length) return;
+    layer.place();
+    shown.forEach((pose, index) => drawPose(marks[index], pose));
+  }
+
+  return function show(poses) {
+    if (!poses.length && !shown.length) return;
+    if (!layer) {
+      drawing = svgElement("svg");
+      layer = makeLayer(name, drawing);
+      viser.beforeRender(draw);
+    }
+    shown = poses;
+    for (const mark of marks.splice(poses.length)) mark.group.remove();
+    while (marks.length < poses.length) {
+      marks.push(makeMark());
+      drawing.append(marks.at(-1).group);
+    }
+    poses.forEach(({ number }, index) => {
+      setText(marks[index].number, number);
+      set(marks[index].dot, { r: number ? 9 : 4 });
+    });
+    viser.requestRender();
+    draw();
+  };
+}
+
+function makeMark() {
+  const arrow = svgElement("polygon", { class: "wv-pose-arrow" });
+  const dot = svgElement("circle", { class: "wv-pose-start" });
+  const number = svgElement("text", { class: "wv-pose-number" });
+  return { arrow, dot, number, group: svgElement("g", {}, arrow, dot, number) };
+}
+
+function drawPose({ arrow, dot, number, group }, { point, yaw }) {
+  const start = onCanvas(point);
+  const corners = start && arrowAt(point, yaw, ARROW);
+  set(group, { display: corners ? null : "none" });
+  if (!corners) return;
+  set(arrow, { points: corners.join(" ") });
+  set(dot, { cx: start[0], cy: start[1] });
+  set(number, { x: start[0], y: start[1] });
+}

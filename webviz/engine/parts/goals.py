@@ -1,0 +1,121 @@
+"""The goals that tools sent to actions: all browsers see them and can cancel them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.api.goal import GoalRequest
+from webviz.api.status import Level, Status
+from webviz.engine.commands import CancelGoal, Command, DismissGoal, Sender
+from webviz.engine.goals import RunningGoal
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.sources import Goal
+from webviz.engine.state import GoalProgress
+
+MAX_ACTIVE = 20
+SHOWN_S = 10.0
+"""How long a goal that ended well is shown; others until they are dismissed."""
+
+
+class GoalsPart(Part):
+    """All goals, the newest last."""
+
+    name = "Goals"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self._goals: dict[str, RunningGoal] = {}
+        self._made = 0
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {CancelGoal: self._cancel, DismissGoal: self._dismiss}
+
+    def send(
+        self, tool: str, title: str, request: GoalRequest, report: Callable[[Status], None]
+    ) -> None:
+        """Send a goal of a tool instead of its previous one.
+
+        Args:
+            tool: its id.
+            title: its name.
+            request: of the tool.
+            report: called with whether the goal is accepted.
+
+        Raises:
+            Error: too many goals are active, or the name of the action is invalid.
+        """
+        try:
+            action = self.core.source.resolve(request.action)
+        except ValueError as error:
+            raise Error(f"{error}. Choose another action.") from error
+        active = [goal for goal in self._goals.values() if goal.is_active]
+        if len(active) >= MAX_ACTIVE:
+            raise Error(f"{MAX_ACTIVE} goals are active. Cancel one first.")
+        before = [goal for goal in active if goal.tool == tool]
+        for goal in before:
+            if goal.action != action:
+                goal.cancel()
+        self._made += 1
+        frame = self.core.frames.fixed_frame
+        shown = GoalProgress(f"goal{self._made}", title, request.label, frame, request.poses)
+
+        def send(hear: Callable[[bytes], object]) -> Goal:
+            return self.core.gate.send_goal(action, request.type, request.goal, hear)
+
+        self._goals = {
+            id: goal for id, goal in self._goals.items() if goal.is_active or goal.tool != tool
+        }
+        self._goals[shown.id] = RunningGoal(tool, action, shown, request, send, before, report)
+        self._turn(self._goals[shown.id])
+
+    def keep_up(self, commanded: bool) -> None:
+        """Follow the goals, and forget those that nobody needs to see any more."""
+        for goal in self._goals.values():
+            self._turn(goal)
+        replaced = self._replaced()
+        self._goals = {
+            id: goal
+            for id, goal in self._goals.items()
+            if goal.is_active or (goal not in replaced and self._is_worth_showing(goal))
+        }
+
+    def state(self) -> Mapping[str, Any]:
+        """What pages show of the goals."""
+        replaced, now = self._replaced(), self.core.clock()
+        shown = [goal for goal in self._goals.values() if goal not in replaced]
+        return {"goals": tuple(goal.progress(now) for goal in shown)}
+
+    def _turn(self, goal: RunningGoal) -> None:
+        self.core.guard(goal.shown.title, goal.turn, self.core.clock())
+
+    def _replaced(self) -> set[RunningGoal]:
+        """Goals that have a successor which their server has accepted, or which they wait for."""
+        return {
+            old
+            for goal in self._goals.values()
+            for old in goal.before
+            if goal.is_active and (goal.is_accepted or not old.is_active)
+        }
+
+    def _is_worth_showing(self, goal: RunningGoal) -> bool:
+        if goal.outcome is None or not goal.is_accepted:
+            return goal.is_active  # its sender knows why
+        age = self.core.clock() - goal.ended_s
+        return goal.outcome.level is not Level.OK or age < SHOWN_S
+
+    def _find(self, id: str) -> RunningGoal:
+        if id not in self._goals:
+            raise Error("This goal has ended.")
+        return self._goals[id]
+
+    def _cancel(self, command: CancelGoal, sender: Sender) -> None:
+        self._find(command.goal).cancel()
+
+    def _dismiss(self, command: DismissGoal, sender: Sender) -> None:
+        if self._find(command.goal).is_active:
+            raise Error("This goal is active. Cancel it first.")
+        del self._goals[command.goal]
