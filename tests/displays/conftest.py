@@ -15,8 +15,8 @@ from webviz.api.display import inputs
 from webviz.api.nodes import Node
 from webviz.data.messages import encode
 from webviz.data.transforms import TransformBuffer
+from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.pipeline.runner import Runner, Services
 from webviz.engine.sources import Offer, Publisher, Raw
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene

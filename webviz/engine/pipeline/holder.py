@@ -1,0 +1,180 @@
+"""The messages of one display: received, decoded, and held as long as the display requests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from webviz.api.display import Display, Keep, overrides
+from webviz.api.frames import Frames
+from webviz.api.nodes import Pose
+from webviz.api.sample import Sample
+from webviz.api.status import Level, Status
+from webviz.data.messages import MessageError, decode
+from webviz.engine.pipeline.guard import CRASHED, Guard
+from webviz.engine.pipeline.history import Histories, History
+from webviz.engine.pipeline.inputs import Inputs, Set
+from webviz.engine.pipeline.intake import Arrival
+from webviz.engine.pipeline.services import Services
+from webviz.engine.sources import Offer, Raw
+
+
+class Holder:
+    """Takes the messages of one display, decodes them and holds them.
+
+    Args:
+        id: of the display, for traces.
+        display: has the topics, and decides what is held.
+        guard: for its hooks.
+        services: shared by all.
+    """
+
+    def __init__(self, id: str, display: Display, guard: Guard, services: Services) -> None:
+        self.inputs = Inputs(display, guard, services.resolve)
+        self._id = id
+        self._display = display
+        self._guard = guard
+        self._services = services
+        self.histories = self._no_histories()
+        self._newest: dict[str, Set] = {}
+        self._ready_s: dict[str, float] = {}
+        self._folded: Any = None
+        self._fixed_frame = ""
+
+    def replace(self, display: Display, guard: Guard) -> None:
+        """Continue with another instance that has the same inputs."""
+        self._display = display
+        self._guard = guard
+        self.inputs.replace(display, guard)
+
+    def reset(self) -> None:
+        """Discard all messages."""
+        self.inputs.reset()
+        self.histories = self._no_histories()
+        self._newest.clear()
+        self._folded = None
+
+    def take(
+        self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
+    ) -> None:
+        """Take the messages of this turn; most are only decoded once they are drawn."""
+        clock = self._services.clock()
+        arrived = self.inputs.take(batches, frames, offers, clock)
+        if not arrived:
+            return
+        display, keep = self._display, self._keep()
+        every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
+        for found in arrived:
+            name = next(iter(found))
+            self._ready_s[name] = clock
+            # The duration is known once a message is decoded; the next ones wait for that.
+            is_unknown = (
+                overrides(display, "duration_ns") and not self.inputs.intakes[name].duration_ns
+            )
+            if every_one or is_unknown:
+                self._admit(found, keep, frames)
+            else:
+                self._newest[name] = found
+        self._trim(keep, frames)  # also without browsers
+
+    def prepare(self, frames: Frames) -> bool:
+        """Hold what is to be drawn now; whether all of it must be drawn anew."""
+        keep = self._keep()
+        newest, self._newest = self._newest, {}
+        for found in newest.values():
+            self._admit(found, keep, frames)
+        before, self._fixed_frame = self._fixed_frame, frames.fixed_frame
+        is_moved = before != frames.fixed_frame
+        if is_moved and before:
+            for history in self.histories.values():
+                history.move(frames, before, self.inputs.waits)
+        self._trim(keep, frames)
+        return is_moved
+
+    def statuses(
+        self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
+    ) -> dict[str, Status]:
+        """Statuses of topics, messages, transforms, stamps and history."""
+        result = self.inputs.statuses(offers, frames, dropped, self._services.clock())
+        for history in self.histories.values():
+            if shortage := history.shortage(self._keep(), frames.now_ns):
+                result["History"] = Status(Level.WARN, shortage)
+        return result
+
+    def _no_histories(self) -> Histories:
+        names = list(self.inputs.intakes)
+        if overrides(self._display, "fold"):
+            names = names[:1]  # all inputs are folded into one sample
+        return {name: History(len(names)) for name in names}
+
+    def _keep(self) -> Keep:
+        keep = self._guard("history", self._display.history)
+        return keep if isinstance(keep, Keep) else Keep()
+
+    def _trim(self, keep: Keep, frames: Frames) -> None:
+        for history in self.histories.values():
+            history.trim(keep, frames.now_ns)
+
+    def _admit(self, found: Set, keep: Keep, frames: Frames) -> None:
+        """Decode the messages of a set and hold it, if the display accepts it."""
+        samples: dict[str, Sample] = {}
+        for name, arrival in found.items():
+            if (sample := self._sample(name, arrival, frames)) is None:
+                return
+            samples[name] = sample
+        name, *others = samples
+        sample = samples[name]
+        if others:
+            sample = replace(sample, synced={other: samples[other] for other in others})
+        size = sum(len(arrival.raw.cdr) for arrival in found.values())
+        tracer = self._services.tracer
+        decoded_s = tracer.clock() if tracer.wants(self._id) else None
+        is_held = self._hold(sample, size, keep)
+        if is_held and decoded_s is not None:
+            tracer.decoded(self._id, sample, found[name].raw, self._ready_s[name], decoded_s)
+
+    def _hold(self, sample: Sample, size: int, keep: Keep) -> bool:
+        """Fold a sample, or hold it if the display accepts it; whether the history changed."""
+        if overrides(self._display, "fold"):
+            return self._fold(sample, size, keep)
+        history = self.histories[sample.input]
+        verdict = self._guard("accept", self._display.accept, sample, history.samples())
+        if isinstance(verdict, str):
+            self.inputs.intakes[sample.input].refuse(verdict)
+        elif verdict is True:
+            history.add(sample, size, keep)
+        return verdict is True
+
+    def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
+        """A decoded message, None if it cannot be shown."""
+        intake = self.inputs.intakes[name]
+        if not arrival.frame:
+            pose = Pose()
+        elif self.inputs.waits(name):
+            pose = frames.at(arrival.frame, arrival.stamp_ns)
+        else:
+            pose = frames.now(arrival.frame) or Pose()
+        if pose is None:
+            return None  # the buffer was cleared meanwhile
+        raw = arrival.raw
+        try:
+            message = decode(intake.spec.type, raw.cdr)
+        except MessageError as error:
+            intake.refuse(str(error))
+            return None
+        intake.accepted()
+        duration_ns = self._guard("duration", self._display.duration_ns, message)
+        intake.measure(duration_ns if isinstance(duration_ns, int) else 0)
+        return Sample(
+            message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
+        )
+
+    def _fold(self, sample: Sample, size: int, keep: Keep) -> bool:
+        folded = self._guard("fold", self._display.fold, sample.input, sample, self._folded)
+        if folded is None or folded is CRASHED:
+            return False
+        self._folded = folded
+        history = next(iter(self.histories.values()))
+        history.add(replace(sample, message=folded), size, keep)
+        return True

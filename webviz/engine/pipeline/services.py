@@ -1,0 +1,32 @@
+"""What the displays of a viewer share."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from webviz.engine.pipeline.background import Workers
+from webviz.engine.pipeline.drawing import Scene
+from webviz.engine.trace import Tracer
+
+
+@dataclass(frozen=True)
+class Services:
+    """Shared by all runners.
+
+    Args:
+        scene: where to draw.
+        workers: for slow work.
+        resolve: the full name of a topic; raises ValueError.
+        strict: let exceptions of displays through, for tests.
+        clock: monotonic time in seconds, for rates and ages.
+        tracer: traces samples on request.
+    """
+
+    scene: Scene
+    workers: Workers
+    resolve: Callable[[str], str]
+    strict: bool = False
+    clock: Callable[[], float] = time.monotonic
+    tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
