@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any
@@ -23,6 +24,7 @@ from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.source import SECOND
 from webviz_displays.shared.geometry import transformed
 
+PATIENCE_S = 60.0
 START = 100 * SECOND
 """ROS time at which every bench begins."""
 
@@ -102,6 +104,14 @@ class Bench:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
         self.runner.take(batches, frames, self._offers)
         self.runner.draw(frames)
+
+    def settle(self) -> None:
+        """Turn until all slow work is drawn."""
+        deadline = time.monotonic() + PATIENCE_S
+        while self.runner.is_busy():
+            assert time.monotonic() < deadline
+            time.sleep(0.005)
+            self.turn()
 
     def nodes(self) -> dict[str, Node]:
         """What can be seen, by key; keys used in several groups get a number."""

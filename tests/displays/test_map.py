@@ -99,6 +99,7 @@ def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -
     cells = np.zeros(shape, np.int8)
     cells[-1, -1] = 100
     send_map(at, cells)
+    at.settle()
     nodes = at.nodes()
     assert len(nodes) <= MOST_TILES
     assert sum(node.cells.size for node in nodes.values()) == cells.size

@@ -82,6 +82,13 @@ class Display(Declared, kw_only=True):
 
     kind = "display"
 
+    is_threaded: ClassVar[bool] = False
+    """Whether `fold` and `draw` run in a thread for large messages, while the frame loop goes on.
+
+    They then get a copy of the display, must not change what they are given, and must use neither
+    `ctx.frames` nor `ctx.background`. The previous result stays until the new one is there, and
+    `draw` skips messages for newer ones.
+    """
     sync: ClassVar[Sync | None] = None
     """Inputs that are drawn together; others are drawn as their messages arrive."""
 

@@ -18,8 +18,8 @@ U8 = NDArray[np.uint8]
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
-_COMPARED = 4096
-"""Rows of arrays per comparison."""
+_COMPARED = 1 << 16
+"""Bytes of arrays per comparison."""
 
 
 class _Node:
@@ -43,7 +43,8 @@ def same(a: object, b: object) -> bool:
     if a is b:
         return True
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
-        parts = (slice(i, i + _COMPARED) for i in range(0, len(a), _COMPARED))
+        rows = max(1, _COMPARED * len(a) // max(a.nbytes, 1))
+        parts = (slice(i, i + rows) for i in range(0, len(a), rows))
         return a.shape == b.shape and all(np.array_equal(a[part], b[part]) for part in parts)
     return not isinstance(a, np.ndarray) and not isinstance(b, np.ndarray) and a == b
 

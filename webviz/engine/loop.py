@@ -188,6 +188,10 @@ class FrameLoop:
         crashed = failures(self._guard.crashes)
         return replace(state, statuses=statuses | crashed | self._showing.statuses)
 
+    def is_busy(self) -> bool:
+        """Whether a display is loading something that it has not drawn yet."""
+        return any(runner.is_busy() for runner in self._displays.list.active())
+
     def config(self) -> Config:
         """The current config."""
         return self._files.config()

@@ -88,6 +88,7 @@ class Map(Display):
     """
 
     rviz = "rviz_default_plugins/Map"
+    is_threaded = True
 
     topic: Annotated[
         Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Topic of the maps.")

@@ -46,6 +46,7 @@ class PointCloud2(PointsDisplay):
     """Points of a 3D sensor or of a map."""
 
     rviz = "rviz_default_plugins/PointCloud2"
+    is_threaded = True
 
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/PointCloud2"), Prop(help="Topic of the clouds.")
@@ -80,7 +81,8 @@ class PointCloud2(PointsDisplay):
         """How many clouds share max_points: a power of two, so that it seldom changes."""
         state: _State = ctx.state
         oldest = ctx.frames.now_ns - round(self.decay_time * 1e9)
-        for number in [n for n, received_ns in state.clouds.items() if received_ns < oldest]:
+        # A copy, as `draw` may add a cloud in its thread.
+        for number in [n for n, received_ns in state.clouds.copy().items() if received_ns < oldest]:
             del state.clouds[number]
         shares = state.shares if self.decay_time else 1
         count = len(state.clouds) + 1 if self.decay_time else 1  # including the next one

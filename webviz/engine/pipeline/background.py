@@ -6,6 +6,16 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
+from webviz.api.display import Display
+
+SLOW_BYTES = 8_000_000
+"""Messages of this size take long enough to be worth the way to a thread and back."""
+
+
+def is_slow(display: Display, size: int) -> bool:
+    """Whether messages of `size` bytes are folded and drawn in a worker."""
+    return display.is_threaded and size >= SLOW_BYTES
+
 
 class Workers:
     """Threads for the slow work of all displays.
@@ -15,7 +25,7 @@ class Workers:
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
-        self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-worker")
+        self._pool = ThreadPoolExecutor(max_workers=4, thread_name_prefix="webviz-worker")
         self._wake = wake
         self._stops: dict[Future[Any], Callable[[], None]] = {}
 

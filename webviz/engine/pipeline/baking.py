@@ -13,6 +13,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.context import Group
+from webviz.api.frames import compose
 from webviz.api.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Node, Points, Pose
 from webviz.data.rotations import matrices, multiply_many
 
@@ -37,6 +39,27 @@ def origin_near(position: Position, former: Position) -> Position:
 def can_bake(node: Node) -> bool:
     """Whether the coordinates of a node can be transformed one by one."""
     return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances)
+
+
+def bake(group: Group, former: Position) -> Position:
+    """Make the poses of a group part of its nodes, if all can be baked and it follows no frame.
+
+    Args:
+        group: changed in place.
+        former: origin of the coordinates that were sent before.
+
+    Returns:
+        The origin of the coordinates, which is the offset of the group then.
+    """
+    if group.placement.frame is not None or not all(map(can_bake, group.nodes.values())):
+        return former
+    offset = group.placement.offset
+    origin = origin_near(offset.position, former)
+    for key, node in group.nodes.items():
+        pose = compose(offset, group.poses.pop(key, Pose()))
+        group.nodes[key] = baked(node, pose, origin)
+    group.placement = replace(group.placement, offset=Pose(origin))
+    return origin
 
 
 def baked(node: Node, pose: Pose, origin: Position) -> Node:

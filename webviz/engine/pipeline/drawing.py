@@ -8,7 +8,7 @@ from typing import Protocol
 from webviz.api.context import Context, Group, Placement
 from webviz.api.frames import Frames, compose
 from webviz.api.nodes import Node, Pose, has_content
-from webviz.engine.pipeline.baking import Position, baked, can_bake, origin_near
+from webviz.engine.pipeline.baking import Position, bake
 
 _IDENTITY = Pose()
 
@@ -93,6 +93,10 @@ class Drawing:
             self._scene.remove_group(self._name(scope, key))
         self._scopes[scope] = after
 
+    def origins(self, scope: str) -> dict[str, Position]:
+        """Of the coordinates that were sent last, by group; see `baking`."""
+        return {key: drawn.origin for key, drawn in self._scopes.get(scope, {}).items()}
+
     def remove(self, scope: str) -> None:
         """Remove the content of a scope."""
         for key in self._scopes.pop(scope, {}):
@@ -138,19 +142,12 @@ class Drawing:
 
     def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         """Send a group that is new or changed."""
-        group, placement = drawn.group, drawn.group.placement
-        if placement.frame is not None:
+        group = drawn.group
+        if group.placement.frame is not None:
             self._follow(name, drawn, frames)
-        elif all(map(can_bake, group.nodes.values())):
-            drawn.origin = origin_near(placement.offset.position, drawn.origin)
-            self._scene.set_pose(name, Pose(drawn.origin))
-            self._show(name, drawn, True)
-            for key, node in group.nodes.items():
-                pose = compose(placement.offset, group.poses.get(key, Pose()))
-                self._scene.upsert(name, key, baked(node, pose, drawn.origin), Pose())
-            return
         else:
-            self._scene.set_pose(name, placement.offset)
+            drawn.origin = bake(group, drawn.origin)
+            self._scene.set_pose(name, group.placement.offset)
             self._show(name, drawn, True)
         for key, node in group.nodes.items():
             self._scene.upsert(name, key, node, group.poses.get(key, Pose()))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from typing import Any
 
 from webviz.api.display import Display, Keep, overrides
 from webviz.api.frames import Frames
@@ -12,7 +11,8 @@ from webviz.api.nodes import Pose
 from webviz.api.sample import Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode
-from webviz.engine.pipeline.guard import CRASHED, Guard
+from webviz.engine.pipeline.folding import Folding, Received
+from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.history import Histories, History
 from webviz.engine.pipeline.inputs import Inputs, Set
 from webviz.engine.pipeline.intake import Arrival
@@ -39,7 +39,7 @@ class Holder:
         self.histories = self._no_histories()
         self._newest: dict[str, Set] = {}
         self._ready_s: dict[str, float] = {}
-        self._folded: Any = None
+        self._folding = Folding(services.workers)
         self._fixed_frame = ""
 
     def replace(self, display: Display, guard: Guard) -> None:
@@ -53,7 +53,7 @@ class Holder:
         self.inputs.reset()
         self.histories = self._no_histories()
         self._newest.clear()
-        self._folded = None
+        self._folding = Folding(self._services.workers)
 
     def take(
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
@@ -61,7 +61,7 @@ class Holder:
         """Take the messages of this turn; most are only decoded once they are drawn."""
         clock = self._services.clock()
         arrived = self.inputs.take(batches, frames, offers, clock)
-        if not arrived:
+        if not arrived and not self._folding.busy_with:
             return
         display, keep = self._display, self._keep()
         every_one = overrides(display, "fold") or overrides(display, "accept") or keep != Keep()
@@ -76,7 +76,19 @@ class Holder:
                 self._admit(found, keep, frames)
             else:
                 self._newest[name] = found
+        for folded in self._folding.results(display, self._guard):
+            self._add(next(iter(self.histories.values())), folded, keep)
         self._trim(keep, frames)  # also without browsers
+
+    @property
+    def busy_with(self) -> int:
+        """Size of the message that is merged in a worker, in bytes; 0 if none is."""
+        return self._folding.busy_with.size if self._folding.busy_with else 0
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no message is held."""
+        return not any(history.held for history in self.histories.values())
 
     def prepare(self, frames: Frames) -> bool:
         """Hold what is to be drawn now; whether all of it must be drawn anew."""
@@ -96,7 +108,13 @@ class Holder:
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
         """Statuses of topics, messages, transforms, stamps and history."""
-        result = self.inputs.statuses(offers, frames, dropped, self._services.clock())
+        waited_in_vain = self._folding.dropped
+
+        def all_dropped(topic: str) -> int:
+            names = [name for name in waited_in_vain if self.inputs.intakes[name].name == topic]
+            return dropped(topic) + sum(waited_in_vain[name] for name in names)
+
+        result = self.inputs.statuses(offers, frames, all_dropped, self._services.clock())
         for history in self.histories.values():
             if shortage := history.shortage(self._keep(), frames.now_ns):
                 result["History"] = Status(Level.WARN, shortage)
@@ -128,23 +146,25 @@ class Holder:
         if others:
             sample = replace(sample, synced={other: samples[other] for other in others})
         size = sum(len(arrival.raw.cdr) for arrival in found.values())
-        tracer = self._services.tracer
-        decoded_s = tracer.clock() if tracer.wants(self._id) else None
-        is_held = self._hold(sample, size, keep)
-        if is_held and decoded_s is not None:
-            tracer.decoded(self._id, sample, found[name].raw, self._ready_s[name], decoded_s)
-
-    def _hold(self, sample: Sample, size: int, keep: Keep) -> bool:
-        """Fold a sample, or hold it if the display accepts it; whether the history changed."""
+        decoded_s = self._services.tracer.clock()
+        received = Received(sample, size, found[name].raw, self._ready_s[name], decoded_s)
         if overrides(self._display, "fold"):
-            return self._fold(sample, size, keep)
-        history = self.histories[sample.input]
+            self._folding.put(received)
+            return
+        history = self.histories[name]
         verdict = self._guard("accept", self._display.accept, sample, history.samples())
         if isinstance(verdict, str):
-            self.inputs.intakes[sample.input].refuse(verdict)
+            self.inputs.intakes[name].refuse(verdict)
         elif verdict is True:
-            history.add(sample, size, keep)
-        return verdict is True
+            self._add(history, received, keep)
+
+    def _add(self, history: History, received: Received, keep: Keep) -> None:
+        """Hold a sample."""
+        history.add(received.sample, received.size, keep)
+        if self._services.tracer.wants(self._id):
+            self._services.tracer.decoded(
+                self._id, received.sample, received.raw, received.ready_s, received.decoded_s
+            )
 
     def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
         """A decoded message, None if it cannot be shown."""
@@ -169,12 +189,3 @@ class Holder:
         return Sample(
             message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
         )
-
-    def _fold(self, sample: Sample, size: int, keep: Keep) -> bool:
-        folded = self._guard("fold", self._display.fold, sample.input, sample, self._folded)
-        if folded is None or folded is CRASHED:
-            return False
-        self._folded = folded
-        history = next(iter(self.histories.values()))
-        history.add(replace(sample, message=folded), size, keep)
-        return True

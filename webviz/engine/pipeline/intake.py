@@ -16,6 +16,7 @@ from webviz.api.ports import Input
 from webviz.api.status import Level, Remedy, Status
 from webviz.data.messages import MessageError, peek_header
 from webviz.data.transforms import MessageFilter
+from webviz.data.words import counted
 from webviz.engine.sources import Offer, Publisher, Raw, Subscription
 
 PATIENCE_S = 1.0
@@ -166,7 +167,9 @@ class Intake:
         if self._fault:
             result["Message"] = Status(Level.ERROR, self._fault)
         elif dropped:
-            text = f"{dropped} messages dropped: they arrive faster than they can be read."
+            text = (
+                f"{counted(dropped, 'message')} dropped: they arrive faster than they can be read."
+            )
             result["Message"] = Status(Level.WARN, text)
         if transform := self._transform_status(frames, clock):
             result["Transform"] = transform

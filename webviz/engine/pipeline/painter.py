@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass
 from typing import Any
 
 from webviz.api.context import ColorScale, Context, Placement
@@ -10,12 +13,34 @@ from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
 from webviz.api.sample import Sample
 from webviz.api.status import Status
-from webviz.engine.pipeline.background import Tasks, Workers
+from webviz.engine.pipeline.background import Tasks, Workers, is_slow
+from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.drawing import Drawing, Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 
 _NO_STATE = object()
+
+Look = tuple[Sample, int]
+"""A sample, and a number that changes with everything else that its drawing depends on."""
+
+
+@dataclass(frozen=True)
+class _Errand:
+    """A sample that is drawn in a worker.
+
+    Args:
+        held: the sample.
+        look: to compare with what is wanted when it is done.
+        context: collects its nodes.
+        done: when it has.
+    """
+
+    name: str
+    held: Held
+    look: Look
+    context: Context
+    done: Future[None]
 
 
 class Painter:
@@ -37,7 +62,9 @@ class Painter:
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
         self._scales: dict[str, ColorScale | None] = {}
-        self._drawn: dict[str, dict[int, Sample]] = {}
+        self._drawn: dict[str, dict[int, Look]] = {}
+        self._version = 0
+        self._errand: _Errand | None = None
         self._seen: list[tuple[History, int]] | None = None
         self._depended: object = None
 
@@ -50,15 +77,19 @@ class Painter:
                 return
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
+        self._version += self.is_stale
         held = [(history, history.version) for history in histories.values()]
-        changed = self.is_stale or self._seen != held
+        changed = self._finish_errand(guard, histories, frames)
+        changed |= self.is_stale or self._seen != held
         if changed and overrides(display, "draw"):
             for name, history in histories.items():
                 self._draw_samples(name, display, guard, history, frames)
         if changed and overrides(display, "draw_all"):
-            self._call("all", guard, display.draw_all, frames, held_samples(histories))
+            self._call(
+                "all", guard, display.draw_all, self._context(frames), held_samples(histories)
+            )
         if overrides(display, "tick"):
-            self._call("tick", guard, display.tick, frames)
+            self._call("tick", guard, display.tick, self._context(frames))
         if changed:
             self._tasks.cancel_unrequested()
         self._seen = held
@@ -69,6 +100,7 @@ class Painter:
         """Remove everything from the scene until the next call of `draw`."""
         self._drawing.clear()
         self._drawn.clear()
+        self._drop_errand()
         self.is_stale = True
 
     def forget(self) -> None:
@@ -83,6 +115,7 @@ class Painter:
 
     def replace(self, display: Display) -> None:
         """Continue with an instance of another class, keeping what is drawn."""
+        self._drop_errand()
         self._tasks.close()
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
@@ -96,7 +129,12 @@ class Painter:
 
     def is_busy(self) -> bool:
         """Whether the result of slow work is not drawn yet."""
-        return self._tasks.is_busy()
+        return self._errand is not None or self._tasks.is_busy()
+
+    @property
+    def busy_with(self) -> int:
+        """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
+        return self._errand.held.size if self._errand else 0
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
@@ -126,60 +164,97 @@ class Painter:
     def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
         if not overrides(display, "depends"):
             return False
-        context = Context(frames, self._tasks, self._state, order=self.order)
+        context = self._context(frames)
         before, self._depended = self._depended, guard("depends", display.depends, context)
         return self._depended != before
 
     def _draw_samples(
         self, name: str, display: Display, guard: Guard, history: History, frames: Frames
     ) -> None:
-        """Draw the new samples of one input."""
-        drawn = self._drawn.get(name, {})
+        """Draw the new samples of one input, the large ones one after another in a worker."""
+        drawn = self._drawn.setdefault(name, {})
         samples = {held.slot: held for held in history.held if held.has_pose}
         for slot in drawn.keys() - samples.keys():
             self._drawing.remove(_scope(name, slot))
+            del drawn[slot]
         for slot, held in samples.items():
-            if self.is_stale or drawn.get(slot) is not held.sample:
-                self._draw_sample(name, display, guard, held, frames)
+            look = held.sample, self._version
+            if drawn.get(slot) == look:
+                continue
+            if not is_slow(display, held.size):
+                drawn[slot] = look
+                context = self._context(frames, Placement(offset=held.sample.pose))
+                scope = _scope(name, slot)
+                self._call(scope, guard, display.draw, context, held.sample, voice=_voice(name))
+            elif self._errand is None:
+                self._send(name, display, held, look, frames)
         if not samples:
             self._statuses.pop(_voice(name), None)
             self._scales.pop(_voice(name), None)
-        self._drawn[name] = {slot: held.sample for slot, held in samples.items()}
 
-    def _draw_sample(
-        self, name: str, display: Display, guard: Guard, held: Held, frames: Frames
-    ) -> None:
-        placement = Placement(offset=held.sample.pose)
-        self._call(
-            _scope(name, held.slot),
-            guard,
-            display.draw,
-            frames,
-            held.sample,
-            placement=placement,
-            voice=_voice(name),
-        )
+    def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
+        """Draw a sample in a worker."""
+        context = self._context(frames, Placement(offset=held.sample.pose))
+        origins = self._drawing.origins(_scope(name, held.slot))
+        display = copy.copy(display)  # its properties may be set meanwhile
+
+        def draw() -> None:
+            display.draw(held.sample, context)
+            for key, group in context.groups.items():
+                bake(group, origins.get(key, (0.0, 0.0, 0.0)))
+
+        self._errand = _Errand(name, held, look, context, self._workers.submit(draw))
+
+    def _finish_errand(self, guard: Guard, histories: Histories, frames: Frames) -> bool:
+        """Show what was drawn in a worker; whether there was anything.
+
+        It is shown even if a newer message waits: else nothing is, if they come faster than they
+        are drawn.
+        """
+        errand = self._errand
+        if errand is None or not errand.done.done():
+            return False
+        self._errand = None
+        name, slot = errand.name, errand.held.slot
+        is_held = any(held.slot == slot and held.has_pose for held in histories[name].held)
+        if is_held and errand.context.frames.fixed_frame == frames.fixed_frame:
+            self._drawn[name][slot] = errand.look
+            self._call(
+                _scope(name, slot), guard, _result, errand.context, errand.done, voice=_voice(name)
+            )
+        return True
+
+    def _drop_errand(self) -> None:
+        if self._errand is not None:
+            self._workers.cancel(self._errand.done)
+            self._errand = None
+
+    def _context(self, frames: Frames, placement: Placement = Placement()) -> Context:
+        return Context(frames, self._tasks, self._state, placement, self.order)
 
     def _call(
         self,
         scope: str,
         guard: Guard,
         hook: Callable[..., None],
-        frames: Frames,
+        context: Context,
         *args: Any,
-        placement: Placement = Placement(),
         voice: str = "",
     ) -> None:
         """Call a hook that draws and update the scene; after a crash the previous nodes stay.
 
         Calls with one voice replace each other's statuses.
         """
-        context = Context(frames, self._tasks, self._state, placement, self.order)
         if guard(scope, hook, *args, context) is CRASHED:
             return
         self._drawing.replace(scope, context)
         self._statuses[voice or scope] = context.statuses
         self._scales[voice or scope] = context.color_scale
+
+
+def _result(done: Future[None], context: Context) -> None:
+    """The hook of a sample that was drawn in a worker: raises what it raised there."""
+    done.result()
 
 
 def _voice(name: str) -> str:

@@ -125,7 +125,7 @@ class Runner:
 
     def is_busy(self) -> bool:
         """Whether the result of slow work is not drawn yet."""
-        return self.display.enabled and self._painter.is_busy()
+        return self.display.enabled and bool(self._holder.busy_with or self._painter.is_busy())
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
@@ -165,7 +165,7 @@ class Runner:
     def _draw(self, frames: Frames) -> None:
         self._painter.is_stale |= self._holder.prepare(frames)
         self._painter.draw(self.display, self._guard, self._holder.histories, frames)
-        if self._services.tracer.wants(self.id):
+        if self._services.tracer.wants(self.id) and not self._painter.busy_with:
             self._services.tracer.drawn(self.id)
 
     def _statuses(
@@ -174,6 +174,12 @@ class Runner:
         result = self._holder.statuses(offers, frames, dropped)
         if lost := self._painter.lost(frames):
             result["Transform"] = Status(Level.ERROR, frames.why_not(lost[0]))
+        size = self._holder.busy_with or self._painter.busy_with
+        if size:
+            level = Level.WARN if self._painter.is_empty() else Level.OK
+            result["Loading"] = Status(level, f"Loading a message of {size / 1e6:.0f} MB.")
+        if self._holder.busy_with and self._holder.is_empty:
+            return result  # the display would say that no message was received
         return result | self._painter.statuses()
 
 

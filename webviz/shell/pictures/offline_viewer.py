@@ -89,7 +89,11 @@ class OfflineViewer:
                         f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
                         "the bag. Choose a longer time-out or an earlier time."
                     )
-                source.play_step(until_ns)
+                if self._viewer.is_busy():  # else messages might be dropped
+                    source.inbox.arrived.wait(LOOK_S)
+                else:
+                    source.play_step(until_ns)
+                source.inbox.arrived.clear()
                 self._viewer.turn()
         finally:
             self._studio.scene.is_watched = True

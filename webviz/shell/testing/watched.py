@@ -59,4 +59,4 @@ class WatchedViewer(FrameLoop):
     def is_busy(self) -> bool:
         """Whether a display is loading."""
         with self._lock:
-            return any(runner.is_busy() for runner in self._displays.list.active())
+            return super().is_busy()

@@ -1,0 +1,200 @@
+"""Large messages are folded and drawn in a thread, while the frame loop goes on."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+
+from webviz import Context, Display, Input, Sample, Topic
+from webviz.data.messages import encode
+from webviz.engine.commands import SetFixedFrame, SetProperty
+from webviz.engine.pipeline.background import SLOW_BYTES
+from webviz.engine.pipeline.folding import MAX_BYTES
+from webviz.shell.testing.messages import header
+
+SECOND = 1_000_000_000
+T = 100 * SECOND
+GRID = "nav_msgs/msg/OccupancyGrid"
+gates: list[threading.Event] = []
+"""One for each message in the order they are worked on; work waits until its gate is open."""
+
+
+def wait_at_gate() -> None:
+    gate = threading.Event()
+    gates.append(gate)
+    assert gate.wait(60)
+
+
+class Drawing(Display):
+    """A dot at the width of the map it is drawn of."""
+
+    is_threaded = True
+    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
+    height: float = 0.0
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        if len(sample.message.data) >= SLOW_BYTES:
+            wait_at_gate()
+        if sample.message.info.width == 13:
+            raise ValueError("thirteen")
+        ctx.points("dot", [[sample.message.info.width, 0, self.height]], (1, 1, 1), 0.1)
+
+
+class Folding(Display):
+    """A dot at the sum of all widths."""
+
+    is_threaded = True
+    topic: Annotated[Topic, Input(GRID)] = Topic("/map")
+
+    def fold(self, name: str, sample: Sample, state: tuple[int, ...] | None) -> tuple[int, ...]:
+        if len(sample.message.data) >= SLOW_BYTES:
+            wait_at_gate()
+        return (*(state or ()), sample.message.info.width)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        ctx.points("dots", [[width, 0, 0] for width in sample.message], (1, 1, 1), 0.1)
+
+
+@pytest.fixture(autouse=True)
+def all_gates_are_open_at_the_end(bench: Any) -> Iterator[None]:
+    gates.clear()
+    yield
+    for gate in gates:
+        gate.set()
+
+
+def send(at: Any, number: int, size: int = SLOW_BYTES, frame: str = "map") -> None:
+    """Publish a map that says which it is by its width."""
+    values = {"header": header(frame, T), "info": {"width": number}, "data": np.zeros(size, "i1")}
+    at.source.put("/map", GRID, encode(GRID, values))
+    at.turn()
+
+
+def dots(at: Any) -> list[list[float]]:
+    return [
+        (row + pose.position).tolist() for _, pose, node in at.scene.visible() for row in node.xyz
+    ]
+
+
+def until(at: Any, condition: Callable[[], object]) -> None:
+    """Turn until something is so."""
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline
+        at.turn()
+        time.sleep(0.005)
+
+
+def open_gate(at: Any, number: int) -> None:
+    """Let the work on a message end, once it has begun."""
+    until(at, lambda: len(gates) > number)
+    gates[number].set()
+
+
+def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench: Any) -> None:
+    at = bench(Drawing())
+    send(at, 1)
+    until(at, lambda: gates)
+    assert dots(at) == []
+    assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
+    assert "Display" not in at.statuses()
+    assert at.viewer.is_busy()
+    open_gate(at, 0)
+    until(at, lambda: dots(at) == [[1, 0, 0]])
+    assert "Loading" not in at.statuses()
+    assert not at.viewer.is_busy()
+
+
+def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
+    bench: Any,
+) -> None:
+    at = bench(Drawing())
+    send(at, 1)
+    open_gate(at, 0)
+    until(at, lambda: dots(at) == [[1, 0, 0]])
+    for number in (2, 3, 4):
+        send(at, number)
+    until(at, lambda: len(gates) == 2)
+    assert dots(at) == [[1, 0, 0]]
+    assert at.statuses()["Loading"][0] == "OK"
+    open_gate(at, 1)
+    until(at, lambda: len(gates) == 3)
+    assert dots(at) == [[2, 0, 0]]  # begun before the others came, and so not in vain
+    open_gate(at, 2)
+    until(at, lambda: dots(at) == [[4, 0, 0]])
+    assert len(gates) == 3
+
+
+def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: Any) -> None:
+    at = bench(Drawing())
+    send(at, 1)
+    until(at, lambda: gates)
+    at.viewer.enqueue(SetProperty("display1", "height", 5.0))
+    at.turn()
+    open_gate(at, 0)
+    open_gate(at, 1)
+    until(at, lambda: dots(at) == [[1, 0, 5]])
+
+
+def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> None:
+    """Another fixed frame, or a display that was switched off."""
+    at = bench(Drawing())
+    at.transform("odom", "map", T, 10.0, static=True)
+    send(at, 1)
+    until(at, lambda: gates)
+    at.viewer.enqueue(SetFixedFrame("odom"))
+    at.turn()
+    open_gate(at, 0)
+    until(at, lambda: len(gates) == 2)
+    assert dots(at) == []
+    open_gate(at, 1)
+    until(at, lambda: dots(at) == [[11, 0, 0]])
+    send(at, 2)
+    until(at, lambda: len(gates) == 3)
+    at.viewer.enqueue(SetProperty("display1", "enabled", False))
+    open_gate(at, 2)
+    until(at, lambda: not at.viewer.is_busy())
+    assert dots(at) == []
+
+
+def test_what_a_thread_raises_is_the_fault_of_its_display_and_not_tried_again(bench: Any) -> None:
+    at = bench(Drawing(), strict=False)
+    send(at, 13)
+    open_gate(at, 0)
+    until(at, lambda: "thirteen" in str(at.statuses()))
+    for _ in range(3):
+        at.turn()
+    assert len(gates) == 1
+    send(at, 1, size=1)
+    assert dots(at) == [[1, 0, 0]]
+
+
+def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) -> None:
+    at = bench(Folding())
+    send(at, 1)
+    send(at, 2, size=1)
+    until(at, lambda: gates)
+    assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
+    assert dots(at) == []
+    at.scene.watched = False  # all are folded, watched or not
+    open_gate(at, 0)
+    until(at, lambda: not at.viewer.is_busy())
+    at.scene.watched = True
+    send(at, 3, size=1)
+    assert [x for x, _, _ in dots(at)] == [1, 2, 3]
+
+
+def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Any) -> None:
+    at = bench(Folding())
+    for number in range(1, 5):
+        send(at, number, size=SLOW_BYTES if number == 1 else MAX_BYTES // 2 - 1000)
+    assert "1 message dropped" in at.statuses()["Message"][1]
+    for number in range(3):
+        open_gate(at, number)
+    until(at, lambda: not at.viewer.is_busy())
+    assert [x for x, _, _ in dots(at)] == [1, 3, 4]
