@@ -26,6 +26,7 @@ setup(
             "Nav2Goal = webviz.tools.nav2_goal:Nav2Goal",
             "PoseEstimate = webviz.tools.pose_estimate:PoseEstimate",
             "PublishPoint = webviz.tools.publish_point:PublishPoint",
+            "Teleop = webviz.tools.teleop:Teleop",
         ],
     },
     data_files=[

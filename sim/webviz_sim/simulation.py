@@ -12,7 +12,7 @@ from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS, Robot
 from webviz_sim.world import World, WorldError
 
-RESUME_AFTER = 2.0  # s without a command after which the tour continues
+RESUME_AFTER = 10.0  # s without a command after which the tour continues: a driver looks around
 REST = 1.0  # s at each place of the tour
 REST_AT_GOAL = 5.0  # s at a goal before the tour continues
 PATIENCE = 6.0  # s without progress after which a path is abandoned

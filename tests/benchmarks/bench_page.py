@@ -31,12 +31,14 @@ import playwright.sync_api as playwright
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
+from webviz.api.vehicle import Velocity
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Hello, Watch
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
 from webviz.engine.commands import Command, Sender
+from webviz.engine.driving import Answer
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
 from webviz.shell.pictures.browser import launched
@@ -175,7 +177,7 @@ def updates() -> None:
 def cost(readers: int, *states: State) -> float:
     """Microseconds per update with these states in turn: the least of all rounds."""
     with watched(readers) as channel:
-        pages, turns = Pages(channel, ignored), itertools.cycle(states)
+        pages, turns = Pages(channel, ignored, unsteered), itertools.cycle(states)
         for _ in states:
             pages.update(next(turns))
         timer = timeit.Timer(lambda: pages.update(next(turns)), timer=time.process_time)
@@ -188,13 +190,18 @@ def ignored(command: Command, sender: Sender) -> Future[str]:
     return Future()
 
 
+def unsteered(tool: str, browser: int, share: Velocity | None) -> Answer:
+    """Leave a vehicle alone."""
+    return Answer()
+
+
 class Viewer:
     """A server with a state that is shown to every page."""
 
     def __init__(self, count: int) -> None:
         self.count = count
         self.server: Server = open_server(port=0)
-        self._pages = Pages(self.server.channel, ignored)
+        self._pages = Pages(self.server.channel, ignored, unsteered)
         self._state = state_of(count)
 
     def update(self) -> None:

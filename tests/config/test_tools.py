@@ -18,6 +18,7 @@ def test_without_a_list_there_are_all_installed_tools_and_none_is_written() -> N
         ("2D Goal Pose", "/goal_pose"),
         ("2D Pose Estimate", "/initialpose"),
         ("Publish Point", "/clicked_point"),
+        ("Teleop", "/cmd_vel"),
     ]
     assert dump(config) == INSTALLED
 

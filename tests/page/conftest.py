@@ -15,6 +15,7 @@ import pytest
 from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
+from webviz.api.vehicle import Velocity
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
@@ -26,6 +27,7 @@ from webviz.engine.commands import (
     Sender,
     SetProperty,
 )
+from webviz.engine.driving import Answer
 from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 900, 800
@@ -70,13 +72,21 @@ class Loop:
         """To all commands."""
         self.made = ""
         """The id that commands answer with which make a display."""
+        self.steered: list[tuple[str, int, Velocity | None]] = []
+        """The set-points of vehicles."""
+        self.helm = Answer()
+        """To all of them."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
-        self.pages = Pages(server.channel, self._enqueue)
+        self.pages = Pages(server.channel, self._enqueue, self._steer)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
         answer: Future[str] = Future()
         self._queue.put((command, sender, answer))
         return answer
+
+    def _steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+        self.steered.append((tool, browser, share))
+        return self.helm
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""

@@ -17,6 +17,7 @@ from webviz.tools.goal_pose import GoalPose
 from webviz.tools.nav2_goal import Nav2Goal
 from webviz.tools.pose_estimate import PoseEstimate
 from webviz.tools.publish_point import PublishPoint
+from webviz.tools.teleop import Teleop
 
 TOOLS = """\
 Visualization Manager:
@@ -48,9 +49,10 @@ def written(config: Config) -> Any:
 
 
 def goals(config: Config) -> list[Tool]:
-    tools = [tool for tool in config.tools if isinstance(tool, GoalPose)]
-    assert len(tools) == len(config.tools)
-    return list(tools)
+    *tools, last = config.tools
+    assert type(last) is Teleop
+    assert all(type(tool) is GoalPose for tool in tools)
+    return [tool for tool in tools if isinstance(tool, GoalPose)]
 
 
 def test_tools_with_a_counterpart_are_imported_with_their_properties() -> None:
@@ -94,7 +96,7 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
     ]
     config, report = opened(json.dumps(tools))
     assert report.sentences() == []
-    estimate, point = config.tools
+    estimate, point, _ = config.tools
     assert isinstance(estimate, PoseEstimate)
     assert isinstance(point, PublishPoint)
     assert (estimate.covariance_x, estimate.covariance_yaw) == (0.5, 0.1)
@@ -105,7 +107,7 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
 
 def test_the_goal_tool_of_nav2_comes_back_with_what_was_changed_here() -> None:
     config, _ = opened("[{Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}]")
-    (tool,) = config.tools
+    tool = config.tools[0]
     assert isinstance(tool, Nav2Goal)
     set_property(tool, "behavior_tree", "/trees/slow.xml")
     set_property(tool, "navigate_to_pose", "/r1/navigate_to_pose")
@@ -144,10 +146,16 @@ def test_a_file_without_a_list_has_the_default_tools_and_gets_none(key: str, kep
     assert len(written(config)) > 5
 
 
-def test_a_toolbar_without_a_counterpart_stays_empty() -> None:
+def test_only_a_tool_that_rviz_lacks_is_added_to_a_toolbar_without_a_counterpart() -> None:
     config, _ = opened("[{Class: rviz_default_plugins/Measure}]")
-    assert config.tools == []
+    (teleop,) = config.tools
+    assert isinstance(teleop, Teleop)
+    _, report = rviz.write(config)
+    assert report.sentences() == []
     assert written(config) == [{"Class": "rviz_default_plugins/Measure"}]
+    set_property(teleop, "linear", 0.2)
+    _, report = rviz.write(config)
+    assert report.sentences() == ["Teleop: Teleop: skipped, because RViz has no such tool."]
 
 
 def test_a_tool_without_its_topic_has_the_default_one() -> None:

@@ -34,8 +34,9 @@ class Bench:
         parts: Sequence[Callable[[Core], Part]] = (),
         publish: tuple[str, ...] = ("/*",),
         may_publish: bool = True,
+        graph: Any = None,
     ) -> None:
-        self.source = HandFedSource()
+        self.source = HandFedSource(**({"graph": graph} if graph else {}))
         self.scene = RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Input:
-    """Marks a `Topic` property as an input of the display.
+    """Marks a `Topic` property as an input of the display or tool.
 
     Args:
         type: the message type, such as "sensor_msgs/msg/LaserScan". Messages with a header wait

@@ -31,10 +31,12 @@ from webviz.api.goal import GoalRequest, nothing
 from webviz.api.ports import Output
 from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
+from webviz.api.vehicle import Vehicle
 from webviz.data.messages import decode, encode, interfaces
 
-Gesture = Literal["point", "pose"]
-"""A click on a position, or a drag from a position towards a heading."""
+Gesture = Literal["point", "pose", "drive"]
+"""A click on a position, a drag from a position towards a heading, or keys and sticks that are
+held to drive the `vehicle` of the tool."""
 
 Position = tuple[float, float, float]
 
@@ -282,6 +284,11 @@ class Tool(Declared, kw_only=True):
     def uses(self) -> tuple[str, ...]:
         """The services and actions it sends to, for the button to say whether that is allowed."""
         return ()
+
+    @property
+    def vehicle(self) -> Vehicle | None:
+        """What it drives, with the present properties; None unless its gesture is "drive"."""
+        return None
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Act on a finished gesture; called by the frame loop."""

@@ -12,9 +12,11 @@ from pathlib import Path
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
+from webviz.engine.driving import Helms
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.history import HistoryPart
@@ -92,7 +94,9 @@ class FrameLoop:
         settings = self._settings = SettingsPart(core)
         views = ViewsPart(core, settings, displays)
         goals = GoalsPart(core)
-        tools = ToolsPart(core, goals)
+        self.helms = Helms(gate, source.now_ns)
+        """Of the vehicles that tools drive; they do not wait for the loop."""
+        tools = ToolsPart(core, goals, self.helms)
         files = self._files = FilesPart(core, displays, settings, views, tools, config, path)
         history = HistoryPart(core, displays, settings, views, tools, files)
         all_parts = [
@@ -103,6 +107,7 @@ class FrameLoop:
             views,
             tools,
             goals,
+            DrivingPart(core, self.helms, tools.odometry),
             files,
             history,
             TopicsPart(core),
@@ -139,6 +144,7 @@ class FrameLoop:
 
     def stop(self) -> None:
         """End `run`, from any thread or a signal handler."""
+        self.helms.stop()
         self._stop.set()
         self._wake()
 
@@ -158,7 +164,8 @@ class FrameLoop:
             self.close()
 
     def close(self) -> None:
-        """End all threads, and autosave."""
+        """Stop all vehicles, and end all threads and autosave."""
+        self.helms.close()
         self._requests.end()
         self._parts.close()
         self._workers.close()

@@ -216,6 +216,23 @@ class GoalProgress:
 
 
 @dataclass(frozen=True)
+class Driving:
+    """A vehicle that browsers attend to.
+
+    Args:
+        driver: id of the browser that drives, None if none does.
+        speed: of the robot in m/s, negative while it backs; None if it is unknown.
+        turn_rate: of the robot in rad/s, counter-clockwise; None if it is unknown.
+        problem: why they are unknown, with a remedy; "" if they are not.
+    """
+
+    driver: int | None = None
+    speed: float | None = None
+    turn_rate: float | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
 class Step:
     """Something that was changed.
 
@@ -259,6 +276,7 @@ class State:
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
         goals: that tools sent to actions, oldest first.
+        driving: the vehicles that browsers attend to, by id of their tool.
         history: what can be undone and redone.
         more: fields of additional parts, by name.
     """
@@ -279,5 +297,6 @@ class State:
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
     goals: tuple[GoalProgress, ...] = ()
+    driving: Mapping[str, Driving] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()
     more: Mapping[str, Any] = field(default_factory=dict)

@@ -116,7 +116,8 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
     lines = ["# The tools", "", "The toolbar of the page has a button for each.", ""]
     for name, cls in types.items():
         lines += [f"## {cls.title or name}", "", *paragraphs(cls), ""]
-        lines += [f"RViz2's `{cls.rviz}`. In a config file: `- type: {name}` of `tools`."]
+        origin = f"RViz2's `{cls.rviz}`." if cls.rviz else "RViz2 has no such tool."
+        lines += [f"{origin} In a config file: `- type: {name}` of `tools`."]
         lines += [f"Key: `{cls.shortcut}`." if cls.shortcut else "", ""]
         rows = [(f"`{key}`", f"`{out.type}`") for key, out in outputs_of(cls).items()]
         lines += [*table(("output", "message"), rows), ""] if rows else []

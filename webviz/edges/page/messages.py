@@ -181,6 +181,44 @@ class StrokeDone(FromPage, frozen=True):
     number: int = 0
 
 
+Share = Annotated[float, msgspec.Meta(ge=-1, le=1)]
+"""Of the highest speed of a vehicle along one axis."""
+
+
+class Drive(FromPage, frozen=True):
+    """The heartbeat of a page with the controls of a vehicle: what is held there.
+
+    Args:
+        tool: id of the tool.
+        beat: the newest that the page has received in a `Helm`, 0 for none.
+        linear, lateral, angular: ahead, to the left and counter-clockwise.
+    """
+
+    tool: str
+    beat: Number
+    linear: Share
+    lateral: Share
+    angular: Share
+
+
+class Helm(ToPage, frozen=True):
+    """Answers a `Drive`.
+
+    Args:
+        tool: id of the tool.
+        beat: proves, when it comes back, that the page is alive.
+        driver: id of the browser that drives, None if it is free.
+        problem: why commands do not reach the robot, with a remedy; "" if they do.
+    """
+
+    kept = True
+
+    tool: str
+    beat: Number
+    driver: int | None
+    problem: str
+
+
 class Shell(ToPage, frozen=True):
     """Shows what is around the scene. Without it, as for pictures, a page has the scene only.
 

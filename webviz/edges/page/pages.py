@@ -9,6 +9,7 @@ from webviz.api.registry import display_types
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
+from webviz.edges.page.driving import Driving, Steer
 from webviz.edges.page.messages import Ping, Pong, Shell
 from webviz.edges.page.plugin_panels import PluginPanels
 from webviz.edges.page.reading import Reading
@@ -28,13 +29,20 @@ class Pages:
     Args:
         channel: to the pages.
         enqueue: takes commands and their senders, from any thread.
+        steer: takes set-points of vehicles, see `webviz.engine.driving.Helms`.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
+    def __init__(
+        self,
+        channel: Channel,
+        enqueue: Callable[[Command, Sender], Future[str]],
+        steer: Steer,
+    ) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
         self._toolbar = Toolbar(channel, enqueue)
         self._acts = Acts(channel, enqueue)
+        self._driving = Driving(channel, steer)
         self._wishes = Wishes(enqueue)
         self._panels = panels = PluginPanels(channel, enqueue)
         self._of_panels = {

@@ -19,8 +19,10 @@ from webviz.api.goal import GoalRequest
 from webviz.api.ports import Output
 from webviz.api.status import Level, Status
 from webviz.api.tool import Stroke, Tool, ToolContext, outputs
+from webviz.api.vehicle import Vehicle
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
+from webviz.engine.driving import Helms
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.refusals import not_changed
@@ -35,6 +37,8 @@ MAX_POINTS = 1000
 """Of a stroke."""
 DEPTH = 5
 """Queue depth of a publisher, RViz's."""
+DRIVING_DEPTH = 1
+"""Of velocity commands: only the newest counts."""
 Report = Callable[[Status], None]
 
 
@@ -44,13 +48,15 @@ class ToolsPart(Part):
     Args:
         core: shared by all parts.
         goals: takes the goals of tools.
+        helms: of the vehicles that tools drive.
     """
 
     name = "Tools"
 
-    def __init__(self, core: Core, goals: GoalsPart) -> None:
+    def __init__(self, core: Core, goals: GoalsPart, helms: Helms) -> None:
         super().__init__(core)
         self._goals = goals
+        self._helms = helms
         self._items: dict[str, ToolItem] = {}
         self._made = 0
         self._advertised: set[Outlet] = set()
@@ -73,6 +79,11 @@ class ToolsPart(Part):
         """The tools to save: a snapshot, for any thread."""
         return [copy.copy(item) for item in self._items.values()]
 
+    def odometry(self) -> dict[str, Topic]:
+        """The odometry of each vehicle, by id of its tool."""
+        vehicles = {id: tool.vehicle for id, tool in self._tools().items()}
+        return {id: vehicle.odometry for id, vehicle in vehicles.items() if vehicle}
+
     def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
         """What undo needs of the tools, by id; unchanged ones are those from `before`."""
         return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
@@ -86,16 +97,24 @@ class ToolsPart(Part):
         }
 
     def keep_up(self, commanded: bool) -> None:
-        """Advertise the outputs of all tools, so that their first messages arrive."""
-        wanted = {
-            outlet
-            for tool in self._tools().values()
-            for outlet in self._outlets(tool)
-            if not self.core.gate.refusal(outlet.topic)
-        }
+        """Advertise the outputs of all tools, so that their first messages arrive.
+
+        Those of vehicles only while browsers attend to them: it is the robot's own topic.
+        """
+        vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
+        wanted: set[Outlet] = set()
+        for id, tool in self._tools().items():
+            if (vehicle := tool.vehicle) is None:
+                wanted.update(self._outlets(tool))
+            elif outlet := self._outlet(vehicle.type, vehicle.topic, DRIVING_DEPTH):
+                vehicles[id] = vehicle, outlet
+        self._helms.equip(vehicles)
+        wanted |= self._helms.outlets()
+        stopping = self._helms.stopping()
+        wanted = {each for each in wanted if not self.core.gate.refusal(each.topic)} | stopping
         if wanted != self._advertised:
             self._advertised = wanted
-            self.core.gate.advertise(wanted)
+            self.core.gate.advertise(wanted, stopping)
 
     def state(self) -> Mapping[str, Any]:
         """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
@@ -152,7 +171,7 @@ class ToolsPart(Part):
 
     def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> bool:
         """Publish a message, and report the result; whether it may be published."""
-        outlet = self._outlet(output, topic)
+        outlet = self._outlet(output.type, topic)
         if outlet is None:
             report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
             return False
@@ -175,11 +194,11 @@ class ToolsPart(Part):
 
     def _outlets(self, tool: Tool) -> list[Outlet]:
         """The outlets of a tool whose topics have valid names."""
-        found = [self._outlet(output, topic) for _, output, topic in outputs(tool)]
+        found = [self._outlet(output.type, topic) for _, output, topic in outputs(tool)]
         return [outlet for outlet in found if outlet]
 
-    def _outlet(self, output: Output, topic: Topic) -> Outlet | None:
-        """The outlet of an output; None if its topic has no valid name."""
+    def _outlet(self, type: str, topic: Topic, depth: int = DEPTH) -> Outlet | None:
+        """Where messages of a type are published; None if the topic has no valid name."""
         try:
             name = self.core.source.resolve(topic.name) if topic.name else ""
         except ValueError:
@@ -188,10 +207,10 @@ class ToolsPart(Part):
             return None
         return Outlet(
             name,
-            output.type,
+            type,
             "best_effort" if topic.reliability == "best_effort" else "reliable",
             "transient_local" if topic.durability == "transient_local" else "volatile",
-            topic.depth or DEPTH,
+            topic.depth or depth,
         )
 
     def _set(self, command: SetToolProperty, sender: Sender) -> None:

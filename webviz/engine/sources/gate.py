@@ -71,14 +71,27 @@ class Gate:
             return f"{name} is not in the list `publish` of this config. Add it to the file."
         return ""
 
-    def advertise(self, outlets: Collection[Outlet]) -> Future[None]:
-        """Make the advertised publishers these, without those that are refused."""
-        allowed = {outlet for outlet in outlets if not self.refusal(outlet.topic)}
+    def advertise(
+        self, outlets: Collection[Outlet], stopping: Collection[Outlet] = ()
+    ) -> Future[None]:
+        """Make the advertised publishers these, without those that are refused.
+
+        Args:
+            outlets: to advertise.
+            stopping: which of them stay although they are refused, see `halt`.
+        """
+        allowed = {
+            outlet for outlet in outlets if outlet in stopping or not self.refusal(outlet.topic)
+        }
         return self._source.graph.advertise(allowed)
 
     def publish(self, outlet: Outlet, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
         return self._graph(outlet.topic).publish(outlet, cdr)
+
+    def halt(self, outlet: Outlet, cdr: bytes) -> Future[int]:
+        """Publish a zero that stops what was driven, even if that is refused by now."""
+        return self._source.graph.publish(outlet, cdr)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Call a service; the serialised response."""

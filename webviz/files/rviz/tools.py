@@ -32,7 +32,10 @@ NEW_TOOLS: list[Tree] = [
 
 
 def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
-    """The tools of the list at `place` in a .rviz file; without a list, all tools."""
+    """The tools of the list at `place` in a .rviz file; without a list, all tools.
+
+    Tools that RViz does not have are added: no such list can name them.
+    """
     if not isinstance(entries, list):
         return all_tools()
     tools: list[ToolItem] = []
@@ -42,7 +45,7 @@ def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
             tool = _tool_from(cls, tree, reading)
             note_properties(tool, tree, reading, report, place.at(index))
             tools.append(tool)
-    return tools
+    return [*tools, *(tool for tool in _all() if not type(tool).rviz)]
 
 
 def write_tools(tools: list[ToolItem], kept: Any, report: Report) -> list[Any] | None:
@@ -50,9 +53,9 @@ def write_tools(tools: list[ToolItem], kept: Any, report: Report) -> list[Any] |
 
     `kept` is the list of the file that they come from; `report` receives skipped tools.
     """
-    waiting = [tool for tool in tools if is_writable(tool, report)]
+    waiting = [tool for tool in tools if not _is_added(tool) and is_writable(tool, report)]
     if not isinstance(kept, list):
-        if list(map(_bare, waiting)) == [_bare(t) for t in all_tools() if isinstance(t, Tool)]:
+        if list(map(_bare, waiting)) == [_bare(tool) for tool in _all() if type(tool).rviz]:
             return None
         kept = NEW_TOOLS
     written = []
@@ -64,6 +67,15 @@ def write_tools(tools: list[ToolItem], kept: Any, report: Report) -> list[Any] |
             waiting.remove(found)
             written.append(_write(found, entry))
     return written + [_bare(tool) for tool in waiting]
+
+
+def _all() -> list[Tool]:
+    return [tool for tool in all_tools() if isinstance(tool, Tool)]
+
+
+def _is_added(tool: ToolItem) -> bool:
+    """Whether `read_tools` adds the tool as it is."""
+    return isinstance(tool, Tool) and not type(tool).rviz and not to_values(tool)
 
 
 def _counterpart(entry: Any) -> type[Tool] | None:

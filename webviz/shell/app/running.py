@@ -110,7 +110,7 @@ class Running:
                 may_publish=publish,
                 autosave=autosave,
             )
-            self._pages = Pages(server.channel, self._loop.enqueue)
+            self._pages = Pages(server.channel, self._loop.enqueue, self._loop.helms.steer)
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)

@@ -16,7 +16,7 @@ from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
-from webviz.edges.page.content.tools import tool
+from webviz.edges.page.content.tools import driving, tool
 from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.transforms import between, transforms
 from webviz.edges.page.content.types import types
@@ -28,6 +28,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "between": between,
     "clock": clock,
     "displays": displays,
+    "driving": driving,
     "file": file,
     "frames": frames,
     "goals": goals,

@@ -1,4 +1,4 @@
-"""The properties of one tool."""
+"""The properties of one tool, and the vehicle that it drives."""
 
 from __future__ import annotations
 
@@ -21,3 +21,15 @@ def tool(state: State, id_: str) -> Mapping[str, Any]:
         "declared": form(cls, ("name",)),
     }
     return declared | values_of(button.tool, ("name",))
+
+
+def driving(state: State, id_: str) -> Mapping[str, Any]:
+    """What the vehicle of the tool with this id does; nothing while no browser attends to it."""
+    found = state.driving.get(id_)
+    if found is None:
+        return {}
+    return {
+        "speed": found.speed,
+        "turn_rate": found.turn_rate,
+        "problem": sendable(found.problem),
+    }

@@ -55,6 +55,7 @@ const PATHS = {
   trash: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
   tree: "M6 4v13h6M6 9h6M12 7h7v4h-7zM12 15h7v4h-7z",
   upload: "M12 16V5m-5 5 5-5 5 5M4 20h16",
+  wheel: "M12 21a9 9 0 1 0 0-18 9 9 0 0 0 0 18M12 14a2 2 0 1 0 0-4 2 2 0 0 0 0 4M3.2 11 10 12M20.8 11 14 12M12 14v7",
 };
 
 /** An icon; a square dot for a name that there is none of. */

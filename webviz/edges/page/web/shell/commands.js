@@ -8,6 +8,7 @@ const TYPED =
 
 const fixed = new Set();
 const makers = new Set();
+const takers = new Set();
 
 /**
  * Adds a command; returns what takes it away.
@@ -29,6 +30,12 @@ export function provide(make) {
   return () => makers.delete(make);
 }
 
+/** Lets `take(event)` have keys before commands: it says whether it took one. Returns what ends it. */
+export function takeKeys(take) {
+  takers.add(take);
+  return () => takers.delete(take);
+}
+
 /** All commands that can be done now. */
 export function all() {
   const commands = [...fixed, ...[...makers].flatMap((make) => make())];
@@ -48,6 +55,11 @@ export function install() {
     if (event.defaultPrevented || event.isComposing) return;
     const key = keyOf(event);
     const isInField = isTyping(event);
+    if (!isInField && [...takers].some((take) => take(event))) {
+      event.preventDefault();
+      event.stopPropagation();
+      return;
+    }
     const matches = (one) => keysOf(one).includes(key) && (!isInField || one.inFields);
     // As in RViz, the last one with a key has it.
     const found = all().findLast(matches);

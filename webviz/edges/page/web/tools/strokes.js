@@ -6,6 +6,7 @@ import { tell, tellLive } from "./hint.js";
 import * as history from "./history.js";
 import { active, provide, select } from "./registry.js";
 import * as stroke from "./stroke.js";
+import * as teleop from "./teleop.js";
 import * as waypoints from "./waypoints.js";
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
@@ -17,13 +18,18 @@ const HINTS = {
 };
 
 export function install() {
-  channel.on("Tools", ({ tools }) => provide("viewer", tools.map(strokeTool)));
+  teleop.install();
+  channel.on("Tools", ({ tools }) => provide("viewer", tools.map(toolOf)));
   channel.on("Result", ({ number, level, text }) => {
     history.told(number, level, text);
     tell(level, text);
   });
   channel.on("Published", ({ number, topic, message_type, values }) =>
     history.published(number, { topic, type: message_type, values }));
+}
+
+function toolOf(known, index) {
+  return known.gesture === "drive" ? teleop.tool(known, FIRST + index) : strokeTool(known, index);
 }
 
 function strokeTool(known, index) {

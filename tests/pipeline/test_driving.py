@@ -1,0 +1,206 @@
+"""Driving beside the frame loop, with a graph that remembers what is published."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from remembering_graph import RememberingGraph
+
+from webviz.api.vehicle import STILL, Velocity
+from webviz.commands import Load, SetToolProperty, Undo
+from webviz.engine.driving.helm import PERIOD_S, TAIL
+from webviz.engine.sources import Outlet
+from webviz.engine.state import Driving
+
+TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
+CMD_VEL = Outlet("/cmd_vel", TWIST, depth=1)
+AHEAD = Velocity(linear=1.0)
+PATIENCE_S = 60.0
+
+
+class Hand:
+    """Holds something on a page, with heartbeats from a thread of its own."""
+
+    def __init__(self, b: Any, browser: int, held: Velocity = AHEAD) -> None:
+        self._set_point = teleop(b), browser, held
+        self._steer = b.viewer.helms.steer
+        self._let_go = threading.Event()
+        self._thread = threading.Thread(target=self._hold)
+        self._thread.start()
+
+    def _hold(self) -> None:
+        while not self._let_go.wait(0.01):
+            self._steer(*self._set_point)
+
+    def vanish(self) -> None:
+        """Send nothing more."""
+        self._let_go.set()
+        self._thread.join()
+
+
+@pytest.fixture
+def b(bench: Callable[..., Any]) -> Any:
+    return bench(graph=RememberingGraph())
+
+
+@pytest.fixture
+def hold(b: Any) -> Iterator[Callable[..., Hand]]:
+    hands: list[Hand] = []
+
+    def hold(browser: int = 1, held: Velocity = AHEAD) -> Hand:
+        hands.append(Hand(b, browser, held))
+        return hands[-1]
+
+    yield hold
+    for hand in hands:
+        hand.vanish()
+
+
+def teleop(b: Any) -> str:
+    """The id of the tool; another one after a config was opened."""
+    return next(button.id for button in b.states[-1].tools if button.name == "Teleop")
+
+
+def speeds(b: Any) -> list[float]:
+    return [twist.linear.x for outlet, twist in b.source.graph.published if outlet == CMD_VEL]
+
+
+def until(condition: Callable[[], Any]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
+
+
+def stands(b: Any) -> bool:
+    """Whether a drive ended with zeros, and nothing more."""
+    ended = speeds(b)
+    return ended[-TAIL:] == [0.0] * TAIL and ended[-TAIL - 1] > 0.0
+
+
+def advertised(b: Any) -> set[Outlet]:
+    b.viewer._next_panel = 0.0
+    b.turn()
+    return {outlet for outlet in b.source.graph.advertised if outlet.type.startswith(TWIST)}
+
+
+def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    hand = hold()
+    until(lambda: speeds(b)[-1:] == [0.5])  # no turn of the loop since the press
+    hand.vanish()
+    until(lambda: stands(b))
+    outlets = {outlet for outlet, _ in b.source.graph.published}
+    assert outlets == {CMD_VEL}
+    (angular, lateral) = b.source.graph.published[0][1].angular.z, b.source.graph.published[0][1]
+    assert (angular, lateral.linear.y) == (0.0, 0.0)
+
+
+def test_the_topic_is_the_robots_alone_while_nobody_attends(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    assert advertised(b) == set()
+    assert "/odom" not in b.source.wanted
+    assert b.viewer.helms.steer(teleop(b), 1, STILL).driver is None
+    assert advertised(b) == {CMD_VEL}
+    assert b.source.wanted["/odom"].type == ODOMETRY
+    time.sleep(2 * PERIOD_S)
+    assert b.source.graph.published == []
+    until(lambda: advertised(b) == set())
+
+
+@pytest.mark.parametrize(
+    ("change", "goes_on"),
+    [
+        (lambda b: b.do(SetToolProperty("Teleop", "topic.name", "/other")), True),
+        (lambda b: b.do(SetToolProperty("Teleop", "message", "TwistStamped")), True),
+        (lambda b: b.do(Load("displays: []\ntools: []\n", "x.yaml")), False),
+        (lambda b: b.viewer.stop(), False),
+        (lambda b: b.viewer.close(), False),
+    ],
+    ids=["other topic", "other type", "tool removed", "viewer told to stop", "viewer closed"],
+)
+def test_what_is_driven_stops_when_it_is_taken_away(
+    b: Any, hold: Callable[..., Hand], change: Callable[[Any], object], goes_on: bool
+) -> None:
+    tool = teleop(b)
+    hand = hold()
+    until(lambda: speeds(b)[-1:] == [0.5])
+    change(b)
+    until(lambda: stands(b))
+    # What is still held was not meant for another robot.
+    assert {outlet for outlet, _ in b.source.graph.published} == {CMD_VEL}
+    hand.vanish()
+    b.viewer.helms.steer(tool, 1, STILL)
+    assert (b.viewer.helms.steer(tool, 1, AHEAD).driver == 1) == goes_on
+
+
+def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    b.do(SetToolProperty("Teleop", "linear", 0.2))
+    hold()
+    until(lambda: speeds(b)[-1:] == [0.2])
+    b.do(Undo())
+    until(lambda: speeds(b)[-1:] == [0.5])
+
+
+def test_the_second_driver_learns_who_has_control_also_through_another_tool(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    b.do(Load("tools: [{type: Teleop}, {type: Teleop, name: Slow, linear: 0.1}]\n", "x.yaml"))
+    first = hold(browser=7)
+    until(lambda: speeds(b)[-1:] == [0.5])
+    other = next(button.id for button in b.states[-1].tools if button.name == "Slow")
+    steer = b.viewer.helms.steer
+    assert [steer(tool, 8, AHEAD).driver for tool in (teleop(b), other)] == [7, 7]
+    assert b.viewer.helms.drivers() == {teleop(b): 7}
+    first.vanish()
+    until(lambda: steer(other, 8, AHEAD).driver == 8)
+    until(lambda: speeds(b)[-1:] == [0.0])
+
+
+def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Callable[..., Hand]) -> None:
+    steer = b.viewer.helms.steer
+    assert "no valid topic, or is gone" in steer("tool99", 1, AHEAD).problem
+    b.source.graph.subscriptions = 0
+    hold()
+    until(lambda: "No subscription to /cmd_vel as Twist. " in steer(teleop(b), 1, None).problem)
+    b.source.graph.subscriptions = 1
+    until(lambda: steer(teleop(b), 1, None).problem == "")
+
+
+def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench()
+    answer = b.viewer.helms.steer(teleop(b), 1, AHEAD)
+    assert (answer.driver, answer.problem) == (None, "This source can only be read.")
+
+
+def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
+    def readout() -> Driving:
+        b.viewer.helms.steer(teleop(b), 1, STILL)
+        b.viewer._next_panel = 0.0
+        b.turn()
+        return b.states[-1].driving[teleop(b)]
+
+    remedy = "Choose another topic of odometry in the panel Tools."
+    assert readout() == Driving(problem=f"No publisher on /odom. {remedy}")
+    for x, y, z, expected in (
+        (0.3, 0.0, -0.25, Driving(None, 0.3, -0.25)),
+        (-0.3, 0.4, 0.0, Driving(None, 0.5, 0.0)),
+        (-0.4, 0.3, -0.001, Driving(None, -0.5, 0.0)),
+    ):
+        twist = {"linear": {"x": x, "y": y}, "angular": {"z": z}}
+        b.publish("/odom", ODOMETRY, {"twist": {"twist": twist}})
+        assert readout() == expected
+    b.publish("/odom", ODOMETRY, {"twist": {"twist": {"linear": {"x": float("nan")}}}})
+    assert readout().problem == "/odom has velocities that are not finite."
+    b.clock += 2.0
+    assert readout() == Driving(problem=f"No message on /odom. {remedy}")

@@ -1,0 +1,50 @@
+"""Set-points of pages that drive, straight from the channel: the frame loop may be busy."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import TypeAlias
+
+from webviz.api.vehicle import Velocity
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import Drive, Helm
+from webviz.engine.driving import Answer
+
+FRESH_S = 0.5
+"""A heartbeat counts if it answers a beat no older than this."""
+BEAT_S = 0.05
+"""Between two beats."""
+
+Steer: TypeAlias = Callable[[str, int, Velocity | None], Answer]
+
+
+class Driving:
+    """Passes on what is held on pages.
+
+    A page that is gone may have left messages behind, in buffers of the network or because it sent
+    more than is read. Therefore a set-point counts only if it comes with a beat, a random number,
+    that the page has just received.
+
+    Args:
+        channel: to the pages.
+        steer: takes a set-point: tool, browser and shares of the highest speeds.
+    """
+
+    def __init__(self, channel: Channel, steer: Steer) -> None:
+        self._channel = channel
+        self._steer = steer
+        self._beats: deque[tuple[float, int]] = deque(maxlen=round(FRESH_S / BEAT_S) + 1)
+        channel.on(Drive, self._hear)
+
+    def _hear(self, browser: int, drive: Drive) -> None:
+        now = time.monotonic()
+        held = Velocity(drive.linear, drive.lateral, drive.angular)
+        is_fresh = any(beat == drive.beat and now - at < FRESH_S for at, beat in self._beats)
+        answer = self._steer(drive.tool, browser, held if is_fresh else None)
+        if not self._beats or now - self._beats[-1][0] >= BEAT_S:
+            self._beats.append((now, 1 + secrets.randbits(52)))
+        beat = self._beats[-1][1]
+        self._channel.send(Helm(drive.tool, beat, answer.driver, answer.problem), browser)

@@ -1,0 +1,82 @@
+// The card over the scene while one drives: the stick, and what the robot does.
+
+import { el, set, setText } from "../dom.js";
+import { makeStick } from "./teleop_stick.js";
+
+/** Makes the card; `change()` is called when its controls are held or let go. */
+export function makeCard(change) {
+  const stick = makeStick(change);
+  const sideways = [["Q", "Drive to the left", 1], ["E", "Drive to the right", -1]].map(
+    ([key, label, way]) => makeHold(key, label, way, change));
+  const speed = el("output", { "aria-label": "Speed" });
+  const turnRate = el("output", { "aria-label": "Turn rate" });
+  const topic = el("span", { class: "wv-teleop-topic" });
+  const note = el("p", { class: "wv-teleop-note", role: "status" });
+  const [left, right] = sideways.map(({ element }) => element);
+  const element = el("section", { class: "wv-teleop wv-card", "aria-label": "Teleop" },
+    el("div", { class: "wv-teleop-row" },
+      el("dl", { class: "wv-teleop-readout" },
+        el("dt", {}, "Speed"), el("dd", {}, speed, el("span", {}, "m/s")),
+        el("dt", {}, "Turn rate"), el("dd", {}, turnRate, el("span", {}, "rad/s")),
+        topic),
+      el("div", { class: "wv-teleop-stick" }, stick.element, left, right)),
+    note);
+  const parts = [stick, ...sideways];
+  return {
+    element,
+    /** Puts the focus where arrow keys drive. */
+    focus: () => stick.element.focus({ preventScroll: true }),
+    release() {
+      for (const part of parts) part.release();
+    },
+    /** What is held, as `share` of teleop_keys.js. */
+    share: () => parts.map((part) => part.share()).reduce(added),
+    showHeld: stick.show,
+    showRobot(values) {
+      for (const [output, key] of [[speed, "speed"], [turnRate, "turn_rate"]]) {
+        setText(output, values.get(key)?.toFixed(2).replace("-", "−") ?? "–");
+      }
+      const problem = values.get("problem") || null;
+      set(speed.parentElement.parentElement, { "data-tip": problem });
+    },
+    showTool(values) {
+      const name = values.get("value.topic.name") ?? "";
+      setText(topic, name);
+      for (const button of [left, right]) button.hidden = !values.get("value.lateral");
+    },
+    showNote(text, isRefused) {
+      setText(note, text);
+      set(note, { "data-level": isRefused ? "warn" : null });
+      if (note.hidden !== (text === "")) note.hidden = text === "";
+    },
+  };
+}
+
+const added = (a, b) => a.map((part, axis) => part + b[axis]);
+
+// A button that counts while it is held.
+function makeHold(key, label, way, change) {
+  let pointer = null;
+  const lift = (event) => {
+    if (event.pointerId !== pointer) return;
+    pointer = null;
+    change();
+  };
+  const element = el("button", {
+    type: "button", class: "wv-icon wv-teleop-side", "aria-label": label, "data-tip": label,
+    "data-key": key, tabindex: -1,
+    onpointerdown(event) {
+      if (pointer !== null || event.button !== 0) return;
+      element.setPointerCapture(event.pointerId);
+      pointer = event.pointerId;
+      change();
+    },
+    onpointerup: lift, onpointercancel: lift, onlostpointercapture: lift,
+    oncontextmenu: (event) => event.preventDefault(),
+  }, way > 0 ? "◀" : "▶");
+  return {
+    element,
+    release: () => (pointer = null),
+    share: () => [0, pointer === null ? 0 : way, 0],
+  };
+}

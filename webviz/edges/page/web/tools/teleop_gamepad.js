@@ -1,0 +1,23 @@
+// The sticks of a gamepad: the left one drives, the right one goes sideways.
+
+const DEAD = 0.15; // of a stick that does not quite come back to its middle
+const [LEFT_X, LEFT_Y, RIGHT_X] = [0, 1, 2];
+
+let isArmed = false;
+
+/** A stick counts once it has been in its middle, so that nothing drives off by itself. */
+export const disarm = () => (isArmed = false);
+
+/** What is held, as `share` of teleop_keys.js. */
+export function share() {
+  const pads = [...(navigator.getGamepads?.() ?? [])];
+  const axes = pads.find((pad) => pad?.connected && pad.axes.length > LEFT_Y)?.axes ?? [];
+  const held = [LEFT_Y, RIGHT_X, LEFT_X].map((axis) => alive(-(axes[axis] ?? 0)));
+  isArmed ||= held.every((part) => part === 0);
+  return isArmed ? held : [0, 0, 0];
+}
+
+function alive(value) {
+  const size = (Math.min(1, Math.abs(value)) - DEAD) / (1 - DEAD);
+  return size > 0 ? Math.sign(value) * size : 0;
+}

@@ -1,0 +1,39 @@
+// Keys that drive while they are held, by their places on the keyboard.
+
+const [LINEAR, LATERAL, ANGULAR] = [0, 1, 2];
+const KEYS = {
+  KeyW: [LINEAR, 1], ArrowUp: [LINEAR, 1],
+  KeyS: [LINEAR, -1], ArrowDown: [LINEAR, -1],
+  KeyA: [ANGULAR, 1], ArrowLeft: [ANGULAR, 1],
+  KeyD: [ANGULAR, -1], ArrowRight: [ANGULAR, -1],
+  KeyQ: [LATERAL, 1], KeyE: [LATERAL, -1],
+};
+
+const held = new Set();
+
+/** Whether a key drives; then it is held from now on. Q and E go sideways, if the robot can. */
+export function press(event, canGoSideways) {
+  const [axis] = KEYS[event.code] ?? [];
+  if (event.ctrlKey || event.metaKey || event.altKey) release(); // some hide that a key is let go
+  else if (axis !== undefined && (axis !== LATERAL || canGoSideways)) {
+    if (!event.repeat) held.add(event.code);
+    return true;
+  }
+  return false;
+}
+
+/** A key is let go. */
+export const lift = ({ code }) => held.delete(code);
+
+/** All keys are let go. */
+export const release = () => held.clear();
+
+/** What is held: shares of the highest speeds ahead, to the left and counter-clockwise. */
+export function share() {
+  const axes = [0, 0, 0];
+  for (const code of held) {
+    const [axis, way] = KEYS[code];
+    axes[axis] = Math.max(-1, Math.min(1, axes[axis] + way));
+  }
+  return axes;
+}

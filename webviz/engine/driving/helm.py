@@ -1,0 +1,132 @@
+"""The helm of one vehicle: who drives it, and how fast it should move now."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from webviz.api.vehicle import STILL, Vehicle, Velocity
+from webviz.engine.sources.graph import Outlet
+
+BEAT_S = 0.2
+"""A driver who is silent for longer has lost control."""
+RELEASE_S = 1.0
+"""From letting go until another browser may drive."""
+PERIOD_S = 0.05
+"""Between two commands."""
+TAIL = 5
+"""Zeros that end a drive, in case that one of them is lost."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a browser learns about a helm.
+
+    Args:
+        driver: id of the browser that drives, None if it is free.
+        problem: why commands do not reach the robot, with a remedy; "" if they do.
+    """
+
+    driver: int | None = None
+    problem: str = ""
+
+
+class Helm:
+    """Turns the set-points of one browser at a time into velocities. Times are monotonic, in s.
+
+    Args:
+        vehicle: what is driven; may be replaced by one with other limits.
+        outlet: where its commands go.
+        holding: id of a browser that has to let go first: what it holds was meant for another one.
+    """
+
+    def __init__(self, vehicle: Vehicle, outlet: Outlet, holding: int | None = None) -> None:
+        self.vehicle = vehicle
+        self.outlet = outlet
+        self._holding = holding
+        self._driver: int | None = None
+        self._wanted = STILL
+        self._velocity = STILL
+        self._heard = self._held = self._stepped = -math.inf
+        self._tail = 0
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether there is nothing to publish."""
+        return self._wanted == self._velocity == STILL and self._tail == 0
+
+    def driver(self, now: float) -> int | None:
+        """The browser in control."""
+        is_held = self._velocity != STILL or now - self._held < RELEASE_S
+        return self._driver if is_held else None
+
+    def steer(self, browser: int, share: Velocity, now: float) -> bool:
+        """Take a set-point, unless another browser is in control.
+
+        Args:
+            browser: its id.
+            share: of the limits, from -1 to 1; what is not finite counts as 0.
+            now: the time.
+
+        Returns:
+            Whether something else is wanted now.
+        """
+        if self.driver(now) not in (None, browser):
+            return False
+        wanted = Velocity(*map(_part, share, self.vehicle.limits))
+        if browser == self._holding:
+            self._holding = None if wanted == STILL else browser
+            return False
+        if wanted != STILL:
+            self._driver, self._held = browser, now
+        elif self._driver != browser:
+            return False  # only looks at the helm
+        before, self._wanted, self._heard = self._wanted, wanted, now
+        return wanted != before
+
+    def halt(self) -> None:
+        """Stop at once."""
+        if not self._wanted == self._velocity == STILL:
+            self._wanted = self._velocity = STILL
+            self._tail = TAIL
+
+    def step(self, now: float) -> Velocity | None:
+        """The velocity to publish now; None at rest."""
+        if self._wanted != STILL and now - self._heard > BEAT_S:
+            self.halt()
+        if self.is_at_rest:
+            return None
+        seconds = min(max(0.0, now - self._stepped), PERIOD_S)
+        self._stepped = now
+        vehicle = self.vehicle
+        self._velocity = Velocity(
+            *(
+                _approach(value, wanted, up * seconds, down * seconds)
+                for value, wanted, up, down in zip(
+                    self._velocity,
+                    self._wanted,
+                    vehicle.acceleration,
+                    vehicle.deceleration,
+                    strict=True,
+                )
+            )
+        )
+        if self._wanted == self._velocity == STILL:
+            self._tail -= 1
+        else:
+            self._tail = TAIL
+        return self._velocity
+
+
+def _part(share: float, limit: float) -> float:
+    """A share of a limit."""
+    # Adding 0 makes -0.0 a 0.0.
+    return min(max(share, -1.0), 1.0) * limit + 0.0 if math.isfinite(share) else 0.0
+
+
+def _approach(value: float, wanted: float, up: float, down: float) -> float:
+    """A step from a speed towards another one: by `down` to zero first, by `up` from there."""
+    if value == 0.0 or (value * wanted > 0.0 and abs(wanted) > abs(value)):
+        return min(max(wanted, value - up), value + up)
+    nearest = wanted if value * wanted > 0.0 else 0.0
+    return min(max(nearest, value - down), value + down)

@@ -1,0 +1,214 @@
+"""The helms of all vehicles, and the thread that publishes their commands."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, wait
+
+from webviz.api.vehicle import STILL, Vehicle, Velocity
+from webviz.data.messages import encode
+from webviz.engine.driving.helm import PERIOD_S, Answer, Helm
+from webviz.engine.sources import Gate, Outlet
+
+log = logging.getLogger("webviz")
+
+GAP_S = 0.02
+"""Between two commands if a set-point changes; also between the zeros of the end."""
+ATTENDED_S = 2.0
+"""A helm is attended for so long after a browser looked at it."""
+ENDING_S = 0.5
+"""How long `close` waits for the last commands to be published."""
+UNKNOWN = "This tool has no valid topic, or is gone. Choose a topic in the panel Tools."
+ENDED = "The viewer has ended."
+
+
+class Helms:
+    """Set-points in, velocity commands out.
+
+    Neither waits for the frame loop, which may be busy: set-points come from the threads of edges,
+    and a thread of this object, which begins with the first of them, publishes.
+
+    Args:
+        gate: where commands go.
+        now_ns: ROS time.
+    """
+
+    def __init__(self, gate: Gate, now_ns: Callable[[], int]) -> None:
+        self._gate = gate
+        self._now_ns = now_ns
+        self._lock = threading.Lock()
+        self._helms: dict[str, Helm] = {}
+        self._leaving: list[Helm] = []
+        """Of vehicles that are gone or have another outlet, until they have stopped."""
+        self._looked: dict[str, float] = {}
+        self._sent: dict[Outlet, Future[int]] = {}
+        self._problems: dict[Outlet, str] = {}
+        self._woken = threading.Event()
+        self._has_ended = False
+        self._thread: threading.Thread | None = None
+
+    # For the frame loop
+
+    def equip(self, vehicles: Mapping[str, tuple[Vehicle, Outlet]]) -> None:
+        """Have these vehicles, by id of their tools; all others stop at once."""
+        now = time.monotonic()
+        with self._lock:
+            drivers = {tool: helm.driver(now) for tool, helm in self._helms.items()}
+            for tool, helm in list(self._helms.items()):
+                if tool not in vehicles or vehicles[tool][1] != helm.outlet:
+                    del self._helms[tool]
+                    if not helm.is_at_rest:
+                        helm.halt()
+                        self._leaving.append(helm)
+                        self._woken.set()
+            for tool, (vehicle, outlet) in vehicles.items():
+                helm = self._helms.setdefault(tool, Helm(vehicle, outlet, drivers.get(tool)))
+                helm.vehicle = vehicle
+            outlets = [helm.outlet for helm in self._helms.values()]
+            known = self._problems
+            self._problems = {outlet: known[outlet] for outlet in outlets if outlet in known}
+
+    def attended(self) -> set[str]:
+        """The tools that browsers look at or drive."""
+        now = time.monotonic()
+        with self._lock:
+            return {tool for tool in self._helms if self._is_attended(tool, now)}
+
+    def outlets(self) -> set[Outlet]:
+        """What has to be advertised: where commands of attended vehicles go."""
+        now = time.monotonic()
+        taken = {outlet.topic for outlet in self.stopping()}  # a topic has one type at a time
+        with self._lock:
+            return {
+                helm.outlet
+                for tool, helm in self._helms.items()
+                if self._is_attended(tool, now) and helm.outlet.topic not in taken
+            }
+
+    def stopping(self) -> set[Outlet]:
+        """Where vehicles have still to stop that are gone or go elsewhere."""
+        with self._lock:
+            return {helm.outlet for helm in self._leaving if not helm.is_at_rest}
+
+    def drivers(self) -> dict[str, int]:
+        """The browser that drives, by tool."""
+        now = time.monotonic()
+        with self._lock:
+            found = {tool: helm.driver(now) for tool, helm in self._helms.items()}
+        return {tool: driver for tool, driver in found.items() if driver is not None}
+
+    def stop(self) -> None:
+        """Stop all vehicles and refuse every set-point from now on; from any thread."""
+        self._has_ended = True
+        self._woken.set()
+
+    def close(self) -> None:
+        """Stop, and wait until the last commands are published."""
+        self.stop()
+        if self._thread is not None:
+            self._thread.join()
+
+    # For the edges
+
+    def steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+        """Take a set-point; from any thread.
+
+        Args:
+            tool: id of the tool.
+            browser: id of the browser.
+            share: of the limits, each from -1 to 1; None only looks at the helm.
+
+        Returns:
+            What the browser should know.
+        """
+        now = time.monotonic()
+        with self._lock:
+            helm = self._helms.get(tool)
+            if helm is None or self._has_ended:
+                return Answer(problem=ENDED if self._has_ended else UNKNOWN)
+            self._looked[tool] = now
+            driver = self._driver(helm.outlet.topic, now)
+            refusal = self._gate.refusal(helm.outlet.topic)
+            may_drive = not refusal and driver in (None, browser)
+            if share is not None and may_drive and helm.steer(browser, share, now):
+                self._begin()
+                self._woken.set()
+            problem = refusal or self._problems.get(helm.outlet, "")
+            return Answer(helm.driver(now) if driver is None else driver, problem)
+
+    def _driver(self, topic: str, now: float) -> int | None:
+        """The browser that drives what listens to a topic; several tools may publish there."""
+        helms = (helm for helm in self._helms.values() if helm.outlet.topic == topic)
+        return next((driver for helm in helms if (driver := helm.driver(now)) is not None), None)
+
+    def _is_attended(self, tool: str, now: float) -> bool:
+        return now - self._looked.get(tool, -ATTENDED_S) < ATTENDED_S
+
+    # In the thread
+
+    def _begin(self) -> None:
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="webviz-driving", daemon=True)
+            self._thread.start()
+
+    def _run(self) -> None:
+        published = 0.0
+        while (is_moving := self._is_moving()) or not self._has_ended:
+            period = GAP_S if self._has_ended else PERIOD_S
+            rest = published + period - time.monotonic() if is_moving else None
+            if rest is None or rest > 0.0:
+                self._woken.wait(rest)
+            self._woken.clear()
+            time.sleep(max(0.0, published + GAP_S - time.monotonic()))
+            published = time.monotonic()
+            self._step(published)
+        wait(self._sent.values(), ENDING_S)
+
+    def _is_moving(self) -> bool:
+        with self._lock:
+            return not all(helm.is_at_rest for helm in (*self._helms.values(), *self._leaving))
+
+    def _step(self, now: float) -> None:
+        with self._lock:
+            if self._has_ended:
+                for helm in self._helms.values():
+                    helm.halt()
+            helms = (*self._helms.values(), *self._leaving)
+            due = [(helm, velocity) for helm in helms if (velocity := helm.step(now)) is not None]
+            self._leaving = [helm for helm in self._leaving if not helm.is_at_rest]
+        self._sent = {outlet: sent for outlet, sent in self._sent.items() if not sent.done()}
+        for helm, velocity in due:
+            self._publish(helm.vehicle, helm.outlet, velocity)
+
+    def _publish(self, vehicle: Vehicle, outlet: Outlet, velocity: Velocity) -> None:
+        before = self._sent.get(outlet)
+        if before is not None:
+            before.cancel()  # what could not be published in time is not published late
+        try:
+            cdr = encode(outlet.type, vehicle.message(velocity, self._now_ns()))
+            publish = self._gate.halt if velocity == STILL else self._gate.publish
+            sent = publish(outlet, cdr)
+        except Exception as error:  # of a plug-in's vehicle, or of the source; keep driving
+            if outlet not in self._problems:
+                log.exception("No command for %s", outlet.topic)
+            self._problems[outlet] = f"No command could be made: {error}"
+            return
+        self._sent[outlet] = sent
+        sent.add_done_callback(lambda sent: self._note(outlet, sent))
+
+    def _note(self, outlet: Outlet, sent: Future[int]) -> None:
+        """Note what came of a command."""
+        if sent.cancelled():
+            return
+        if error := sent.exception():
+            self._problems[outlet] = str(error)
+        elif sent.result() == 0:
+            self._problems[outlet] = (
+                f"No subscription to {outlet.topic} as {outlet.type.rpartition('/')[2]}. Start the "
+                "robot's driver, or choose another topic or message type in the panel Tools."
+            )
+        else:
+            self._problems.pop(outlet, None)

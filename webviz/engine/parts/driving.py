@@ -1,0 +1,96 @@
+"""What robots that people drive report about themselves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from webviz.api.declared import Topic
+from webviz.data.messages import MessageError, decode
+from webviz.engine.driving import Helms
+from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.sources import Raw, Subscription
+from webviz.engine.state import Driving
+
+ODOMETRY = "nav_msgs/msg/Odometry"
+FRESH_S = 1.0
+"""How long a speed counts."""
+DIGITS = 2
+"""Of speeds, so that nothing is sent while nothing changes."""
+
+
+class DrivingPart(Part):
+    """Speed and turn rate of the vehicles that browsers attend to, from their odometry.
+
+    Args:
+        core: shared by all parts.
+        helms: of the vehicles.
+        odometry: the topic of each vehicle's odometry, by id of its tool.
+    """
+
+    name = "Driving"
+
+    def __init__(
+        self, core: Core, helms: Helms, odometry: Callable[[], Mapping[str, Topic]]
+    ) -> None:
+        super().__init__(core)
+        self._helms = helms
+        self._odometry = odometry
+        self._newest: dict[str, tuple[Raw, float]] = {}
+
+    def subscriptions(self) -> Mapping[str, Subscription]:
+        """The odometry of attended vehicles; none while nobody drives."""
+        return {name: Subscription(ODOMETRY, topic) for name, topic in self._topics().values()}
+
+    def take(self, batches: Batches) -> None:
+        """Keep the newest odometry."""
+        names = {name for name, _ in self._topics().values()}
+        self._newest = {name: each for name, each in self._newest.items() if name in names}
+        for name in names & batches.keys():
+            for raw in batches[name]:
+                self._newest[name] = raw, self.core.clock()
+
+    def reset(self) -> None:
+        """Forget what was received."""
+        self._newest.clear()
+
+    def state(self) -> Mapping[str, Any]:
+        """What attended vehicles do."""
+        drivers, topics = self._helms.drivers(), self._topics()
+        return {
+            "driving": {
+                tool: self._driving(drivers.get(tool), *topics[tool])
+                for tool in self._helms.attended() & topics.keys()
+            }
+        }
+
+    def _topics(self) -> dict[str, tuple[str, Topic]]:
+        """Full name and QoS of the odometry of attended vehicles, by tool."""
+        attended = self._helms.attended()
+        found = {}
+        for tool, topic in self._odometry().items() if attended else ():
+            if tool in attended and topic.name:
+                try:
+                    found[tool] = self.core.source.resolve(topic.name), topic
+                except ValueError:
+                    continue
+        return found
+
+    def _driving(self, driver: int | None, name: str, topic: Topic) -> Driving:
+        raw, at = self._newest.get(name, (None, -math.inf))
+        if raw is None or self.core.clock() - at > FRESH_S:
+            offer = self.core.offers.get(name)
+            remedy = "Choose another topic of odometry in the panel Tools."
+            if offer is None or not offer.publishers:
+                return Driving(driver, problem=f"No publisher on {name}. {remedy}")
+            return Driving(driver, problem=f"No message on {name}. {remedy}")
+        try:
+            twist = decode(ODOMETRY, raw.cdr).twist.twist
+        except MessageError as error:
+            return Driving(driver, problem=f"{name} cannot be read: {error}")
+        x, y, turn = float(twist.linear.x), float(twist.linear.y), float(twist.angular.z)
+        speed = math.copysign(math.hypot(x, y), x) if abs(x) >= abs(y) else math.hypot(x, y)
+        if not (math.isfinite(speed) and math.isfinite(turn)):
+            return Driving(driver, problem=f"{name} has velocities that are not finite.")
+        return Driving(driver, round(speed, DIGITS) + 0.0, round(turn, DIGITS) + 0.0)
