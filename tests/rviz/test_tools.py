@@ -114,7 +114,8 @@ def test_the_goal_tool_of_nav2_comes_back_with_what_was_changed_here() -> None:
     (entry,) = written(config)
     assert (entry["Class"], entry["Own"]) == ("nav2_rviz_plugins/GoalTool", [1, 2])
     assert entry["Behavior Tree"] == "/trees/slow.xml"
-    (again,) = opened(json.dumps([entry]))[0].tools
+    again = opened(json.dumps([entry]))[0].tools[0]
+    assert isinstance(again, Nav2Goal)
     assert to_values(again) == to_values(tool)
 
 
