@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 
+from webviz.data.disk import MAX_THREADS, in_thread, within
 from webviz.files.config import Config, ConfigError, write_text
-from webviz.files.config.disk import MAX_THREADS, in_thread, within
 from webviz.files.opening import load, parse, save
 
 

@@ -1,1 +1,1 @@
-"""Messages and transforms without ROS: decoding, encoding, tf2's buffer."""
+"""Messages, transforms and the disk, without ROS."""

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from webviz.api.errors import Error
+from webviz.data.disk import in_thread
 from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.pipeline.guard import Guard
-from webviz.files.config.disk import in_thread
 
 MAX_REQUESTS = 1000
 MAX_FILES = 20

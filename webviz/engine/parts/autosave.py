@@ -9,11 +9,11 @@ from concurrent.futures import Future, wait
 from pathlib import Path
 from typing import Any
 
+from webviz.data.disk import in_thread
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Part
 from webviz.files import config as config_file
 from webviz.files.config import Config, ConfigError
-from webviz.files.config.disk import in_thread
 
 log = logging.getLogger("webviz")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from webviz.api.status import Status
+from webviz.data.disk import in_thread
 from webviz.engine.commands import Command, Export, Load, Open, Save, Sender, WriteDisplays
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
@@ -23,7 +24,6 @@ from webviz.engine.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config, ConfigError
-from webviz.files.config.disk import in_thread
 from webviz.files.config.files import SUFFIXES
 
 MAX_OTHERS = 200

@@ -12,7 +12,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from webviz.files.config.disk import within
+from webviz.data.disk import within
 from webviz.files.config.errors import ConfigError
 
 BACKUP = ".bak"

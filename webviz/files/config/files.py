@@ -8,7 +8,7 @@ import os
 import stat
 from pathlib import Path
 
-from webviz.files.config.disk import within
+from webviz.data.disk import within
 from webviz.files.config.errors import ConfigError
 
 MAX_BYTES = 2 << 20
