@@ -1,8 +1,10 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
 import signal
+import sys
 import time
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
@@ -225,6 +227,30 @@ def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(bench, tmp_path)
     assert not [key for key in at.statuses() if key.startswith("Topic")]
     at.set("description_source", "Topic")
     assert set(at.runner.subscriptions()) == {"/robot_description"}
+
+
+def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(bench, tmp_path) -> None:
+    """Such as a dead network mount."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    calls: set[str] = set()
+
+    def note(frame: FrameType, event: str, called: object) -> None:
+        if event == "c_call" and getattr(called, "__module__", "") in ("posix", "_io", "io"):
+            calls.add(getattr(called, "__name__", ""))
+
+    at = bench(RobotModel(description_source="File", description_file=str(path)))
+    place_arm(at)
+    sys.setprofile(note)  # of this thread only
+    try:
+        wait(at, lambda: is_loaded(at))
+        path.write_text(ARM.replace("grip", "fist"))
+        calls.clear()
+        at.set("alpha", 0.5)
+        wait(at, lambda: "tool visual fist" in at.nodes())
+    finally:
+        sys.setprofile(None)
+    assert not calls & {"stat", "lstat", "open", "scandir", "listdir", "readlink"}
 
 
 @pytest.mark.parametrize(

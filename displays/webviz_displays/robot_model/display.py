@@ -10,7 +10,7 @@ import msgspec
 
 from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
 from webviz.data.transforms import distinct
-from webviz_displays.robot_model.loading import Loadings, load, progress, request_file
+from webviz_displays.robot_model.loading import Loadings, Written, last_written, load, progress
 from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_displays.robot_model.statuses import (
     NAMED,
@@ -68,6 +68,7 @@ class _State:
 
     Args:
         loading: what is being loaded.
+        written: when the description file was.
         model: the robot, None until one is loaded.
         grey: links that were drawn without a transform, None before anything was drawn.
         paint: the colours of parts.
@@ -78,6 +79,7 @@ class _State:
     """
 
     loading: Loadings = field(default_factory=dict)
+    written: Written = field(default_factory=Written)
     model: _Model | None = None
     grey: set[str] | None = None
     paint: Paint = field(default_factory=Paint)
@@ -234,7 +236,7 @@ class RobotModel(Display):
         before, state.loading = state.loading, {}
         request = self._request(samples, ctx)
         if request is None:
-            return None
+            return state.model if "Loading" in ctx.statuses else None
         try:
             robot = load(request, before, ctx)
             full = None
@@ -255,10 +257,7 @@ class RobotModel(Display):
     def _request(self, samples: Sequence[Sample], ctx: Context) -> LoadRequest | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
-            if self.description_file:
-                return request_file(self.description_file, paths)
-            ctx.warn("URDF", "No description file is chosen. Enter its path in Description File.")
-            return None
+            return self._request_file(self.description_file, ctx)
         if samples:
             return LoadRequest(text=samples[-1].message.data, package_paths=paths)
         ctx.warn(
@@ -267,3 +266,15 @@ class RobotModel(Display):
             "Start robot_state_publisher.",
         )
         return None
+
+    def _request_file(self, path: str, ctx: Context) -> LoadRequest | None:
+        if not path:
+            ctx.warn("URDF", "No description file is chosen. Enter its path in Description File.")
+            return None
+        written = ctx.state.written = last_written(path, ctx.state.written, ctx)
+        if written.path != path:
+            ctx.warn("Loading", f"Loading: waiting for the disk with {path}.")
+            return None
+        return LoadRequest(
+            path=path, changed_ns=written.at_ns, package_paths=tuple(self.package_paths)
+        )

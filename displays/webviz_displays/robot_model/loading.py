@@ -2,22 +2,50 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from webviz import Context
+from webviz.data.disk import within
 from webviz_urdf import Loading, LoadRequest, Robot
 
 Loadings = dict[LoadRequest, Loading]
 """The robots being loaded."""
 
 
-def request_file(path: str, package_paths: tuple[str, ...]) -> LoadRequest:
-    """The current description in a file."""
+DISK_S = 5.0
+"""A disk that takes longer, such as a dead network mount, does not respond."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """When a file was last written, as the disk said.
+
+    Args:
+        path: of the file.
+        at_ns: 0 if it is unknown.
+        number: of the answer.
+    """
+
+    path: str = ""
+    at_ns: int = 0
+    number: int = 0
+
+
+def last_written(path: str, before: Written, ctx: Context) -> Written:
+    """When a file was last written, from a worker that asks the disk; `before` until it has.
+
+    It is asked anew by every second call, as its answer leads to a call itself.
+    """
+    at_ns = ctx.background(("written", path, before.number), _written_ns, path)
+    return before if at_ns is None else Written(path, at_ns, before.number + 1)
+
+
+def _written_ns(path: str) -> int:
     try:
-        changed_ns = Path(path).expanduser().stat().st_mtime_ns
-    except OSError:
-        changed_ns = 0  # loading reports the cause
-    return LoadRequest(path=path, changed_ns=changed_ns, package_paths=package_paths)
+        return within(DISK_S, lambda: Path(path).expanduser().stat().st_mtime_ns)
+    except (OSError, RuntimeError):  # no such file, no response, no such home
+        return 0  # loading reports the cause
 
 
 def load(request: LoadRequest, before: Loadings, ctx: Context) -> Robot | None:
