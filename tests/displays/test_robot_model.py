@@ -1,6 +1,7 @@
 """The RobotModel display: a description, transforms, and what is missing."""
 
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -278,3 +279,12 @@ def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_the
     place_arm(at)
     at.turn()
     assert at.nodes()["tool visual grip"].color == (0, 0, 255)
+
+
+def test_what_reads_meshes_is_imported_by_the_process_that_loads_robots_only() -> None:
+    """It takes longer than all other imports of a viewer."""
+    script = (
+        "import sys, webviz_displays.robot_model; "
+        "assert not {'trimesh', 'yourdfpy', 'scipy', 'lxml'} & sys.modules.keys()"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)

@@ -1,12 +1,25 @@
 """Robot descriptions: URDF and meshes as plain data that a viewer can draw."""
 
-from webviz_urdf.build import Progress
+import importlib
+from typing import TYPE_CHECKING
+
 from webviz_urdf.glb import glb_with
 from webviz_urdf.inertia import inertia_box, mass_sphere
-from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.robot import Inertial, Joint, Link, Missing, Robot, RobotDescriptionError, Shape
+from webviz_urdf.robot import (
+    Inertial,
+    Joint,
+    Link,
+    Missing,
+    Progress,
+    Robot,
+    RobotDescriptionError,
+    Shape,
+)
+
+if TYPE_CHECKING:
+    from webviz_urdf.load import load_file, load_robot
 
 __all__ = [
     "Inertial",
@@ -28,3 +41,10 @@ __all__ = [
     "load_robot",
     "mass_sphere",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """Import what reads meshes when it is asked for: it takes longer than all of a viewer."""
+    if name in ("load_file", "load_robot"):
+        return getattr(importlib.import_module("webviz_urdf.load"), name)
+    raise AttributeError(f"module 'webviz_urdf' has no attribute {name!r}")

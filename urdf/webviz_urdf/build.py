@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +16,7 @@ from webviz_urdf.glb import MeshPart
 from webviz_urdf.materials import DEFAULT, Material, Materials
 from webviz_urdf.meshes import MeshError, MeshFile, Scale, read_mesh, scaled
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.robot import Inertial, Link, Missing, Robot, Shape
-
-Progress = Callable[[int, int, str], None]
-"""Called with the number of shapes done, their total, and the name of the current link."""
+from webviz_urdf.robot import Inertial, Link, Missing, Progress, Robot, Shape
 
 MAX_BYTES = 256 << 20
 """Of all shapes of a robot; every browser receives them."""

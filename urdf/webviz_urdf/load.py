@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from webviz_urdf.build import Progress, build_robot
+from webviz_urdf.build import build_robot
 from webviz_urdf.description import parse_description
 from webviz_urdf.files import read_file
 from webviz_urdf.resolve import Resolver
-from webviz_urdf.robot import Robot, RobotDescriptionError
+from webviz_urdf.robot import Progress, Robot, RobotDescriptionError
 
 MAX_BYTES = 16 << 20
 """Of a file with a description."""

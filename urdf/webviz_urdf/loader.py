@@ -11,6 +11,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.loading import DEADLINE_S, IDLE_S, MAX_MEMORY, LoadRequest
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
@@ -48,7 +49,10 @@ def _load(
         connection.send((done, total, link))
 
     try:
-        return request.load(resolver, progress, skip)
+        if request.path:
+            path = Path(request.path).expanduser()
+            return load_file(path, resolver, progress, request.collisions, skip)
+        return load_robot(request.text, resolver, progress, request.collisions, skip)
     except RobotDescriptionError as error:
         return error
     except MemoryError:

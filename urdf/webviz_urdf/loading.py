@@ -10,10 +10,7 @@ import subprocess
 import sys
 import threading
 from dataclasses import dataclass
-from pathlib import Path
 
-from webviz_urdf.build import Progress
-from webviz_urdf.load import load_file, load_robot
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
@@ -50,17 +47,6 @@ class LoadRequest:
     changed_ns: int = 0
     package_paths: tuple[str, ...] = ()
     collisions: bool = False
-
-    def load(self, resolver: Resolver, progress: Progress, skip: dict[int, str]) -> Robot:
-        """Load the robot in this process.
-
-        Raises:
-            RobotDescriptionError: it cannot be drawn; one sentence says why.
-        """
-        if self.path:
-            path = Path(self.path).expanduser()
-            return load_file(path, resolver, progress, self.collisions, skip)
-        return load_robot(self.text, resolver, progress, self.collisions, skip)
 
 
 class LoadingStopped(Exception):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import trimesh
 
 from webviz_urdf.glb import MeshPart
 
@@ -31,6 +30,8 @@ def box(x: float, y: float, z: float) -> MeshPart:
 
 def sphere(radius: float) -> MeshPart:
     """A sphere around the origin, metres."""
+    import trimesh  # by the process that loads robots; in a viewer only for centres of mass
+
     ball = trimesh.creation.icosphere(subdivisions=3, radius=radius)
     return _part(ball.vertices, ball.faces)
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import Glb, Mesh, Pose
+
+Progress = Callable[[int, int, str], None]
+"""Called with the number of shapes done, their total, and the name of the current link."""
 
 JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
 
