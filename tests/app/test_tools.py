@@ -357,12 +357,69 @@ def test_the_camera_stays_and_the_preview_is_there_during_the_drag(
     assert graph.published == []
 
 
-@pytest.mark.parametrize("back", ["g", "Escape"])
-def test_the_key_and_escape_go_back(page: Page, graph: RememberingGraph, back: str) -> None:
-    page.tab.keyboard.press("g")
-    assert is_active(page)
-    page.tab.keyboard.press(back)
+KEYS = {
+    "m": "Move Camera",
+    "c": "Focus Camera",
+    "n": "Measure",
+    "p": "2D Pose Estimate",
+    "g": "2D Goal Pose",
+    "u": "Publish Point",
+}
+
+
+def test_the_keys_are_those_of_rviz_and_themselves_or_escape_go_back(page: Page) -> None:
+    for key, name in KEYS.items():
+        for back in (key, "Escape", "i"):
+            page.tab.keyboard.press(key)
+            assert active(page) == name
+            page.tab.keyboard.press(back)
+            assert not is_active(page)
+
+
+def test_the_tools_have_the_order_of_rviz(page: Page) -> None:
+    buttons = page.tab.locator(".wv-tools button")
+    labels = buttons.evaluate_all("(all) => all.map((one) => one.ariaLabel)")
+    assert [label for label in labels if label in KEYS.values()] == list(KEYS.values())
+
+
+def test_a_tool_that_asks_sends_nothing_before_it_is_told_to(
+    page: Page, graph: RememberingGraph, viewer: webviz.Viewer
+) -> None:
+    tab, card = page.tab, page.tab.get_by_role("group", name="Send this?")
+    preview = tab.locator("[data-webviz=preview]")
+    knows = "async () => (await import('/webviz/tools/registry.js')).all().some((one) => one.asks)"
+    viewer.do(SetToolProperty("2D Goal Pose", "confirm", True))
+    page.wait_for(lambda: tab.evaluate(knows), "the tool that asks")
+
+    def ask(x: float) -> None:
+        drag(page, (x, 0.0), (x, -60.0))
+        assert card.is_visible()
+        assert "Enter sends, Esc cancels." in answer(page)
+        assert graph.published == []
+
+    tab.keyboard.press("g")
+    ask(0.0)
+    tab.keyboard.press("Escape")
+    assert preview.count() == 0
     assert not is_active(page)
+    tab.keyboard.press("g")
+    ask(0.0)
+    card.get_by_role("button", name="Cancel").click()
+    assert preview.count() == 0
+    assert active(page) == "2D Goal Pose"
+    # Another gesture replaces the one that waits. Meanwhile the camera can be moved.
+    ask(50.0)
+    ask(-50.0)
+    assert preview.count() == 1
+    tab.mouse.wheel(0, 1)
+    tab.keyboard.press("Enter")
+    page.wait_for(lambda: len(graph.published) == 1, "the goal")
+    ((_, goal),) = graph.published
+    assert goal.pose.position.x == pytest.approx(-1.0, abs=0.5 / SCALE)
+    assert preview.count() == 0
+    assert not is_active(page)
+    viewer.do(SetToolProperty("2D Goal Pose", "confirm", False))
+    page.wait_for(lambda: not tab.evaluate(knows), "the tool that sends")
 
 
 def test_the_button_selects_the_tool_in_its_own_browser_only(
@@ -396,6 +453,29 @@ def test_touch_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> No
     touch("touchMove", (x + 50.0, y))
     touch("touchEnd")
     page.wait_for(lambda: len(graph.published) == 1, "the goal")
+    # A second finger lifts, wherever it is, and the heading stays.
+    page.tab.get_by_role("button", name="2D Goal Pose").click()
+    touch("touchStart", (x, y))
+    touch("touchMove", (x + 50.0, y))
+    touch("touchStart", (x + 50.0, y), (x - 90.0, y + 100.0))
+    touch("touchMove", (x + 50.0, y), (x - 90.0, y))
+    touch("touchEnd")
+    page.wait_for(lambda: len(graph.published) == 2, "the lifted goal")
+    goal = graph.published[-1][1].pose
+    assert goal.position.z == pytest.approx(100.0 / SCALE, abs=1.0 / SCALE)
+    assert (goal.position.x, goal.position.y) == pytest.approx((0.0, 0.0), abs=1.0 / SCALE)
+    assert goal.orientation.w == pytest.approx(1.0, abs=0.01)
+
+
+def test_a_pen_makes_a_stroke_as_well(page: Page, graph: RememberingGraph) -> None:
+    page.tab.keyboard.press("g")
+    x, y = middle(page)
+    session = page.tab.context.new_cdp_session(page.tab)
+    for kind, dx in (("mousePressed", 0.0), ("mouseMoved", 50.0), ("mouseReleased", 50.0)):
+        at = {"x": x + dx, "y": y, "button": "left", "buttons": 1, "clickCount": 1}
+        session.send("Input.dispatchMouseEvent", {"type": kind, "pointerType": "pen", **at})
+    page.wait_for(lambda: len(graph.published) == 1, "the goal")
+    assert graph.published[0][1].pose.orientation.w == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,8 @@ def test_without_a_list_there_are_all_installed_tools_and_none_is_written() -> N
     config = parse(INSTALLED, "x.yaml")
     tools = [tool for tool in config.tools if isinstance(tool, Tool)]
     assert [(tool.name, topic.name) for tool in tools for _, _, topic in outputs(tool)] == [
-        ("2D Goal Pose", "/goal_pose"),
         ("2D Pose Estimate", "/initialpose"),
+        ("2D Goal Pose", "/goal_pose"),
         ("Publish Point", "/clicked_point"),
         ("Teleop", "/cmd_vel"),
     ]

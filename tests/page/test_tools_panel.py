@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from tests.page.conftest import Tab
 from webviz.api.declared import make
 from webviz.api.status import Level, Status
@@ -17,6 +19,8 @@ SEND = """async () => {
   const goal = { id: "t1", name: "2D Goal Pose", gesture: "pose" };
   history.send(goal, { points: [[1, 2, 0.5]], yaw: Math.PI / 2, keys: [] });
 }"""
+
+ASKS = """async () => (await import("/webviz/tools/registry.js")).all().some(({ asks }) => asks)"""
 
 
 def button(id_: str, cls: type[Tool]) -> ToolButton:
@@ -76,3 +80,40 @@ def test_what_was_sent_is_listed_sent_again_and_copied(tab: Tab) -> None:
     for _ in range(25):
         tab.page.evaluate(SEND)
     tab.wait_for(lambda: rows.count() == 20)
+
+
+def test_a_tool_that_asks_asks_again(tab: Tab) -> None:
+    shown(tab)
+    tab.page.evaluate(SEND)
+    tab.wait_for(lambda: len(tab.loop.commands) == 1)
+    goal = replace(button("t1", GoalPose), asks=True)
+    tab.loop.show(tools=(goal,), settings=Settings(fixed_frame="map"))
+    card = tab.page.get_by_role("group", name="Send this?")
+    for answer, count in (("Cancel", 1), ("Send", 2)):
+        tab.wait_for(lambda: tab.page.locator(".wv-tools button").count() == 5)
+        tab.wait_for(lambda: tab.page.evaluate(ASKS))
+        tab.button("Send again").first.click()
+        tab.wait_for(card.is_visible)
+        assert len(tab.loop.commands) == 1
+        card.get_by_role("button", name=answer).click()
+        assert card.count() == 0
+        tab.wait_for(lambda count=count: len(tab.loop.commands) == count)
+    refused = replace(goal, refusal="No goals today.")
+    tab.loop.show(tools=(refused,), settings=Settings(fixed_frame="map"))
+    tab.wait_for(lambda: tab.page.locator(".wv-tools [aria-disabled]").count() == 1)
+    tab.button("Send again").first.click()
+    tab.wait_for(lambda: "No goals today." in tab.page.locator(".wv-hint").inner_text())
+    assert len(tab.loop.commands) == 2
+
+
+def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab) -> None:
+    shown(tab)
+    tab.page.evaluate(f"async () => {{ for (let i = 0; i < 200; i++) await ({SEND})(); }}")
+    text = "Not sent: more than 20 gestures within a second. Wait a moment."
+    tab.wait_for(lambda: text in tab.text())
+    tab.page.evaluate(
+        "async () => { const { act } = await import('/webviz/act.js');"
+        "act('UseTool', { tool: 't1', points: [[0, 0, 0]] }); }"
+    )
+    tab.wait_for(lambda: "this page does not fit the viewer" in tab.text())
+    assert 20 <= len(tab.loop.commands) < 200

@@ -25,7 +25,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec
 
-from webviz.api.declared import Declared, Topic
+from webviz.api.declared import Declared, Prop, Topic
 from webviz.api.frames import Frames
 from webviz.api.goal import GoalRequest, nothing
 from webviz.api.ports import Output
@@ -37,6 +37,9 @@ from webviz.data.messages import decode, encode, interfaces
 Gesture = Literal["point", "pose", "drive"]
 """A click on a position, a drag from a position towards a heading, or keys and sticks that are
 held to drive the `vehicle` of the tool."""
+
+Confirm = Annotated[bool, Prop(help="Ask before a gesture is sent.")]
+"""The property `confirm` of a tool: its preview stays until it is sent or cancelled."""
 
 Position = tuple[float, float, float]
 
@@ -265,6 +268,8 @@ class Tool(Declared, kw_only=True):
     """The key that selects it, a lower-case letter; "" is none."""
     icon: ClassVar[str] = ""
     """An icon of the page for its button, "" for that of its gesture."""
+    order: ClassVar[int] = 100
+    """Place in a toolbar that no config orders; those of webviz come first, as in RViz."""
     gesture: ClassVar[Gesture] = "point"
     surface: ClassVar[bool] = False
     """Whether a gesture starts on the surface under the pointer instead of on the ground, the plane
@@ -279,6 +284,11 @@ class Tool(Declared, kw_only=True):
     def stays(self) -> bool:
         """Whether it remains the active tool after a gesture."""
         return False
+
+    @property
+    def asks(self) -> bool:
+        """Whether pages ask before they send a gesture, as its property `confirm` says."""
+        return getattr(self, "confirm", False)
 
     @property
     def uses(self) -> tuple[str, ...]:

@@ -172,6 +172,7 @@ class ToolButton:
         icon: of the page, "" for that of the gesture.
         surface: whether the gesture starts on a surface.
         stays: whether it remains active after a gesture.
+        asks: whether pages ask before they send a gesture.
         refusal: why it cannot be used, a sentence; "" if it can.
         several: labels of the buttons that send several poses, () if it takes one.
         tool: read-only.
@@ -185,6 +186,7 @@ class ToolButton:
     icon: str = ""
     surface: bool = False
     stays: bool = False
+    asks: bool = False
     refusal: str = ""
     several: tuple[str, ...] = ()
     tool: Tool = field(default_factory=Tool)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
 
 
 class GoalPose(Tool):
@@ -19,11 +19,13 @@ class GoalPose(Tool):
     title = "2D Goal Pose"
     rviz = "rviz_default_plugins/SetGoal"
     shortcut = "g"
+    order = 2
     gesture = "pose"
 
     topic: Annotated[
         Topic, Output("geometry_msgs/msg/PoseStamped"), Prop(help="Where goals are published.")
     ] = Topic("/goal_pose")
+    confirm: Confirm = False
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Publish the pose in the fixed frame, stamped now, as RViz does."""

@@ -7,7 +7,7 @@ import math
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
-from webviz.api.tool import Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
 
 THROUGH, EACH = "Drive through", "Stop at each"
 
@@ -48,6 +48,7 @@ class Nav2Goal(Tool):
     title = "Nav2 Goal"
     rviz = "nav2_rviz_plugins/GoalTool"
     shortcut = "g"
+    order = 4
     icon = "flag"
     gesture = "pose"
     several = (THROUGH, EACH)
@@ -64,6 +65,7 @@ class Nav2Goal(Tool):
     behavior_tree: Annotated[
         str, Prop(help="File of the behavior tree on the robot; empty for Nav2's default.")
     ] = ""
+    confirm: Confirm = False
 
     @property
     def uses(self) -> tuple[str, ...]:

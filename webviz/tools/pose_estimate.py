@@ -7,7 +7,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
 
 X, Y, YAW = 0, 7, 35
 """Places on the diagonal of a covariance of 6 x 6."""
@@ -23,6 +23,7 @@ class PoseEstimate(Tool):
     title = "2D Pose Estimate"
     rviz = "rviz_default_plugins/SetInitialPose"
     shortcut = "p"
+    order = 1
     icon = "target"
     gesture = "pose"
 
@@ -40,6 +41,7 @@ class PoseEstimate(Tool):
     covariance_yaw: Annotated[
         float, Prop(ge=0, unit="rad²", rviz="Covariance yaw", help="Variance of the heading.")
     ] = (math.pi / 12) ** 2
+    confirm: Confirm = False
 
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Publish the pose in the fixed frame, stamped now, as RViz does."""

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Prop, Topic
 from webviz.api.ports import Output
-from webviz.api.tool import Stroke, Tool, ToolContext
+from webviz.api.tool import Confirm, Stroke, Tool, ToolContext
 
 
 class PublishPoint(Tool):
@@ -15,6 +15,7 @@ class PublishPoint(Tool):
     title = "Publish Point"
     rviz = "rviz_default_plugins/PublishPoint"
     shortcut = "u"
+    order = 3
     gesture = "point"
     surface = True
 
@@ -24,6 +25,7 @@ class PublishPoint(Tool):
     topic: Annotated[
         Topic, Output("geometry_msgs/msg/PointStamped"), Prop(help="Where points are published.")
     ] = Topic("/clicked_point")
+    confirm: Confirm = False
 
     @property
     def stays(self) -> bool:

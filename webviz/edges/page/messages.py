@@ -126,6 +126,7 @@ class ToolButton(msgspec.Struct, frozen=True):
     icon: str
     surface: bool
     stays: bool
+    asks: bool
     refusal: str
     several: tuple[str, ...]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any
@@ -14,6 +16,9 @@ from webviz.edges.page.messages import Published, Result, StrokeDone, ToolButton
 from webviz.engine.commands import Command, Sender, UseTool
 from webviz.engine.state import State
 
+MOST = 20
+"""Strokes of a browser within a second; people make one or two."""
+
 
 class Toolbar:
     """The tools on every page. Which one is active, only the page itself knows.
@@ -21,11 +26,20 @@ class Toolbar:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
+        clock: monotonic time in seconds.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
+    def __init__(
+        self,
+        channel: Channel,
+        enqueue: Callable[[Command, Sender], Future[str]],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._channel = channel
         self._enqueue = enqueue
+        self._clock = clock
+        self._recent: dict[int, deque[float]] = {}
+        """When each browser made its last strokes."""
         self._shown: Tools | None = None
         channel.on(StrokeDone, self._use)
 
@@ -49,6 +63,10 @@ class Toolbar:
             if not used.cancelled() and (error := used.exception()):
                 tell(Status(Level.ERROR, str(error)))
 
+        if self._is_flood(browser):
+            text = f"Not sent: more than {MOST} gestures within a second. Wait a moment."
+            tell(Status(Level.ERROR, text))
+            return
         keys = frozenset(stroke.keys)
         command = UseTool(
             stroke.tool,
@@ -61,6 +79,17 @@ class Toolbar:
             published=published,
         )
         self._enqueue(command, Sender(browser)).add_done_callback(finish)
+
+    def _is_flood(self, browser: int) -> bool:
+        """Whether a browser makes strokes faster than people do; if not, counts this one."""
+        now = self._clock()
+        recent = {id: times for id, times in self._recent.items() if times[-1] > now - 1.0}
+        times = recent.setdefault(browser, deque(maxlen=MOST))
+        self._recent = recent
+        is_flood = len(times) == MOST and times[0] > now - 1.0
+        if not is_flood:
+            times.append(now)
+        return is_flood
 
 
 def _plain(value: Any) -> Any:

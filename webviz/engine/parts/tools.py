@@ -245,6 +245,7 @@ def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
         tool.icon,
         tool.surface,
         tool.stays,
+        tool.asks,
         refusal,
         tool.several,
         tool,

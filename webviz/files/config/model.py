@@ -101,7 +101,8 @@ ToolItem = Tool | Unreadable
 
 def all_tools() -> list[ToolItem]:
     """The toolbar without a list of tools: every installed tool."""
-    return [make(cls, {}) for cls in plugin_types(Tool).values()]
+    types = sorted(plugin_types(Tool).values(), key=lambda cls: cls.order)
+    return [make(cls, {}) for cls in types]
 
 
 @dataclass

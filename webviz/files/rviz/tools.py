@@ -89,7 +89,10 @@ def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
 
 
 def _bare(tool: Tool) -> Tree:
-    return {"Class": type(tool).rviz, **struct_tree(tool)}
+    tree = struct_tree(tool)
+    if tree.get("Confirm") is False:  # RViz never asks
+        del tree["Confirm"]
+    return {"Class": type(tool).rviz, **tree}
 
 
 def _write(tool: Tool, kept: Tree) -> Tree:

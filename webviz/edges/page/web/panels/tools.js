@@ -5,12 +5,14 @@ import { copy } from "../clipboard.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { ask } from "../shell/dialog.js";
 import { toast } from "../shell/toasts.js";
 import { watch } from "../stores.js";
-import { tell } from "../tools/hint.js";
+import { tell, tellLive } from "../tools/hint.js";
 import * as history from "../tools/history.js";
 import { fixed } from "../tools/numbers.js";
 import * as registry from "../tools/registry.js";
+import * as stroke from "../tools/stroke.js";
 import { yaml } from "../tools/yaml.js";
 import { maker } from "./displays/properties.js";
 
@@ -86,9 +88,25 @@ const iconButton = (name, label, run) => el("button", {
   type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick: run,
 }, icon(name));
 
-function sendAgain(entry) {
-  if (entry.frame === history.fixedFrame()) return history.again(entry);
-  tell("warn", `Not sent: this was in ${entry.frame}. Choose it as the fixed frame.`);
+// As with the gesture itself: where the tool asks, its preview comes first.
+async function sendAgain(entry) {
+  const tool = registry.all().find(({ id }) => id === entry.tool.id);
+  const reason = !tool ? `the tool ${entry.tool.name} is gone. Choose another one.` : "";
+  const frame = `this was in ${entry.frame}. Choose it as the fixed frame.`;
+  if (reason || entry.frame !== history.fixedFrame())
+    return tell("warn", `Not sent: ${reason || frame}`);
+  if (tool.refusal) return tell("warn", tool.refusal);
+  if (!tool.asks) return history.again(entry);
+  if (entry.several) {
+    const question = `Send the ${entry.points.length} waypoints again?`;
+    return (await ask(question, { confirm: "Send" })) && history.again(entry);
+  }
+  registry.select(tool);
+  const done = () => {
+    if (!registry.active().stays) registry.select(null);
+    history.again(entry);
+  };
+  stroke.propose(tool, entry, { done, live: tellLive });
 }
 
 async function copyYaml({ messages }) {

@@ -8,6 +8,7 @@ import { hint, tell } from "../tools/hint.js";
 import * as history from "../tools/history.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
+import * as stroke from "../tools/stroke.js";
 import * as strokes from "../tools/strokes.js";
 import * as waypoints from "../tools/waypoints.js";
 import { canvas } from "../viser_page.js";
@@ -42,6 +43,10 @@ export function install() {
   command({
     name: "Leave the tool", key: "Escape", group: "Tools", isHidden: true,
     isThere: () => !registry.isDefault(), run: () => registry.select(null),
+  });
+  command({
+    name: "Send", key: "Enter", group: "Tools", isHidden: true, run: stroke.send,
+    isThere: () => stroke.isWaiting() && !document.activeElement.closest("button"),
   });
   for (const name of ["pointerdown", "pointermove", "pointerup", "pointercancel", "wheel"]) {
     window.addEventListener(name, onPointer, { capture: true, passive: false });

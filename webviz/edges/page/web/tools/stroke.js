@@ -3,6 +3,7 @@
 import { set, svgElement } from "../dom.js";
 import { arrowAt } from "./arrow.js";
 import { makeLayer } from "./layer.js";
+import { sendCard } from "./send_card.js";
 import { fixed } from "./numbers.js";
 import { canvas } from "../viser_page.js";
 import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
@@ -13,31 +14,36 @@ let drawing = null;
 let stroke = null;
 
 /**
- * Begins to follow a pointer. `done` gets the points, the heading and the keys, `live` in words
- * where the gesture is. False where there is nothing to begin on.
+ * Begins to follow a pointer, instead of what still waits to be sent. `done` gets the points, the
+ * heading and the keys, `live` in words where the gesture is. False where there is nothing to begin
+ * on.
  */
 export function begin(event, tool, { done, live }) {
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
-  const turned = { yaw: 0, isTurned: false, isLifting: false };
+  cancel();
+  const turned = { yaw: 0, isTurned: false, isLifting: false, finger: null, raised: 0 };
   stroke = { tool, done, live, start, at, from: at, pointer: event.pointerId, ...turned };
   canvas().setPointerCapture(event.pointerId);
   follow(event);
-  redraw();
+  redraw(stroke);
   return true;
 }
 
-export const isGoing = () => stroke !== null;
-export const follows = (event) => stroke !== null && stroke.pointer === event.pointerId;
+export const isGoing = () => stroke !== null && !stroke.made;
+export const isWaiting = () => Boolean(stroke?.made);
+export const follows = (event) => isGoing() && stroke.pointer === event.pointerId;
 
 /** Takes up where the pointer is; with Ctrl it lifts, else it turns. */
 export function follow(event) {
   const before = stroke.at;
   stroke.at = [event.clientX, event.clientY];
   if (stroke.tool.gesture === "pose") {
-    if (event.ctrlKey) lift(before);
-    else {
+    if (event.ctrlKey) {
+      stroke.isLifting = true;
+      lift(before, stroke.at);
+    } else {
       if (stroke.isLifting) stroke.from = before; // what was moved to lift it does not turn it
       stroke.isLifting = false;
       const [x, y] = stroke.from;
@@ -47,35 +53,83 @@ export function follow(event) {
   stroke.live(words());
 }
 
-// The start goes up as the pointer does along a vertical line, from where it was when Ctrl was
-// pressed.
-function lift(before) {
-  const { start, at } = stroke;
-  const [from, to] = [before, at].map((xy) => heightAt(xy, start));
-  stroke.isLifting = true;
-  if (from !== null && to !== null) start[2] += to - from;
+/** Takes up where another finger is: moving it up or down lifts, and does not turn. */
+export function followSecond({ type, pointerId, pointerType, clientY }) {
+  if (stroke.tool.gesture !== "pose" || pointerType !== "touch") return;
+  if (type === "pointerdown") stroke.finger ??= { pointerId, y: clientY };
+  if (stroke.finger?.pointerId !== pointerId) return;
+  if (type === "pointermove") {
+    const { left, top } = canvas().getBoundingClientRect();
+    const [x, y] = onCanvas(stroke.start) ?? [0, 0];
+    const from = [left + x, top + y];
+    stroke.raised += lift(from, [from[0], from[1] + clientY - stroke.finger.y]);
+    stroke.finger.y = clientY;
+    stroke.live(words());
+  } else if (type !== "pointerdown") stroke.finger = null;
+}
+
+// The start goes up along a vertical line as much as what moved from one point of the window to
+// another.
+function lift(...points) {
+  const [from, to] = points.map((xy) => heightAt(xy, stroke.start));
+  const metres = from === null || to === null ? 0 : to - from;
+  stroke.start[2] += metres;
+  return metres;
+}
+
+// Where the pointer is at the height of the start, were it not for the other finger.
+function ahead() {
+  const { start, at, raised } = stroke;
+  const point = planeAt(at, start[2] - raised);
+  return point && [point[0], point[1], start[2]];
 }
 
 function turn() {
-  const { start, at } = stroke;
-  const point = planeAt(at, start[2]);
+  const { start } = stroke;
+  const point = ahead();
   if (point === null) return;
   stroke.isTurned = true;
   stroke.yaw = Math.atan2(point[1] - start[1], point[0] - start[0]);
 }
 
-export function end(event) {
+/** Ends a gesture; its preview stays until it is sent, if somebody `asks`. */
+export function end(event, asks) {
   follow(event);
-  const { done, start, yaw, isTurned, at } = stroke;
-  const last = isTurned ? planeAt(at, start[2]) : null;
-  cancel();
+  const { start, yaw, isTurned } = stroke;
+  const last = isTurned ? ahead() : null;
   const keys = ["shift", "ctrl", "alt", "meta"].filter((key) => event[`${key}Key`]);
-  done({ points: last === null ? [start] : [start, last], yaw, keys });
+  stroke.made = { points: last === null ? [start] : [start, last], yaw, keys };
+  if (asks) wait();
+  else send();
+}
+
+/** Shows a gesture as it was made, `{points, yaw, keys}`, until it is sent. */
+export function propose(tool, made, { done, live }) {
+  cancel();
+  stroke = { tool, done, live, start: made.points[0], yaw: made.yaw, made };
+  redraw(stroke);
+  wait();
+}
+
+function wait() {
+  stroke.live(`${words()} · Enter sends, Esc cancels.`);
+  stroke.card = sendCard(send, cancel);
+  drawing.layer.element.append(stroke.card.element);
+  stroke.card.focus();
+}
+
+/** Sends what waits for that. */
+export function send() {
+  const { done, made } = stroke;
+  cancel();
+  done(made);
 }
 
 export function cancel() {
   if (stroke === null) return;
-  if (canvas().hasPointerCapture(stroke.pointer)) canvas().releasePointerCapture(stroke.pointer);
+  const { pointer } = stroke;
+  if (pointer !== undefined && canvas().hasPointerCapture(pointer))
+    canvas().releasePointerCapture(pointer);
   stroke.live("");
   stroke = null;
   drawing?.layer.element.remove();
@@ -89,9 +143,9 @@ function words() {
   return `x ${x} y ${y} z ${z} m${heading}`;
 }
 
-function redraw() {
-  if (stroke === null) return;
-  requestAnimationFrame(redraw); // the view may follow a frame that moves
+function redraw(shown) {
+  if (stroke !== shown) return;
+  requestAnimationFrame(() => redraw(shown)); // the view may follow a frame that moves
   drawing ??= makeDrawing();
   const { layer, stem, arrow, dot } = drawing;
   const { tool, start, yaw } = stroke;
@@ -102,6 +156,7 @@ function redraw() {
   const foot = (isLifted && onCanvas([start[0], start[1], 0])) || top;
   set(stem, { x1: top[0], y1: top[1], x2: foot[0], y2: foot[1] });
   set(dot, { cx: top[0], cy: top[1] });
+  stroke.card?.place(onCanvas(start));
 }
 
 function makeDrawing() {

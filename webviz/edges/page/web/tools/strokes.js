@@ -10,8 +10,9 @@ import * as teleop from "./teleop.js";
 import * as waypoints from "./waypoints.js";
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
-const POSE = "drag towards the heading. Ctrl lifts. Esc cancels.";
-const SEVERAL = "Ctrl lifts, Shift collects waypoints.";
+const LIFTS = matchMedia("(pointer: coarse)").matches ? "A second finger" : "Ctrl";
+const POSE = `drag towards the heading. ${LIFTS} lifts. Esc cancels.`;
+const SEVERAL = `${LIFTS} lifts, Shift collects waypoints.`;
 const HINTS = {
   point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
   pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
@@ -46,16 +47,22 @@ function strokeTool(known, index) {
 
 function hintOf({ gesture, surface, several }) {
   const hint = HINTS[gesture][Number(surface)];
-  return several?.length ? hint.replace("Ctrl lifts.", SEVERAL) : hint;
+  return several?.length ? hint.replace(`${LIFTS} lifts.`, SEVERAL) : hint;
 }
+
+// Waypoints are sent by a button anyway.
+const asks = ({ shiftKey }) => active().asks && !waypoints.collects(active(), shiftKey);
 
 // While a gesture goes on, the camera stays where it is.
 function follow(event, tool) {
   if (stroke.isGoing()) {
     if (event.type === "wheel") event.preventDefault();
-    if (!stroke.follows(event)) return true;
+    if (!stroke.follows(event)) {
+      stroke.followSecond(event);
+      return true;
+    }
     if (event.type === "pointermove") stroke.follow(event);
-    if (event.type === "pointerup") stroke.end(event);
+    if (event.type === "pointerup") stroke.end(event, asks(event));
     if (event.type === "pointercancel") stroke.cancel();
     return true;
   }

@@ -17,9 +17,13 @@ let isCollecting = false;
 let frame = null;
 let update = () => {};
 
-/** Takes a finished gesture as a waypoint; whether it did. Shift begins to collect. */
+/** Whether a gesture of a tool is collected: Shift begins that. */
+export const collects = (of, isShifted) =>
+  Boolean(of.several?.length) && (isCollecting || isShifted);
+
+/** Takes a finished gesture as a waypoint; whether it did. */
 export function collect(of, { points, yaw, keys }) {
-  if (!of.several?.length || !(isCollecting || keys.includes("shift"))) return false;
+  if (!collects(of, keys.includes("shift"))) return false;
   if (poses.length >= MAX_POSES) {
     tell("warn", `There are ${MAX_POSES} waypoints. Send them before you add others.`);
     return true;

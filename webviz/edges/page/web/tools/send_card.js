@@ -1,0 +1,33 @@
+// Asks at the preview of a gesture whether to send it.
+
+import { el } from "../dom.js";
+import { canvas } from "../viser_page.js";
+
+const BELOW = 18; // pixels from the start of the gesture
+const MARGIN = 8;
+const BAR = 96; // of the toolbar and the hint
+
+/** A card with two buttons; `place([x, y])` puts it below a point of the canvas, or, without one,
+ * in the middle. */
+export function sendCard(send, cancel) {
+  const button = (name, label, run) =>
+    el("button", { type: "button", class: `wv-button ${name}`, onclick: run }, label);
+  const first = button("wv-primary", "Send", send);
+  const element = el("div", { class: "wv-send wv-card", role: "group", "aria-label": "Send this?" },
+    first, button("", "Cancel", cancel));
+  return {
+    element,
+    focus: () => first.focus({ preventScroll: true }),
+    place(point) {
+      const { clientWidth: width, clientHeight: height } = canvas();
+      const { offsetWidth, offsetHeight } = element;
+      const [x, y] = point ?? [width / 2, height / 2];
+      const left = clamp(x - offsetWidth / 2, MARGIN, width - offsetWidth - MARGIN);
+      const top = clamp(y + BELOW, BAR, height - offsetHeight - MARGIN);
+      const moved = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+      if (element.style.transform !== moved) element.style.transform = moved;
+    },
+  };
+}
+
+const clamp = (number, least, most) => Math.max(least, Math.min(number, most));
