@@ -517,7 +517,7 @@ def test_a_source_that_only_reads_says_so(
     # The tool that is active is left, and none of them can be chosen.
     page.wait_for(lambda: answer(page) == reason, "the reason")
     assert not is_active(page)
-    assert disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)") == [reason] * 4
+    assert set(disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)")) == {reason}
     page.tab.evaluate("async () => (await import('/webviz/tools/hint.js')).tell('hint', '')")
     page.tab.keyboard.press("g")
     assert answer(page) == reason

@@ -45,6 +45,29 @@ def test_each_tool_has_its_properties(tab: Tab) -> None:
     assert [topic.input_value() for topic in topics.all()] == ["/goal_pose", "/initialpose"]
 
 
+def test_a_tool_that_asks_asks_again(tab: Tab) -> None:
+    shown(tab)
+    tab.page.evaluate(SEND)
+    tab.wait_for(lambda: len(tab.loop.commands) == 1)
+    goal = replace(button("t1", GoalPose), asks=True)
+    tab.loop.show(tools=(goal,), settings=Settings(fixed_frame="map"))
+    card = tab.page.get_by_role("group", name="Send this?")
+    for answer, count in (("Cancel", 1), ("Send", 2)):
+        tab.wait_for(lambda: tab.page.evaluate(ASKS))
+        tab.button("Send again").first.click()
+        tab.wait_for(card.is_visible)
+        assert len(tab.loop.commands) == 1
+        card.get_by_role("button", name=answer).click()
+        assert card.count() == 0
+        tab.wait_for(lambda count=count: len(tab.loop.commands) == count)
+    refused = replace(goal, refusal="No goals today.")
+    tab.loop.show(tools=(refused,), settings=Settings(fixed_frame="map"))
+    tab.wait_for(lambda: tab.page.locator(".wv-tools [aria-disabled]").count() == 1)
+    tab.button("Send again").first.click()
+    tab.wait_for(lambda: "No goals today." in tab.page.locator(".wv-hint").inner_text())
+    assert len(tab.loop.commands) == 2
+
+
 def test_what_was_sent_is_listed_sent_again_and_copied(tab: Tab) -> None:
     shown(tab)
     tab.page.evaluate(SEND)
@@ -67,7 +90,7 @@ def test_what_was_sent_is_listed_sent_again_and_copied(tab: Tab) -> None:
         "header:\n  frame_id: map\n"
         "pose:\n  position:\n    x: 1\n    y: 2\n    z: 0.5\n"
     )
-    tab.button("Send again").click()
+    tab.button("Send again").first.click()
     tab.wait_for(lambda: len(tab.loop.commands) == 2)
     again = tab.loop.commands[-1]
     assert isinstance(again, UseTool)
@@ -75,35 +98,11 @@ def test_what_was_sent_is_listed_sent_again_and_copied(tab: Tab) -> None:
     # What was in another frame would be somewhere else.
     tab.loop.show(tools=tab.loop.state.tools, settings=Settings(fixed_frame="odom"))
     tab.turn()
-    tab.button("Send again").last.click()
+    tab.button("Send again").first.click()
     tab.wait_for(lambda: "Not sent: this was in map." in tab.text())
     for _ in range(25):
         tab.page.evaluate(SEND)
     tab.wait_for(lambda: rows.count() == 20)
-
-
-def test_a_tool_that_asks_asks_again(tab: Tab) -> None:
-    shown(tab)
-    tab.page.evaluate(SEND)
-    tab.wait_for(lambda: len(tab.loop.commands) == 1)
-    goal = replace(button("t1", GoalPose), asks=True)
-    tab.loop.show(tools=(goal,), settings=Settings(fixed_frame="map"))
-    card = tab.page.get_by_role("group", name="Send this?")
-    for answer, count in (("Cancel", 1), ("Send", 2)):
-        tab.wait_for(lambda: tab.page.locator(".wv-tools button").count() == 5)
-        tab.wait_for(lambda: tab.page.evaluate(ASKS))
-        tab.button("Send again").first.click()
-        tab.wait_for(card.is_visible)
-        assert len(tab.loop.commands) == 1
-        card.get_by_role("button", name=answer).click()
-        assert card.count() == 0
-        tab.wait_for(lambda count=count: len(tab.loop.commands) == count)
-    refused = replace(goal, refusal="No goals today.")
-    tab.loop.show(tools=(refused,), settings=Settings(fixed_frame="map"))
-    tab.wait_for(lambda: tab.page.locator(".wv-tools [aria-disabled]").count() == 1)
-    tab.button("Send again").first.click()
-    tab.wait_for(lambda: "No goals today." in tab.page.locator(".wv-hint").inner_text())
-    assert len(tab.loop.commands) == 2
 
 
 def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab) -> None:
@@ -116,4 +115,4 @@ def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab
         "act('UseTool', { tool: 't1', points: [[0, 0, 0]] }); }"
     )
     tab.wait_for(lambda: "this page does not fit the viewer" in tab.text())
-    assert 20 <= len(tab.loop.commands) < 200
+    assert len(tab.loop.commands) < 200

@@ -24,6 +24,7 @@ class Teleop(Tool):
 
     title = "Teleop"
     shortcut = "t"
+    order = 5
     gesture = "drive"
     icon = "wheel"
 
