@@ -16,6 +16,14 @@ from webviz.engine.state import File, Inspected, Row
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 40
+HIT = """(element) => {
+  const { left, right, top, bottom } = element.getBoundingClientRect();
+  const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+  const reach = [...Array(61).keys()].map((i) => i - 30);
+  const isHit = (x, y) => element.contains(document.elementFromPoint(x, y));
+  return [reach.filter((d) => isHit(x + d, y)).length, reach.filter((d) => isHit(x, y + d)).length];
+}"""
+"""How wide and high an element is for a finger."""
 
 
 @pytest.fixture
@@ -82,6 +90,22 @@ def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: Tab) -> None:
     phone.show_tab("TF")
     phone.wait_for(lambda: phone.page.locator(".wv-frame").count() == 2)
     assert too_small(phone) == []
+    assert min(phone.page.locator(".wv-fold-mark").first.evaluate(HIT)) >= FINGER_PX - 1
+    phone.show_tab("Displays")
+    assert min(phone.page.locator(".wv-tree-fold").first.evaluate(HIT)) >= FINGER_PX - 1
+
+
+def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
+    phone.page.set_viewport_size({"width": 250, "height": HEIGHT})
+    phone.button("Show the panels").tap()
+    tab = phone.page.get_by_role("tab").last
+    first = phone.page.get_by_role("tab").first
+    first.focus()
+    phone.page.keyboard.press("ArrowLeft")
+    playwright.expect(tab).to_be_in_viewport(ratio=0.95)
+    assert phone.page.evaluate("document.documentElement.scrollWidth") == 250
+    phone.page.keyboard.press("ArrowRight")
+    playwright.expect(first).to_be_in_viewport(ratio=0.95)
 
 
 def too_small(phone: Tab) -> list[str]:

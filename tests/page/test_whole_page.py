@@ -44,7 +44,7 @@ FONT = "DejaVu Sans"
 STILL = f"""
   * {{ transition: none !important; animation: none !important; caret-color: transparent !important;
     font-family: "{FONT}", sans-serif !important }}
-  .wv-rates {{ width: 110px; height: 28px; visibility: hidden }}
+  .wv-rates {{ width: 110px; min-width: 0; height: 28px; visibility: hidden }}
 """
 FREEZE = "window.setTime = (ms) => { Date.now = () => ms }; setTime(1_764_000_000_000)"
 HAS_MAP = """async () => {

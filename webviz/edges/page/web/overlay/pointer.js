@@ -21,6 +21,7 @@ export function build() {
   let mouse = null;
   let isWaiting = false;
   let resting = 0;
+  let isNamed = false; // on a slow machine a frame comes after the mouse has rested
   watch("displays", (rows) => (names = rows));
   watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
 
@@ -30,19 +31,22 @@ export function build() {
     if (event.pointerType === "touch") return;
     mouse = [event.clientX, event.clientY];
     clearTimeout(resting);
+    isNamed = false;
     if (event.buttons === 0) resting = setTimeout(rest, REST_MS);
     if (isWaiting) return;
     isWaiting = true;
     requestAnimationFrame(() => {
       isWaiting = false;
-      if (mouse) show(groundAt(...mouse), "");
+      if (mouse && !isNamed) show(groundAt(...mouse), "");
     });
   }
 
   // A ray through all that is drawn is too slow for each frame.
   function rest() {
     const found = mouse && hit(mouse);
-    if (found?.object) show(toFixedFrame(found.point), nameOf(found.object, names));
+    if (!found?.object) return;
+    isNamed = true;
+    show(toFixedFrame(found.point), nameOf(found.object, names));
   }
 
   function leave() {

@@ -1,17 +1,21 @@
 // How the page keeps up: frames a second and the way to the server and back; a click shows details.
 
 import * as channel from "../channel.js";
-import { el, setChildren, setText } from "../dom.js";
+import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 
 const EVERY_MS = 1000;
 const PING_TICKS = 2;
+const IDLE_FPS = 1; // viser's page draws a frame a second by itself
+
+const HINT = "Frames drawn in a second, and the time to the server and back";
 
 export function build() {
   let frames = 0;
   let rate = 0;
   let trip = null;
+  let shownTrip = null;
   let watchers = 0;
   let ticks = 0;
   let sent = 0;
@@ -19,7 +23,7 @@ export function build() {
   const more = el("dl", { class: "wv-card wv-rates-more", hidden: true });
   const button = el("button", {
     type: "button", class: "wv-card wv-rates", "aria-expanded": "false",
-    title: "Frames drawn in a second, and the time to the server and back", onclick: toggle,
+    "data-tip": HINT, onclick: toggle,
   }, label);
 
   channel.on("Pong", () => {
@@ -34,7 +38,7 @@ export function build() {
   setInterval(tick, EVERY_MS);
 
   function tick() {
-    rate = frames;
+    rate = frames > IDLE_FPS ? frames : 0;
     frames = 0;
     ticks += 1;
     if (document.hidden) return;
@@ -46,7 +50,9 @@ export function build() {
   }
 
   function show() {
-    const parts = [`${rate} fps`, trip === null ? "" : `${Math.round(trip)} ms`];
+    // While nothing is drawn nothing is late, and the page stands still.
+    if (rate || shownTrip === null) shownTrip = trip;
+    const parts = [`${rate} fps`, shownTrip === null ? "" : `${Math.round(shownTrip)} ms`];
     if (watchers > 1) parts.push(`${watchers} watching`);
     setText(label, parts.filter(Boolean).join(" · "));
     if (!more.hidden) explain();
@@ -73,7 +79,7 @@ export function build() {
 
   function toggle() {
     more.hidden = !more.hidden;
-    button.setAttribute("aria-expanded", String(!more.hidden));
+    set(button, { "aria-expanded": String(!more.hidden), "data-tip": more.hidden ? HINT : null });
     if (!more.hidden) explain();
   }
 

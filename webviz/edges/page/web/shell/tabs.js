@@ -14,9 +14,10 @@ export function tabs() {
   let shown = null;
   let close = () => {};
 
-  list.addEventListener("keydown", ({ key }) => {
-    const change = { ArrowLeft: -1, ArrowRight: 1 }[key];
+  list.addEventListener("keydown", (event) => {
+    const change = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!change) return;
+    event.preventDefault(); // else the list is scrolled, too
     const next = [...list.children].indexOf(document.activeElement) + change;
     const button = list.children[(next + list.children.length) % list.children.length];
     button.focus();
@@ -36,9 +37,17 @@ export function tabs() {
     content.replaceChildren();
     shown = panel;
     mark();
+    bringIntoSight(buttons.get(panel.name));
     set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
     remember("tab", panel.name);
     close = panel.open(content) ?? (() => {});
+  }
+
+  // Not `scrollIntoView`, which moves the whole page while the side is folded away.
+  function bringIntoSight({ offsetLeft, offsetWidth }) {
+    const right = offsetLeft + offsetWidth - list.offsetLeft;
+    if (right > list.scrollLeft + list.clientWidth) list.scrollLeft = right - list.clientWidth;
+    list.scrollLeft = Math.min(list.scrollLeft, offsetLeft - list.offsetLeft);
   }
 
   function mark() {
