@@ -27,7 +27,8 @@ COMMAND = [sys.executable, "-m", "webviz", "screenshot", "-d", str(CONFIG)]
 SMALL = ["--size", "320x240"]
 MANY = ["--every", "0.02", *SMALL]
 """Pictures for a minute, so that something can happen meanwhile."""
-PATIENCE_S = 60.0
+PATIENCE_S = 180.0
+"""For what takes five seconds on a machine that does nothing else."""
 
 
 @pytest.fixture

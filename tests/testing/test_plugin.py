@@ -76,37 +76,28 @@ def test_the_folders_can_be_chosen(package: pytest.Pytester) -> None:
     assert (package.path / "reference/masked.png").exists()
 
 
-def test_without_a_browser_the_failure_is_one_sentence(
+def test_without_a_browser_scenes_are_read_and_failures_are_one_sentence(
     package: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(package.path))
-    result = run(package, "-k", "masked", "--update-pictures")
-    result.assert_outcomes(failed=1, deselected=1)
-    result.stdout.fnmatch_lines(
-        ["E *NoBrowser: No browser found. Install Chromium or Google Chrome*"]
-    )
-
-
-def test_scenes_are_read_without_a_browser(
-    package: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("PATH", "")
     package.makepyfile(
-        """
+        test_first="""
         def test_grid(webviz_stage):
             import sys
             assert len(webviz_stage("test/robot.yaml").lines("Grid")) == 22
             assert "playwright" not in sys.modules
+
+        def test_missing(webviz_stage):
+            webviz_stage("robt.yaml")
         """
     )
-    run(package, "-k", "grid").assert_outcomes(passed=1, deselected=2)
-
-
-def test_a_config_that_is_missing_is_named(package: pytest.Pytester) -> None:
-    package.makepyfile('def test_it(webviz_stage):\n    webviz_stage("robt.yaml")\n')
-    result = run(package, "-k", "test_it")
+    result = run(package, "test_first.py", "test", "--update-pictures")
+    result.assert_outcomes(passed=1, failed=3)
     result.stdout.fnmatch_lines(["E *Cannot read *robt.yaml: No such file or directory*"])
+    result.stdout.fnmatch_lines(
+        ["E *NoBrowser: No browser found. Install Chromium or Google Chrome*"]
+    )
 
 
 def test_the_fixtures_are_listed_with_what_they_do(package: pytest.Pytester) -> None:
