@@ -207,11 +207,17 @@ def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) 
     robot.accept(second)
     assert robot.only().label == "x 3.00 y 2.00 m"
     assert first.cancels == []  # the server preempts it
-    end(first, ABORTED)
-    assert robot.only().label == "x 3.00 y 2.00 m"
     end(second, SUCCEEDED)
+    end(first, ABORTED)
     assert robot.outcome() == (Level.OK, "Reached the goal.")
-    for _ in range(MAX_ACTIVE):
+    third = robot.drag()
+    robot.accept(third)
+    fourth = robot.drag()
+    end(third, ABORTED)  # which arrives before the answer of the server
+    assert [goal.phase for goal in robot.shown()] == ["sending"]
+    robot.accept(fourth)
+    assert robot.only().phase == "active"
+    for _ in range(MAX_ACTIVE - 1):
         robot.drag()
     assert robot.use(((1.0, 2.0, 0.0),)) == "20 goals are active. Cancel one first."
 

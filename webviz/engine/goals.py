@@ -51,6 +51,7 @@ class RunningGoal:
         self.shown = shown
         self.before = tuple(before)
         self.is_accepted = False
+        self.is_replaced = False
         self.outcome: Status | None = None
         self.ended_s = 0.0
         self._request = request
@@ -134,6 +135,8 @@ class RunningGoal:
         except (Error, CancelledError) as error:
             outcome = self._failure(error)
         if self.is_accepted:
+            for goal in self.before:
+                goal.is_replaced = True
             self._report(Status(Level.OK, f"{self.action} accepted the goal."))
         else:
             self._report(outcome)

@@ -76,34 +76,24 @@ class GoalsPart(Part):
         """Follow the goals, and forget those that nobody needs to see any more."""
         for goal in self._goals.values():
             self._turn(goal)
-        replaced = self._replaced()
-        self._goals = {
-            id: goal
-            for id, goal in self._goals.items()
-            if goal.is_active or (goal not in replaced and self._is_worth_showing(goal))
-        }
+        self._goals = {id: goal for id, goal in self._goals.items() if self._is_worth_keeping(goal)}
 
     def state(self) -> Mapping[str, Any]:
         """What pages show of the goals."""
-        replaced, now = self._replaced(), self.core.clock()
-        shown = [goal for goal in self._goals.values() if goal not in replaced]
+        goals, now = self._goals.values(), self.core.clock()
+        # Those that may have ended because of a new one, which is not accepted yet.
+        old = {old for goal in goals for old in goal.before if goal.is_active and not old.is_active}
+        shown = [goal for goal in goals if not goal.is_replaced and goal not in old]
         return {"goals": tuple(goal.progress(now) for goal in shown)}
 
     def _turn(self, goal: RunningGoal) -> None:
         self.core.guard(goal.shown.title, goal.turn, self.core.clock())
 
-    def _replaced(self) -> set[RunningGoal]:
-        """Goals that have a successor which their server has accepted, or which they wait for."""
-        return {
-            old
-            for goal in self._goals.values()
-            for old in goal.before
-            if goal.is_active and (goal.is_accepted or not old.is_active)
-        }
-
-    def _is_worth_showing(self, goal: RunningGoal) -> bool:
-        if goal.outcome is None or not goal.is_accepted:
-            return goal.is_active  # its sender knows why
+    def _is_worth_keeping(self, goal: RunningGoal) -> bool:
+        if goal.outcome is None:
+            return True
+        if goal.is_replaced or not goal.is_accepted:  # of which its sender knows why
+            return False
         age = self.core.clock() - goal.ended_s
         return goal.outcome.level is not Level.OK or age < SHOWN_S
 
