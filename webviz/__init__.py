@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         Solid,
     )
     from webviz.api.panel import Panel, Send, Ui
+    from webviz.api.picking import Details, Hit
     from webviz.api.ports import Input, Output
     from webviz.api.sample import Sample
     from webviz.api.status import Level, Status
@@ -44,12 +45,14 @@ __all__ = [
     "Color",
     "ColorScale",
     "Context",
+    "Details",
     "Display",
     "Error",
     "FramePoses",
     "Frames",
     "Glb",
     "Group",
+    "Hit",
     "Image",
     "Input",
     "Instances",
@@ -105,6 +108,7 @@ _HOMES = {
         "Solid",
     ),
     "webviz.api.panel": ("Panel", "Send", "Ui"),
+    "webviz.api.picking": ("Details", "Hit"),
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Status"),

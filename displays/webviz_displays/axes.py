@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated
 
-from webviz import Context, Display, Prop, Sample
+from webviz import Context, Details, Display, Hit, Prop, Sample
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 
 
@@ -24,3 +24,10 @@ class Axes(Display):
         """Axes that follow the reference frame."""
         group = ctx.follow(frame_of(self.reference_frame))
         group.axes("axes", [(0.0, 0.0, 0.0)], [(1.0, 0.0, 0.0, 0.0)], self.length, self.radius)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """The frame, and where it is."""
+        frame = frame_of(self.reference_frame) or ctx.frames.fixed_frame
+        pose = ctx.frames.latest(frame)
+        values = {} if pose is None else {f"Pose in {ctx.frames.fixed_frame}": pose}
+        return Details(f"Axes of {frame}", values | {"Length": f"{self.length:g} m"})

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Display, Prop, Sample
+from webviz import Color, Context, Details, Display, Hit, Prop, Sample
 from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
@@ -93,6 +93,17 @@ class Grid(Display):
             f"More than {MOST_LINES} lines are too many for a browser; showing the {cells} "
             "cells in the middle. Choose fewer and larger cells.",
         )
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """The grid as a whole."""
+        plane, normal = _inner(self.plane_cell_count, self.normal_cell_count)
+        values = {
+            "Cell size": f"{self.cell_size:g} m",
+            "Cells": f"{plane} x {plane}" + (f" x {normal}" if normal else ""),
+            "Plane": self.plane,
+            "Reference frame": frame_of(self.reference_frame) or ctx.frames.fixed_frame,
+        }
+        return Details("Grid", values)
 
 
 def _count(plane: int, normal: int) -> int:

@@ -7,11 +7,24 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import (
+    Color,
+    Context,
+    Details,
+    Display,
+    Group,
+    Hit,
+    Input,
+    Keep,
+    Pose,
+    Prop,
+    Sample,
+    Topic,
+)
 from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
-from webviz_displays.point_cloud2.decimation import evenly
+from webviz_displays.point_cloud2.decimation import Rows, evenly
 from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
 
@@ -99,6 +112,7 @@ class Path(Display):
             return
         ctx.ok("Path", f"Showing {counted(count, 'pose')}.")
         positions, orientations = path.poses.positions, path.poses.orientations
+        rows = None
         if count > MOST_POSES:
             ctx.warn("Path", f"Showing {MOST_POSES} of {count} poses, evenly picked.")
             rows = evenly(count, MOST_POSES)
@@ -116,11 +130,25 @@ class Path(Display):
             ctx.warn("Path", "The line is invisible: alpha is 0. Increase it to show the line.")
         else:
             width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
-            group.strip("line", xyz, color, width, unit)
+            group.strip("line", xyz, color, width, unit, None if rows is None else rows[:-1])
         if self.pose_style != "None":
-            self._draw_poses(xyz, orientations, group, ctx)
+            self._draw_poses(xyz, orientations, rows, group, ctx)
 
-    def _draw_poses(self, xyz: F64, xyzw: F64, group: Group, ctx: Context) -> None:
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """A pose, or the one that a piece of the line begins at."""
+        path: messages.Path = hit.sample.message
+        pose = path.poses[hit.id]
+        (wxyz,), _ = normalized(w_first([path.poses.orientations[hit.id]]))
+        placed = Pose(tuple(path.poses.positions[hit.id].tolist()), tuple(wxyz.tolist()))
+        values: dict[str, object] = {"Poses in the path": len(path.poses)}
+        if stamp_ns := pose.header.stamp_ns:
+            values["Stamp of the pose"] = f"{stamp_ns / 1e9:.6f} s"
+        frame = pose.header.frame_id or path.header.frame_id
+        return Details(f"Pose {hit.id}", {**values, f"Pose in {frame}": placed})
+
+    def _draw_poses(
+        self, xyz: F64, xyzw: F64, rows: Rows | None, group: Group, ctx: Context
+    ) -> None:
         wxyz, ok = normalized(w_first(xyzw))
         if not ok.all():
             ctx.warn(
@@ -129,11 +157,11 @@ class Path(Display):
                 "they are drawn without rotation. Fix the planner.",
             )
         if self.pose_style == "Axes":
-            group.axes("poses", xyz, wxyz, self.length, self.radius)
+            group.axes("poses", xyz, wxyz, self.length, self.radius, rows)
         else:
             segments = along_x(xyz, matrices(wxyz), self.shaft_length + self.head_length)
             radii = self.shaft_diameter / 2, self.head_diameter / 2
-            group.arrows("poses", segments, self.pose_color, *radii, self.head_length)
+            group.arrows("poses", segments, self.pose_color, *radii, self.head_length, rows)
 
 
 def _fault(path: messages.Path, index: int) -> str:

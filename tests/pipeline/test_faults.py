@@ -9,9 +9,9 @@ from typing import Annotated, Any
 
 import pytest
 
-from webviz import Context, Display, Input, Keep, Sample, Topic
+from webviz import Context, Display, Hit, Input, Keep, Sample, Topic
 from webviz.api.status import Level
-from webviz.engine.commands import Refresh, SetBackground, SetProperty
+from webviz.engine.commands import Identify, Picks, Refresh, SetBackground, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -82,6 +82,10 @@ class Faulty(Display):
 
     def tick(self, ctx: Context) -> None:
         self._raise_in("tick")
+        ctx.points("dot", [[0, 0, 0]], (0, 0, 0), 0.1)
+
+    def inspect(self, hit: Hit, ctx: Context) -> None:
+        self._raise_in("inspect")
 
 
 class FaultyFold(Faulty):
@@ -112,8 +116,10 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
     faulty = (FaultyFold if hook == "fold" else Faulty)(name="Faulty", hook=hook, leaves=leaves)
     sound = Sound(name="Sound")
     b = bench(faulty, sound, strict=False)
+    dot = Picks("display1/tick/", "dot", ((1, 0, (0.0, 0.0, 0.0), None),))
     for _ in range(5):
         feed(b)
+        b.viewer.enqueue(Identify(dot))
         b.turn()
     before = sound.turns
     feed(b)

@@ -116,7 +116,7 @@ class _Builder:
             except (ResolveError, MeshError) as error:
                 self._missing.append(Missing(link, uri, str(error), kind))
                 continue
-            shapes[name] = Shape(name, pose_of(element.origin), node)
+            shapes[name] = Shape(name, pose_of(element.origin), node, uri)
         return tuple(shapes.values())
 
     def _check(self, number: int, uri: str) -> None:

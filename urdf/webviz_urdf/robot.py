@@ -28,11 +28,13 @@ class Shape:
         name: unique within its link and kind.
         pose: of the node in the link's frame.
         node: with the mesh's unit and scale applied.
+        source: the mesh as the description names it, "" for a box, sphere or cylinder.
     """
 
     name: str
     pose: Pose
     node: Mesh | Glb
+    source: str = ""
 
 
 @dataclass(frozen=True)

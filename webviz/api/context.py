@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz.api import nodes
 from webviz.api.frames import Frames, is_placeable
-from webviz.api.nodes import Node, Pose, Rgb, Solid
+from webviz.api.nodes import Ids, Node, Pose, Rgb, Solid
 from webviz.api.status import Level, Status
 from webviz.data.transforms.geometry import REACH_M
 
@@ -86,9 +86,10 @@ class Group:
         colors: ArrayLike | Rgb,
         size: float,
         shape: Literal["square", "circle"] = "square",
+        ids: Ids | None = None,
     ) -> None:
         """Draw points; see `webviz.api.nodes.Points`."""
-        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape)
+        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape, ids)
 
     def lines(
         self,
@@ -97,9 +98,10 @@ class Group:
         colors: ArrayLike | Rgb,
         width: float = 1.0,
         unit: Literal["px", "m"] = "px",
+        ids: Ids | None = None,
     ) -> None:
         """Draw independent segments; see `webviz.api.nodes.Lines`."""
-        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), _colors(colors), width, unit)
+        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), _colors(colors), width, unit, ids)
 
     def strip(
         self,
@@ -108,11 +110,12 @@ class Group:
         color: Rgb,
         width: float = 1.0,
         unit: Literal["px", "m"] = "px",
+        ids: Ids | None = None,
     ) -> None:
-        """Draw one line through points, float (N, 3)."""
+        """Draw one line through points, float (N, 3), with an id for each segment."""
         points = _f32(xyz, 3)
         segments = np.stack([points[:-1], points[1:]], axis=1)
-        self.nodes[key] = nodes.Lines(segments, color, width, unit)
+        self.nodes[key] = nodes.Lines(segments, color, width, unit, ids)
 
     def arrows(
         self,
@@ -122,17 +125,24 @@ class Group:
         shaft_radius: float,
         head_radius: float,
         head_length: float,
+        ids: Ids | None = None,
     ) -> None:
         """Draw arrows from tails to tips; see `webviz.api.nodes.Arrows`."""
         self.nodes[key] = nodes.Arrows(
-            _f32(segments, 2, 3), _colors(colors), shaft_radius, head_radius, head_length
+            _f32(segments, 2, 3), _colors(colors), shaft_radius, head_radius, head_length, ids
         )
 
     def axes(
-        self, key: str, positions: ArrayLike, wxyzs: ArrayLike, length: float, radius: float
+        self,
+        key: str,
+        positions: ArrayLike,
+        wxyzs: ArrayLike,
+        length: float,
+        radius: float,
+        ids: Ids | None = None,
     ) -> None:
         """Draw coordinate axes; see `webviz.api.nodes.Axes`."""
-        self.nodes[key] = nodes.Axes(_f32(positions, 3), _f32(wxyzs, 4), length, radius)
+        self.nodes[key] = nodes.Axes(_f32(positions, 3), _f32(wxyzs, 4), length, radius, ids)
 
     def labels(
         self,
@@ -155,13 +165,14 @@ class Group:
         wxyzs: ArrayLike | None = None,
         opacity: float | NDArray[np.float32] = 1.0,
         is_data: bool = False,
+        ids: Ids | None = None,
     ) -> None:
         """Draw many solids; `scales` may be one size for all. See `webviz.api.nodes.Instances`."""
         xyz = _f32(positions, 3)
         sizes = np.ascontiguousarray(np.broadcast_to(np.asarray(scales, np.float32), xyz.shape))
         turns = None if wxyzs is None else _f32(wxyzs, 4)
         self.nodes[key] = nodes.Instances(
-            xyz, sizes, _colors(colors), shape, turns, opacity, is_data
+            xyz, sizes, _colors(colors), shape, turns, opacity, is_data, ids
         )
 
     def image(

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 import msgspec
 
 from webviz.api.declared import Declared, Topic
+from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input
 from webviz.api.properties import properties_of
 
@@ -166,6 +167,15 @@ class Display(Declared, kw_only=True):
 
     def tick(self, ctx: Context) -> None:
         """Draw what depends on transforms or time; called on every turn of the frame loop."""
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """What is known of something that was selected; None if it does not exist any more.
+
+        The name of the display, the frame, the stamp and the position are added. Called again twice
+        a second while a browser shows the selection; nodes and statuses added to `ctx` are ignored.
+        """
+        noun = noun_of(hit.node)
+        return Details(noun if hit.id is None else f"{noun} {hit.id}")
 
 
 D = TypeVar("D", bound=Display)

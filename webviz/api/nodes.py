@@ -7,14 +7,16 @@ Arrays must not be changed once they are part of a node.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Literal
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
+Ids = NDArray[Any]
+"""What identifies each item of a node when it is selected: the `Hit.id` of `Display.inspect`."""
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
@@ -33,6 +35,7 @@ class _Node:
         return all(
             same(getattr(self, f.name), getattr(other, f.name))
             for f in fields(self)  # pyright: ignore[reportArgumentType]
+            if f.compare
         )
 
     __hash__ = None  # pyright: ignore[reportAssignmentType]
@@ -58,12 +61,14 @@ class Points(_Node):
         colors: uint8 (N, 3), or one colour for all.
         size: edge or diameter in metres.
         shape: outline of each point.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     xyz: F32
     colors: U8 | Rgb
     size: float
     shape: Literal["square", "circle"] = "square"
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +80,14 @@ class Lines(_Node):
         colors: uint8 (N, 2, 3), or one colour for all.
         width: in `unit`.
         unit: "px" is constant on the screen, "m" in the world.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     segments: F32
     colors: U8 | Rgb
     width: float = 1.0
     unit: Literal["px", "m"] = "px"
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +98,7 @@ class Arrows(_Node):
         segments: float32 (N, 2, 3), tail and tip of each arrow in metres; finite.
         colors: uint8 (N, 3), or one colour for all.
         shaft_radius, head_radius, head_length: metres.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     segments: F32
@@ -98,6 +106,7 @@ class Arrows(_Node):
     shaft_radius: float
     head_radius: float
     head_length: float
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +117,14 @@ class Axes(_Node):
         positions: float32 (N, 3), metres.
         wxyzs: float32 (N, 4), unit quaternions with w first, as viser has them.
         length, radius: metres.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     positions: F32
     wxyzs: F32
     length: float
     radius: float
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,6 +175,7 @@ class Instances(_Node):
         wxyzs: float32 (N, 4), unit quaternions with w first; None means not rotated.
         opacity: 0 to 1, float32 (N,) or one for all.
         is_data: whether colours are data, which shading must hardly change.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     positions: F32
@@ -173,6 +185,7 @@ class Instances(_Node):
     wxyzs: F32 | None = None
     opacity: float | F32 = 1.0
     is_data: bool = False
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.plugins import PluginsPart
+from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.tools import ToolsPart
@@ -111,6 +112,7 @@ class FrameLoop:
             files,
             history,
             TopicsPart(core),
+            SelectionPart(core, displays),
             PluginsPart(core, displays, settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *(make(core) for make in parts),

@@ -280,6 +280,9 @@ class State:
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
         history: what can be undone and redone.
+        selected: ids of what each browser has selected, each with that of its display, and
+            whether it moves.
+        selections: what is known of it, for the browsers that show it.
         more: fields of additional parts, by name.
     """
 
@@ -301,4 +304,6 @@ class State:
     goals: tuple[GoalProgress, ...] = ()
     driving: Mapping[str, Driving] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()
+    selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
+    selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     more: Mapping[str, Any] = field(default_factory=dict)

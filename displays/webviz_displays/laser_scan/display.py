@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic
+from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
@@ -77,7 +78,20 @@ class LaserScan(PointsDisplay):
         xyz = self._place(hits, sample, ctx)
         colors = self._colors(scan, hits, xyz, sample, ctx)
         # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
-        self.draw_points(xyz, colors, ctx, ctx, conjugate(sample.pose.wxyz))
+        turn = conjugate(sample.pose.wxyz)
+        self.draw_points(xyz, colors, ctx, ctx, turn, ids=hits.beams)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """A beam: its range, intensity and angle."""
+        scan: messages.LaserScan = hit.sample.message
+        values: dict[str, object] = {"Range": f"{scan.ranges[hit.id]!s} m"}
+        if len(scan.intensities) == len(scan.ranges):
+            values["Intensity"] = scan.intensities[hit.id]
+        angle = scan.angle_min + hit.id * scan.angle_increment
+        values["Angle"] = f"{angle:.6f} rad, {math.degrees(angle):.2f}°"
+        if scan.time_increment:
+            values["Time after the first beam"] = f"{1e3 * hit.id * scan.time_increment:.3f} ms"
+        return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
 
     def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""

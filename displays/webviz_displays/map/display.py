@@ -9,8 +9,21 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Display, Image, Input, Pose, Prop, Sample, Topic, compose
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Image,
+    Input,
+    Pose,
+    Prop,
+    Sample,
+    Topic,
+    compose,
+)
 from webviz.data.words import counted
+from webviz_displays.map.cells import cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated
 
@@ -72,11 +85,13 @@ class _State:
     Args:
         look: of all tiles.
         tiles: by corner.
+        grid: whole.
         at_stamp: fixed frame, frame and stamp of the map, and the pose that it had.
     """
 
     look: MapStyle | None = None
     tiles: dict[Corner, Tile] = field(default_factory=dict)
+    grid: TiledGrid | None = None
     at_stamp: tuple[tuple[str, str, int], Pose] | None = None
 
 
@@ -161,6 +176,7 @@ class Map(Display):
             return
         folded: Folded = samples[-1].message
         grid = folded.grid
+        ctx.state.grid = grid
         if grid is None:
             ctx.error("Map", folded.fault)
             return
@@ -182,8 +198,14 @@ class Map(Display):
         group = ctx.follow(frame, when="now", offset=compose(outer, grid.origin))
         for (row, column), image in images.items():
             corner = (column * grid.resolution, row * grid.resolution, 0.0)
-            group.add(f"tile {row} {column}", image, Pose(corner))
+            group.add(tile_key((row, column)), image, Pose(corner))
         self._report(folded, grid, ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A cell, with the value that it has now."""
+        grid: TiledGrid | None = ctx.state.grid
+        corner = next((c for c in grid.tiles if tile_key(c) == hit.key), None) if grid else None
+        return cell_details(grid, corner, hit.point, self.color_scheme) if grid and corner else None
 
     def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
         """Where the frame was at the stamp; kept, because transforms expire after seconds."""

@@ -19,6 +19,7 @@ from webviz_displays.odometry.covariance import (
 from webviz_displays.shared.pose_properties import OrientationCovariance, PositionCovariance
 
 F64 = NDArray[np.float64]
+Ids = NDArray[np.intp]
 
 THICKNESS = 1e-3
 """Of ellipses and discs, metres, as in RViz."""
@@ -27,7 +28,12 @@ _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def add_positions(
-    group: Group, look: PositionCovariance, given: Covariances, positions: F64, frames: F64
+    group: Group,
+    look: PositionCovariance,
+    given: Covariances,
+    positions: F64,
+    frames: F64,
+    ids: Ids,
 ) -> None:
     """Draw ellipses and ellipsoids around N positions.
 
@@ -37,20 +43,44 @@ def add_positions(
         given: in the axes of `frames`.
         positions: (N, 3), metres.
         frames: (N, 3, 3), rotations.
+        ids: (N,), of the poses.
     """
     flat = ellipses(given, positions, frames, look.scale)
     full = ellipsoids(given, positions, frames, look.scale)
     if len(flat.centers):
         scales, wxyzs = _turned(flat)
         scales[:, 2] = THICKNESS
-        group.instances("ellipses", "cylinder", flat.centers, scales, look.color, wxyzs, look.alpha)
+        group.instances(
+            "ellipses",
+            "cylinder",
+            flat.centers,
+            scales,
+            look.color,
+            wxyzs,
+            look.alpha,
+            ids=ids[given.is_planar],
+        )
     if len(full.centers):
         scales, wxyzs = _turned(full)
-        group.instances("ellipsoids", "sphere", full.centers, scales, look.color, wxyzs, look.alpha)
+        group.instances(
+            "ellipsoids",
+            "sphere",
+            full.centers,
+            scales,
+            look.color,
+            wxyzs,
+            look.alpha,
+            ids=ids[~given.is_planar],
+        )
 
 
 def add_orientations(
-    group: Group, look: OrientationCovariance, given: Covariances, positions: F64, axes: F64
+    group: Group,
+    look: OrientationCovariance,
+    given: Covariances,
+    positions: F64,
+    axes: F64,
+    ids: Ids,
 ) -> None:
     """Draw wedges and discs at N poses.
 
@@ -62,6 +92,7 @@ def add_orientations(
         given: covariances of rotations about `axes`.
         positions: (N, 3), metres.
         axes: (N, 3, 3), rotations.
+        ids: (N,), of the poses.
     """
     colors = (look.color,) * 3 if look.color_style == "Unique" else _RGB
     yaws = wedges(given, positions, axes, look.scale, look.offset)
@@ -75,7 +106,16 @@ def add_orientations(
         scales, wxyzs = _turned(placed)
         scales[:, 2] = THICKNESS
         each = np.repeat(np.array(colors, np.uint8), len(discs[0].centers), axis=0)
-        group.instances("discs", "cylinder", placed.centers, scales, each, wxyzs, look.alpha)
+        group.instances(
+            "discs",
+            "cylinder",
+            placed.centers,
+            scales,
+            each,
+            wxyzs,
+            look.alpha,
+            ids=np.tile(ids[~given.is_planar], 3),
+        )
 
 
 def _turned(placed: Placed) -> tuple[F64, F64]:

@@ -8,11 +8,12 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Display, Group, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import Context, Details, Display, Group, Hit, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.words import counted
 from webviz_displays.odometry import covariance
 from webviz_displays.odometry.covariance_marks import add_orientations, add_positions
+from webviz_displays.odometry.details import details
 from webviz_displays.odometry.poses import GrowingTrail, Trail, fault, has_moved, is_sound
 from webviz_displays.shared.geometry import along_x, origin_near
 from webviz_displays.shared.pose_properties import Covariance, PoseShape
@@ -75,6 +76,12 @@ class Odometry(Display):
         if self.covariance.value:
             self._draw_covariances(samples, poses, group, ctx)
 
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """A message; the wedges are one mesh, which does not know of its messages."""
+        if hit.id is None:
+            return Details("Covariances of yaw")
+        return details(hit.samples[hit.id])
+
     def _draw_poses(self, poses: Trail, group: Group, ctx: Context) -> None:
         look = self.shape
         if look.value == "Axes":
@@ -117,9 +124,10 @@ class Odometry(Display):
             values[-MOST_COVARIANCES:][ok]
             for values in (poses.positions, poses.frames, poses.rotations)
         )
+        ids = np.arange(len(samples))[-MOST_COVARIANCES:][ok]
         look = self.covariance.orientation
         if self.covariance.position.value:
-            add_positions(group, self.covariance.position, given, positions, frames)
+            add_positions(group, self.covariance.position, given, positions, frames, ids)
         if look.value:
             axes = axes if look.frame == "Local" else frames
-            add_orientations(group, look, given, positions, axes)
+            add_orientations(group, look, given, positions, axes, ids)

@@ -132,6 +132,31 @@ class Cloud:
                     xyz[:, i] = column
         return xyz, origin
 
+    def point(self, index: int) -> dict[str, object]:
+        """All fields of one point by name, each in the type of the message.
+
+        A field of several elements is an array, a packed colour its channels, and a field that
+        cannot be read a sentence.
+        """
+        row, column = divmod(index, self._message.width)
+        start = row * self._row_step + column * self._message.point_step
+        found: dict[str, object] = {}
+        for field in self._message.fields:
+            try:
+                offset, dtype = self._place(field.name)
+            except CloudError as error:
+                found[field.name] = str(error)
+                continue
+            values = np.ndarray(max(field.count, 1), dtype, self._message.data, start + offset)
+            if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
+                alpha, *channels = int(values.view(dtype.byteorder + "u4")[0]).to_bytes(4, "big")
+                channels += [alpha] * (field.name == "rgba")
+                named = zip("rgba", channels, strict=False)
+                found[field.name] = ", ".join(f"{name} {value}" for name, value in named)
+            else:
+                found[field.name] = values[0] if len(values) == 1 else values
+        return found
+
     def _place(self, name: str) -> tuple[int, np.dtype[Any]]:
         """Offset and type of a field."""
         field = next((field for field in self._message.fields if field.name == name), None)

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Input, Pose, Prop, Rgb, Sample, Topic, compose
+from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic, compose
 from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
 from webviz_displays.point_cloud2.cloud_colors import (
     automatic,
@@ -113,7 +113,7 @@ class PointCloud2(PointsDisplay):
             colors, opacities = WHITE, None
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0
-            xyz = xyz[seen]
+            xyz, rows = xyz[seen], np.flatnonzero(seen) if rows is None else rows[seen]
             colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
             if hidden := len(seen) - len(xyz):
                 sentence += f" {spaced(hidden)} of them are invisible: their rgba has alpha 0."
@@ -122,7 +122,21 @@ class PointCloud2(PointsDisplay):
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
-        self.draw_points(xyz, colors, group, ctx)  # as in RViz, boxes turn with the sensor
+        self.draw_points(
+            xyz, colors, group, ctx, ids=rows
+        )  # as in RViz, boxes turn with the sensor
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """All fields of a point."""
+        message = hit.sample.message
+        fields = Cloud(message).point(hit.id)
+        position = {name: fields.pop(name) for name in "xyz" if name in fields}
+        values = fields | {f"Position in {hit.sample.frame}": position}
+        if message.height > 1:
+            values |= {"Row": hit.id // message.width, "Column": hit.id % message.width}
+        return Details(
+            f"Point {hit.id}", values | {"Points in the cloud": message.width * message.height}
+        )
 
     def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
         """The rows of the points to show, None for all, and a sentence about them.

@@ -8,8 +8,9 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from webviz import Context, Display, Frames, Input, Prop, Sample, Topic
+from webviz import Context, Details, Display, Frames, Hit, Input, Prop, Sample, Topic
 from webviz.data.transforms import distinct
+from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.loading import Loadings, Written, last_written, load, progress
 from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, Paint, parts_of
 from webviz_displays.robot_model.statuses import (
@@ -196,6 +197,16 @@ class RobotModel(Display):
             if pose := ctx.frames.latest(model.frame(link)):
                 report_link(link, pose, ctx)
         self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A link, by one of its shapes, its trail or a joint on it."""
+        model: _Model | None = ctx.state.model
+        if model is None:
+            return None
+        link = hit.frame.removeprefix(model.prefix) or hit.key.removesuffix(TRAIL)
+        if link not in model.robot.links:
+            return None
+        return link_details(model.full or model.robot, link, model.frame(link), ctx.frames)
 
     def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
         """Why the first links are lost; the texts contain times and are renewed every second."""

@@ -168,6 +168,7 @@ class PointsDisplay(Display):
         group: Group,
         ctx: Context,
         box_wxyz: ArrayLike | None = None,
+        ids: NDArray[Any] | None = None,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -178,6 +179,7 @@ class PointsDisplay(Display):
             ctx: collects statuses.
             box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
                 their sides along its axes.
+            ids: (N,), index of each in the message; None if all are drawn.
         """
         too_many = len(xyz) > SOLIDS_LIMIT
         if self.style in _SOLIDS and not too_many:
@@ -185,7 +187,9 @@ class PointsDisplay(Display):
             shape = _SOLIDS[self.style]
             # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
             is_data = shape == "sphere"
-            group.instances("solids", shape, xyz, self.size, colors, wxyzs, self.alpha, is_data)
+            group.instances(
+                "solids", shape, xyz, self.size, colors, wxyzs, self.alpha, is_data, ids
+            )
             return
         if isinstance(colors, tuple):
             colors = faded_color(colors, self.alpha)
@@ -195,7 +199,7 @@ class PointsDisplay(Display):
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
             if not isinstance(colors, tuple):
                 colors = np.repeat(colors[:, None], 2, axis=1)
-            group.lines("points", dots, colors, self.size_pixels)
+            group.lines("points", dots, colors, self.size_pixels, ids=ids)
             return
         outline = "circle" if self.style == "Spheres" else "square"
         if self.style in _SOLIDS:
@@ -206,4 +210,4 @@ class PointsDisplay(Display):
             )
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
-        group.points("points", xyz, colors, self.size, outline)
+        group.points("points", xyz, colors, self.size, outline, ids)

@@ -11,13 +11,24 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Display, FramePoses, Group, Pose, Prop, Sample, Status
+from webviz import (
+    Context,
+    Details,
+    Display,
+    FramePoses,
+    Group,
+    Hit,
+    Pose,
+    Prop,
+    Sample,
+    Status,
+)
 from webviz.data.transforms import distinct
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
 from webviz_displays.tf.frame_filter import FrameFilter, parent_indices
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
-from webviz_displays.tf.frame_readout import readout
+from webviz_displays.tf.frame_readout import details, readout
 from webviz_displays.tf.frame_tree import outline
 
 SECOND = 1_000_000_000
@@ -159,6 +170,10 @@ class TF(Display):
         groups = {key: group for key, group in ctx.groups.items() if group is not ctx}
         state.last = _Tick(now_ns, groups, dict(ctx.statuses))
 
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A frame: its parent, its pose and how old that is."""
+        return details(ctx.frames, hit.id)
+
     def _known(self, ctx: Context, names: list[str]) -> _Known:
         state: _State = ctx.state
         version = (ctx.frames.structure, len(names))
@@ -183,7 +198,8 @@ class TF(Display):
         group = ctx.follow(None, offset=Pose(near), key="near")
         greyness, opacity = fade(ages[rows], self.frame_timeout)
         scale = self.marker_scale
-        marks = Marks(poses.positions[rows] - near, greyness, opacity)
+        names = np.array(poses.names, object)[rows]
+        marks = Marks(poses.positions[rows] - near, greyness, opacity, names)
         if self.show_axes:
             add_axes(group, marks, poses.wxyzs[rows], scale)
         if self.show_arrows:
@@ -191,7 +207,7 @@ class TF(Display):
             tips = poses.positions[parents[rows]] - near
             add_arrows(group, marks.only(has_parent), tips[has_parent], scale)
         if self.show_names:
-            add_names(group, marks, tuple(poses.names[row] for row in rows), scale)
+            add_names(group, marks, scale)
 
     def _report(
         self, selected: NDArray[np.bool_], shown: NDArray[np.bool_], poses: FramePoses, ctx: Context

@@ -37,15 +37,19 @@ class Marks:
     Args:
         positions: (N, 3), metres.
         greyness, opacity: (N,), 0 to 1.
+        names: (N,), frame ids.
     """
 
     positions: F64
     greyness: F64
     opacity: F64
+    names: NDArray[np.object_]
 
     def only(self, rows: NDArray[np.bool_]) -> Marks:
         """A subset of the frames."""
-        return Marks(self.positions[rows], self.greyness[rows], self.opacity[rows])
+        return Marks(
+            self.positions[rows], self.greyness[rows], self.opacity[rows], self.names[rows]
+        )
 
 
 def add_axes(group: Group, marks: Marks, wxyzs: F64, scale: float) -> None:
@@ -53,15 +57,17 @@ def add_axes(group: Group, marks: Marks, wxyzs: F64, scale: float) -> None:
     length, diameter = AXIS_LENGTH * scale, AXIS_DIAMETER * scale
     fresh = marks.greyness == 0.0
     if fresh.any():
-        group.axes("axes", marks.positions[fresh], wxyzs[fresh], length, diameter / 2)
+        names = marks.names[fresh]
+        group.axes("axes", marks.positions[fresh], wxyzs[fresh], length, diameter / 2, names)
     if fresh.all():
         return
     ageing = marks.only(~fresh)
     tails = np.repeat(ageing.positions, 3, axis=0)
     ways = length * np.swapaxes(matrices(wxyzs[~fresh]), 1, 2).reshape(-1, 3)
     colors = faded(_AXES, ageing.greyness).reshape(-1, 3)
-    opacity = np.repeat(ageing.opacity, 3)
-    _add(group, "cylinder", "old axes", rods(tails, tails + ways, diameter), colors, opacity)
+    opacity, names = np.repeat(ageing.opacity, 3), np.repeat(ageing.names, 3)
+    solids = rods(tails, tails + ways, diameter)
+    _add(group, "cylinder", "old axes", solids, colors, opacity, names)
 
 
 def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
@@ -79,22 +85,33 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
     shafts = rods(marks.positions, necks, SHAFT_DIAMETER * scale)
     heads = rods(necks, tips, HEAD_DIAMETER * scale)
     shaft_colors, head_colors = np.moveaxis(faded(_ARROW, marks.greyness), 1, 0)
-    _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity)
-    _add(group, "cone", "heads", heads, head_colors, marks.opacity)
+    _add(group, "cylinder", "shafts", shafts, shaft_colors, marks.opacity, marks.names)
+    _add(group, "cone", "heads", heads, head_colors, marks.opacity, marks.names)
 
 
-def add_names(group: Group, marks: Marks, names: tuple[str, ...], scale: float) -> None:
+def add_names(group: Group, marks: Marks, scale: float) -> None:
     """Names below the origins, from any viewpoint."""
-    group.labels("names", marks.positions, names, TEXT_HEIGHT * scale, below=True)
+    texts = tuple(marks.names.tolist())
+    group.labels("names", marks.positions, texts, TEXT_HEIGHT * scale, below=True)
 
 
-def _add(group: Group, shape: Solid, key: str, solids: Rods, colors: U8, opacity: F64) -> None:
+def _add(
+    group: Group,
+    shape: Solid,
+    key: str,
+    solids: Rods,
+    colors: U8,
+    opacity: F64,
+    names: NDArray[np.object_],
+) -> None:
     """Draw opaque solids as `key`, transparent ones separately."""
     faint = opacity < 1.0
     if not faint.all():
         positions, scales, wxyzs = (array[~faint] for array in solids)
-        group.instances(key, shape, positions, scales, colors[~faint], wxyzs)
+        group.instances(key, shape, positions, scales, colors[~faint], wxyzs, ids=names[~faint])
     if faint.any():
         positions, scales, wxyzs = (array[faint] for array in solids)
         each = opacity[faint].astype(np.float32)
-        group.instances(f"faint {key}", shape, positions, scales, colors[faint], wxyzs, each)
+        group.instances(
+            f"faint {key}", shape, positions, scales, colors[faint], wxyzs, each, ids=names[faint]
+        )

@@ -19,7 +19,7 @@ from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import State
 
-OF_ONE_BROWSER = ("view", "view_type")
+OF_ONE_BROWSER = ("selected", "selection", "view", "view_type")
 """Stores with the id of a browser behind the colon."""
 
 

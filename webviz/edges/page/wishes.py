@@ -8,6 +8,7 @@ from webviz.edges.page.content.transforms import pair_of
 from webviz.engine.commands import (
     PROGRAM,
     Command,
+    InspectSelections,
     InspectTopics,
     InspectTransforms,
     Sender,
@@ -38,6 +39,9 @@ def _wishes(stores: set[str]) -> set[Command]:
     pairs = map(pair_of, _arguments("between", stores))
     return {
         InspectTopics(frozenset(_arguments("message", stores))),
+        InspectSelections(
+            _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
+        ),
         InspectTransforms("transforms" in stores, frozenset(pair for pair in pairs if pair)),
     }
 
@@ -45,3 +49,7 @@ def _wishes(stores: set[str]) -> set[Command]:
 def _arguments(name: str, stores: set[str]) -> set[str]:
     """What stands behind the colon of the stores of a name."""
     return {store.partition(":")[2] for store in stores if store.startswith(f"{name}:")}
+
+
+def _browsers(name: str, stores: set[str]) -> frozenset[int]:
+    return frozenset(int(each) for each in _arguments(name, stores) if each.isdecimal())

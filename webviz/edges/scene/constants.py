@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
-from webviz.edges.scene.names import ROOT, TILE_PREFIX
+from webviz.edges.scene.names import PART_PREFIX, ROOT, TILE_PREFIX
+from webviz.edges.scene.points import PART
 
 DARKEST = 0.3
 """Brightness of a surface seen edge on, as a share of its colour; in RViz it is black."""
@@ -11,6 +12,8 @@ DARKEST = 0.3
 CONSTANTS = {
     "ROOT": ROOT,
     "TILE_PREFIX": TILE_PREFIX,
+    "PART_PREFIX": PART_PREFIX,
+    "POINTS_PER_PART": PART,
     "DARKEST": DARKEST,
     "RAISED": RAISED,
     "EYE": EYE,

@@ -10,6 +10,9 @@ ROOT = "/webviz"
 TILE_PREFIX = "%tile "
 """Marks the names of images for the page; no escaped key starts with it."""
 
+PART_PREFIX = "%part "
+"""Marks the names of the parts of a cloud after the first."""
+
 
 @functools.lru_cache(maxsize=10_000)
 def segment(text: str) -> str:

@@ -10,6 +10,7 @@ from viser import SceneApi, SceneNodeHandle
 from webviz.api.nodes import Points
 from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.drawn import Props, SingleNode, rgb_array
+from webviz.edges.scene.names import PART_PREFIX
 
 # Beyond the far plane of every camera.
 _OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
@@ -33,7 +34,7 @@ class PointsDrawn:
     def draw(self, node: Points) -> None:
         """Sends the parts that changed."""
         while len(self._parts) * PART < len(node.xyz):
-            self._parts.append(_Part(self._link, f"{self._name}/%part {len(self._parts)}"))
+            self._parts.append(_Part(self._link, f"{self._name}/{PART_PREFIX}{len(self._parts)}"))
         for index, part in enumerate(self._parts):
             rows = slice(index * PART, (index + 1) * PART)
             colors = node.colors if isinstance(node.colors, tuple) else node.colors[rows]

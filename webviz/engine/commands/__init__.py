@@ -15,6 +15,7 @@ from webviz.engine.commands.goals import CancelGoal, DismissGoal
 from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import Refresh
 from webviz.engine.commands.plugins import ReloadPlugin
+from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.commands.time import Pause, Reset
 from webviz.engine.commands.tools import SetToolProperty, UseTool
@@ -46,6 +47,8 @@ __all__ = [
     "FileCommand",
     "FocusDisplay",
     "FocusFrame",
+    "Identify",
+    "InspectSelections",
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",
@@ -53,6 +56,8 @@ __all__ = [
     "MoveDisplay",
     "Open",
     "Pause",
+    "Pick",
+    "Picks",
     "Redo",
     "Refresh",
     "ReloadPlugin",
@@ -65,6 +70,7 @@ __all__ = [
     "Save",
     "SaveImage",
     "SaveView",
+    "Select",
     "Sender",
     "SetBackground",
     "SetFixedFrame",

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from webviz.api.context import Context, Group, Placement
 from webviz.api.frames import Frames, compose
 from webviz.api.nodes import Node, Pose, has_content
+from webviz.api.sample import Sample
+from webviz.engine.commands import Picks
 from webviz.engine.pipeline.baking import Position, bake
+from webviz.engine.pipeline.past import Past
+from webviz.engine.pipeline.picking import Found, Shot, found_in
 
 _IDENTITY = Pose()
 
@@ -70,9 +76,31 @@ class Drawing:
         self._scene = scene
         self._prefix = prefix
         self._scopes: dict[str, dict[str, _Drawn]] = {}
+        self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
+        """Of each scope: its samples, and the fixed frame."""
+        self._past: Past | None = None
 
-    def replace(self, scope: str, context: Context) -> None:
-        """Make the content of a scope exactly what a context collected."""
+    def remember(self, is_wanted: bool) -> None:
+        """Keep what is replaced for some seconds, for `find`."""
+        if is_wanted != (self._past is not None):
+            self._past = Past() if is_wanted else None
+
+    def find(self, picks: Picks) -> dict[int, Found]:
+        """What browsers picked, by its id; without what was on no screen in the last seconds."""
+        scope, _, group = picks.group.removeprefix(f"{self._prefix}/").partition("/")
+        shots = [self._shot(scope)] if scope in self._scopes else []
+        found: dict[int, Found] = {}
+        for shot in itertools.chain(shots, self._past.of(scope) if self._past else ()):
+            missing = [item for item in picks.items if item[0] not in found]
+            if not missing:
+                break
+            found |= found_in(shot, group, picks.key, missing)
+        return found
+
+    def replace(self, scope: str, context: Context, samples: Sequence[Sample] = ()) -> None:
+        """Make the content of a scope exactly what a context collected from samples."""
+        self._keep(scope)
+        self._drawn_from[scope] = samples, context.frames.fixed_frame
         before = self._scopes.get(scope, {})
         after: dict[str, _Drawn] = {}
         for key, group in context.groups.items():
@@ -99,6 +127,8 @@ class Drawing:
 
     def remove(self, scope: str) -> None:
         """Remove the content of a scope."""
+        self._keep(scope)
+        self._drawn_from.pop(scope, None)
         for key in self._scopes.pop(scope, {}):
             self._scene.remove_group(self._name(scope, key))
 
@@ -139,6 +169,15 @@ class Drawing:
         return sorted(
             {p.frame for p in placements if p.frame and not p.keep_last and not _pose(p, frames)}
         )
+
+    def _keep(self, scope: str) -> None:
+        if self._past is not None and scope in self._scopes:
+            self._past.keep(scope, self._shot(scope))
+
+    def _shot(self, scope: str) -> Shot:
+        drawn = self._scopes[scope].items()
+        samples, fixed_frame = self._drawn_from[scope]
+        return Shot({key: each.group for key, each in drawn}, samples, fixed_frame)
 
     def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         """Send a group that is new or changed."""

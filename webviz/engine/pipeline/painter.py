@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
@@ -11,13 +11,16 @@ from typing import Any
 from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
+from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
+from webviz.engine.commands import Picks
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.drawing import Drawing, Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
+from webviz.engine.pipeline.picking import Found
 
 _NO_STATE = object()
 
@@ -85,9 +88,9 @@ class Painter:
             for name, history in histories.items():
                 self._draw_samples(name, display, guard, history, frames)
         if changed and overrides(display, "draw_all"):
-            self._call(
-                "all", guard, display.draw_all, self._context(frames), held_samples(histories)
-            )
+            every = held_samples(histories)
+            context = self._context(frames)
+            self._call("all", guard, display.draw_all, context, every, samples=every)
         if overrides(display, "tick"):
             self._call("tick", guard, display.tick, self._context(frames))
         if changed:
@@ -126,6 +129,25 @@ class Painter:
             for scope in () if overrides(display, hook) else scopes:
                 self._drawing.remove(scope)
         self.is_stale = True
+
+    def remember(self, is_wanted: bool) -> None:
+        """Keep what is replaced for some seconds, for `find`."""
+        self._drawing.remember(is_wanted)
+
+    def find(self, picks: Picks) -> dict[int, Found]:
+        """What browsers picked; see `Drawing.find`."""
+        return self._drawing.find(picks)
+
+    def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
+        """What the display says about something that was selected, if it still exists."""
+        if self._state is _NO_STATE:
+            return None
+        return guard.attempt("inspect", None, display.inspect, hit, self._context(frames))
+
+    def has(self, sample: Sample) -> bool:
+        """Whether a sample is drawn, by itself or with others."""
+        drawn = self._drawn.get(sample.input)
+        return drawn is None or any(sample is each for each, _ in drawn.values())
 
     def is_busy(self) -> bool:
         """Whether the result of slow work is not drawn yet."""
@@ -185,7 +207,16 @@ class Painter:
                 drawn[slot] = look
                 context = self._context(frames, Placement(offset=held.sample.pose))
                 scope = _scope(name, slot)
-                self._call(scope, guard, display.draw, context, held.sample, voice=_voice(name))
+                sample = held.sample
+                self._call(
+                    scope,
+                    guard,
+                    display.draw,
+                    context,
+                    sample,
+                    samples=(sample,),
+                    voice=_voice(name),
+                )
             elif self._errand is None:
                 self._send(name, display, held, look, frames)
         if not samples:
@@ -219,9 +250,9 @@ class Painter:
         is_held = any(held.slot == slot and held.has_pose for held in histories[name].held)
         if is_held and errand.context.frames.fixed_frame == frames.fixed_frame:
             self._drawn[name][slot] = errand.look
-            self._call(
-                _scope(name, slot), guard, _result, errand.context, errand.done, voice=_voice(name)
-            )
+            samples = (errand.held.sample,)
+            scope, context, voice = _scope(name, slot), errand.context, _voice(name)
+            self._call(scope, guard, _result, context, errand.done, samples=samples, voice=voice)
         return True
 
     def _drop_errand(self) -> None:
@@ -239,6 +270,7 @@ class Painter:
         hook: Callable[..., None],
         context: Context,
         *args: Any,
+        samples: Sequence[Sample] = (),
         voice: str = "",
     ) -> None:
         """Call a hook that draws and update the scene; after a crash the previous nodes stay.
@@ -247,7 +279,7 @@ class Painter:
         """
         if guard(scope, hook, *args, context) is CRASHED:
             return
-        self._drawing.replace(scope, context)
+        self._drawing.replace(scope, context, samples)
         self._statuses[voice or scope] = context.statuses
         self._scales[voice or scope] = context.color_scale
 

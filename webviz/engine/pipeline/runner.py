@@ -9,10 +9,13 @@ from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
+from webviz.api.picking import Details
 from webviz.api.status import Level, Status, worst
+from webviz.engine.commands import Picks
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.holder import Holder
 from webviz.engine.pipeline.painter import Painter
+from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.services import Services
 from webviz.engine.sources import Offer, Raw, Subscription
 
@@ -134,6 +137,25 @@ class Runner:
     def color_scale(self) -> ColorScale | None:
         """Which values colours stand for, None if nothing of them can be seen."""
         return None if self._painter.is_empty() else self._painter.color_scale()
+
+    # Selection
+
+    def remember(self, is_wanted: bool) -> None:
+        """Keep what is replaced for some seconds, so that `find` knows what browsers still show."""
+        self._painter.remember(is_wanted)
+
+    def find(self, picks: Picks) -> dict[int, Found]:
+        """What browsers picked, by its id; without what was on no screen in the last seconds."""
+        return self._guard.attempt("selection", {}, self._painter.find, picks)
+
+    def inspect(self, found: Found, frames: Frames) -> Details | None:
+        """What the display says about something that was selected, if it still exists."""
+        return self._painter.inspect(self.display, self._guard, found.hit, frames)
+
+    def shows(self, found: Found) -> bool:
+        """Whether the message that something was drawn from is still drawn."""
+        samples = found.hit.samples
+        return not samples or self._painter.has(samples[-1])
 
     def statuses(
         self,

@@ -16,6 +16,7 @@ from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
+from webviz.edges.page.content.selection import picking, selected, selection
 from webviz.edges.page.content.tools import driving, tool
 from webviz.edges.page.content.topics import message, topics, traffic
 from webviz.edges.page.content.transforms import between, transforms
@@ -36,9 +37,12 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "history": history,
     "legend": legend,
     "message": message,
+    "picking": picking,
     "properties": properties,
     "rate": rate,
     "routes": routes,
+    "selected": selected,
+    "selection": selection,
     "settings": settings,
     "tool": tool,
     "topics": topics,

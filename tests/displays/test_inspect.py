@@ -1,0 +1,244 @@
+"""What each display says about something that was selected."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+import pytest
+from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
+from robot_arm import ARM, describe, place_arm
+
+from webviz import Context, Details, Display, Frames
+from webviz.api.nodes import Lines, Points
+from webviz.engine.commands import Picks
+from webviz.engine.pipeline.details import details_tree
+from webviz_displays.axes import Axes
+from webviz_displays.grid import Grid
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.map import Map
+from webviz_displays.odometry import Odometry
+from webviz_displays.path import Path
+from webviz_displays.point_cloud2 import PointCloud2
+from webviz_displays.robot_model import RobotModel
+from webviz_displays.tf import TF
+
+NAN = math.nan
+Benches = Callable[..., Any]
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+
+
+def pick(at: Any, key: str, number: int | None, point: tuple[float, ...] = ()) -> Details:
+    """What is said about an item of a node, given as a browser has it, or about a point on one."""
+    group = next(group for group, nodes in at.scene.groups.items() if key in nodes)
+    node, _ = at.scene.groups[group][key]
+    color = None
+    if number is not None:
+        place = getattr(node, fields(node)[0].name)[number]
+        point = tuple(map(float, place[0] if place.ndim > 1 else place))
+        if isinstance(node, Points) and not isinstance(node.colors, tuple):
+            color = tuple(node.colors[number].tolist())
+    found = at.runner.find(Picks(group, key, ((7, number, point, color),)))
+    details = at.runner.inspect(found[7], Frames(at.buffer, at.fixed_frame, at.now_ns))
+    assert details is not None
+    return details
+
+
+def point_of_a_cloud(bench: Benches) -> Details:
+    """The third that is drawn, of a cloud in rows, whose first two and fifth cannot be."""
+    names = [*XYZ, ("intensity", 12, FLOAT32, 1), ("rgb", 16, UINT32, 1), ("ring", 20, 4, 2)]
+    places = [(NAN, 0, 0), (0, NAN, 0), (1, 2, 3), (4, 5, 6), (2e9, 0, 0), (7, 8, 0.1)]
+    points = [
+        {
+            **{axis: [value] for axis, value in zip("xyz", place, strict=True)},
+            "intensity": [0.1 * i],
+            "rgb": [0x00010203 + i],
+            "ring": [i, 2 * i],
+        }
+        for i, place in enumerate(places)
+    ]
+    at = bench(PointCloud2())
+    at.transform("map", "lidar", (0.0, 0.0, 2.0), QUARTER)
+    at.send(CLOUD, cloud(names, points, height=2, row_padding=5), frame="lidar")
+    at.turn()
+    return pick(at, "points", 2)
+
+
+def point_of_a_thinned_cloud(bench: Benches) -> Details:
+    points = [{"x": [float(i)], "y": [0.0], "z": [0.0], "i": [i]} for i in range(100)]
+    at = bench(PointCloud2(max_points=10, style="Boxes", color_transformer="FlatColor"))
+    at.transform("map", "lidar")
+    at.send(CLOUD, cloud([*XYZ, ("i", 12, UINT32, 1)], points), frame="lidar")
+    at.turn()
+    details = pick(at, "solids", 4)
+    assert 40 <= details.values["i"] < 50
+    assert details.title == f"Point {details.values['i']}"
+    return Details("Point of ten", details.values)
+
+
+def invisible_points_do_not_count(bench: Benches) -> Details:
+    """An rgba with alpha 0 hides the first."""
+    names = [*XYZ, ("rgba", 12, UINT32, 1)]
+    points = [
+        {"x": [1.0], "y": [0.0], "z": [0.0], "rgba": [0x00FF0000]},
+        {"x": [2.0], "y": [0.0], "z": [0.0], "rgba": [0xFF00FF00]},
+    ]
+    at = bench(PointCloud2())
+    at.transform("map", "lidar")
+    at.send(CLOUD, cloud(names, points), frame="lidar")
+    at.turn()
+    return pick(at, "points", 0)
+
+
+def beam_of_a_scan(bench: Benches) -> Details:
+    at = bench(LaserScan())
+    at.transform("map", "laser")
+    scan = {"angle_min": -0.5, "angle_increment": 0.25, "range_min": 0.1, "range_max": 10.0}
+    ranges = {"ranges": [NAN, 2.3, math.inf, 0.7, 20.0], "intensities": [1, 2, 3, 4.2, 5]}
+    at.send("sensor_msgs/msg/LaserScan", scan | ranges, frame="laser")
+    at.turn()
+    return pick(at, "points", 1)
+
+
+def cell_of_a_map(bench: Benches) -> Details:
+    """In the second tile of a turned map."""
+    cells = np.zeros((3, 600), np.int8)
+    cells[1, 520] = 100
+    info = {
+        "resolution": 0.5,
+        "width": 600,
+        "height": 3,
+        "origin": {"position": {"x": 10.0}, "orientation": {"z": QUARTER[2], "w": QUARTER[3]}},
+    }
+    at = bench(Map())
+    at.send("nav_msgs/msg/OccupancyGrid", {"info": info, "data": cells.ravel()}, frame="map")
+    at.turn()
+    return pick(at, "tile 0 512", None, (0.5 * (520 - 512) + 0.1, 0.6, 0.0))
+
+
+def link_of_a_robot(bench: Benches) -> Details:
+    at = bench(RobotModel())
+    place_arm(at)
+    describe(at, ARM)
+    return pick(at, "base visual visual_0", None, (0.5, 0.0, 0.0))
+
+
+def frame_of_a_tree(bench: Benches) -> Details:
+    at = bench(TF(show_arrows=False))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.transform("odom", "base", (0.0, 2.0, 0.0), QUARTER, stamp_ns=at.now_ns - 500_000_000)
+    at.turn()
+    (number,) = np.flatnonzero(at.nodes()["axes"].ids == "base")
+    return pick(at, "axes", int(number))
+
+
+def pose_of_a_path(bench: Benches) -> Details:
+    at = bench(Path(pose_style="Arrows"))
+    at.transform("map", "odom", (10.0, 0.0, 0.0))
+    places = [{"x": float(i), "y": 1.0} for i in range(3)]
+    poses = [
+        {"header": {"stamp": {"sec": 7 + i}}, "pose": {"position": place}}
+        for i, place in enumerate(places)
+    ]
+    at.send("nav_msgs/msg/Path", {"poses": poses}, frame="odom")
+    at.turn()
+    assert pick(at, "line", 1) == pick(at, "poses", 1)
+    return pick(at, "poses", 2)
+
+
+def odometry_with_covariance(bench: Benches) -> Details:
+    at = bench(Odometry())
+    at.transform("map", "odom")
+    for x in (0.0, 1.0, 2.0):
+        pose = {
+            "pose": {"position": {"x": x}},
+            "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel(),
+        }
+        twist = {"twist": {"linear": {"x": 0.5}, "angular": {"z": -0.25}}}
+        message = {"child_frame_id": "base", "pose": pose, "twist": twist}
+        at.send("nav_msgs/msg/Odometry", message, frame="odom")
+        at.turn()
+    assert pick(at, "ellipses", 1) == pick(at, "poses", 1)
+    return pick(at, "poses", 1)
+
+
+def grid(bench: Benches) -> Details:
+    at = bench(Grid(plane_cell_count=4, cell_size=0.5))
+    at.turn()
+    return pick(at, "grid", 3)
+
+
+def axes(bench: Benches) -> Details:
+    at = bench(Axes(reference_frame="odom"))
+    at.transform("map", "odom", (1.0, 0.0, 0.0))
+    at.turn()
+    return pick(at, "axes", 0)
+
+
+class Unaware(Display):
+    """A display that does not know of selections."""
+
+    def draw_all(self, samples: object, ctx: Context) -> None:
+        rows = [[(0, 0, 0), (1, 0, 0)], [(NAN, 0, 0), (1, 0, 0)], [(0, 1, 0), (1, 1, 0)]]
+        ctx.lines("lines", rows, (0, 0, 0))
+
+
+def line_of_a_display_that_does_not_know(bench: Benches) -> Details:
+    """The second in the browser, which does not get the one that is not finite."""
+    at = bench(Unaware())
+    at.turn()
+    (name,) = at.scene.groups
+    assert isinstance(at.nodes()["lines"], Lines)
+    found = at.runner.find(Picks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
+    details = at.runner.inspect(found[1], Frames(at.buffer, "map", 0))
+    return details
+
+
+CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
+    point_of_a_cloud: (
+        "Point 5",
+        {"intensity": "0.5", "rgb": "r 1, g 2, b 8", "ring": "5, 10", "Row": "1", "Column": "2",
+         "Position in lidar": {"fields": {"x": "7.0", "y": "8.0", "z": "0.1"}}},
+    ),
+    point_of_a_thinned_cloud: ("Point of ten", {"Points in the cloud": "100"}),
+    invisible_points_do_not_count: ("Point 1", {"rgba": "r 0, g 255, b 0, a 255"}),
+    beam_of_a_scan: (
+        "Beam 3",
+        {"Range": "0.7 m", "Intensity": "4.2", "Angle": "0.250000 rad, 14.32°",
+         "Beams in the scan": "5"},
+    ),
+    cell_of_a_map: (
+        "Cell 520, 1",
+        {"Value": "100, occupied", "Column (x)": "520", "Row (y)": "1", "Index": "1120",
+         "Center in map": "9.2500, 260.2500, 0.0000 m"},
+    ),
+    link_of_a_robot: (
+        "Link base",
+        {"Mass": "6 kg", "Visual": "a box, sphere or cylinder", "Robot": "arm",
+         "Parent frame": "map"},
+    ),
+    frame_of_a_tree: ("Frame base", {"Parent": "odom", "Age": "0.50 s"}),
+    pose_of_a_path: ("Pose 2", {"Poses in the path": "3", "Stamp of the pose": "9.000000 s"}),
+    odometry_with_covariance: (
+        "Odometry 1",
+        {"Speed": "0.5, 0, 0 m/s", "Turn rate": "0, 0, -0.25 rad/s", "Child frame": "base",
+         "Standard deviations": "x 0.2, y 0, z 0, roll 0, pitch 0, yaw 1"},
+    ),
+    grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
+    axes: ("Axes of odom", {"Length": "1 m"}),
+    line_of_a_display_that_does_not_know: ("Line 2", {}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.__name__)
+def test_a_display_answers_what_was_selected(
+    bench: Benches, case: Callable[[Benches], Details]
+) -> None:
+    title, values = CASES[case]
+    details = case(bench)
+    assert details.title == title
+    told = details_tree(details.values)["fields"]
+    assert {name: told.get(name) for name in values} == values

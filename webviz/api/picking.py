@@ -1,0 +1,74 @@
+"""What was selected in the scene, and what its display says about it.
+
+def inspect(self, hit, ctx):
+    wheel = hit.sample.message.wheels[hit.id]
+    return Details(f"Wheel {hit.id}", {"Speed": f"{wheel.speed:.2f} m/s"})
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points
+from webviz.api.sample import Sample
+
+
+@dataclass(frozen=True, eq=False)
+class Hit:
+    """One thing of what a display drew.
+
+    Args:
+        key: of the node.
+        node: as it was on the screen.
+        id: from the `ids` of the node, else the number of the point, segment, arrow, axes or solid
+            in it; None for meshes and images.
+        point: where it was clicked in metres, in the coordinates of a mesh or an image; otherwise
+            the position of the item, in those of the node.
+        frame: that the node moves with, or the frame of its sample; "" is the fixed frame.
+        samples: that it was drawn from, oldest first.
+    """
+
+    key: str
+    node: Node
+    id: Any
+    point: tuple[float, float, float]
+    frame: str
+    samples: Sequence[Sample]
+
+    @property
+    def sample(self) -> Sample:
+        """The newest of the samples."""
+        return self.samples[-1]
+
+
+@dataclass(frozen=True)
+class Details:
+    """What is known of something that was selected.
+
+    Args:
+        title: what it is, such as "Point 12".
+        values: by name, the most telling first: texts, numbers, arrays, poses, messages, or
+            mappings of these. A float32 is shown with the digits that identify it.
+    """
+
+    title: str
+    values: Mapping[str, object] = field(default_factory=dict)
+
+
+def noun_of(node: Node) -> str:
+    """What an item of a node is called."""
+    if isinstance(node, Instances):
+        return node.shape.capitalize()
+    return _NOUNS.get(type(node), "Mesh")
+
+
+_NOUNS: Mapping[type, str] = {
+    Points: "Point",
+    Lines: "Line",
+    Arrows: "Arrow",
+    Axes: "Axes",
+    Labels: "Text",
+    Image: "Image",
+}

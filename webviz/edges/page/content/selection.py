@@ -1,0 +1,32 @@
+"""What one browser has selected in the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.engine.state import State
+
+
+def selection(state: State, browser: str) -> Mapping[str, Any]:
+    """What is known of each thing, by its id, and "/info" on all of it.
+
+    A thing has the id and the "name" of its "display", a "title", a "tree" of values, and a "note".
+    "/info" has their "total" before any limit, the "count" of those selected, and how many are
+    kept "live" at most.
+    """
+    return _of(browser, state.selections)
+
+
+def selected(state: State, browser: str) -> Mapping[str, Any]:
+    """By the id of each thing, that of its display, and whether it moves and stays what it is."""
+    return {str(id): each for id, each in _of(browser, state.selected).items()}
+
+
+def picking(state: State, _: str) -> Mapping[str, Any]:
+    """Nothing: a page watches it while it is about to select."""
+    return {}
+
+
+def _of(browser: str, known: Mapping[int, Mapping[Any, Any]]) -> Mapping[Any, Any]:
+    return known.get(int(browser), {}) if browser.isdecimal() else {}

@@ -1,0 +1,195 @@
+"""What each browser has selected in the scene, and what displays say about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.api.picking import Details
+from webviz.data.transforms.errors import format_stamp
+from webviz.engine.commands import Command, Identify, InspectSelections, Picks, Select, Sender
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.pipeline import Runner
+from webviz.engine.pipeline.details import details_tree, first_line
+from webviz.engine.pipeline.picking import Found
+
+MAX_SELECTED = 1000
+"""Things that one browser selects."""
+MAX_LIVE = 50
+"""Of a selection whose values are kept up to date."""
+EVERY_S = 0.5
+"""How often they are."""
+
+GONE = "It has been replaced since the click. Click again."
+REPLACED = "A newer message has replaced this one; the values are those of the selected message."
+
+
+@dataclass(frozen=True)
+class _Selected:
+    """One thing, and the display that drew it."""
+
+    runner: Runner
+    found: Found
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether it stays the same thing wherever it goes, such as a frame."""
+        return not self.found.hit.samples
+
+
+@dataclass
+class _Selection:
+    """What one browser has selected.
+
+    Args:
+        things: by the ids that the browser gave them.
+        total: how many there were to select.
+        told: for the page; another object whenever it changes.
+        told_at: when that was made, None if it is out of date.
+    """
+
+    things: dict[int, _Selected] = field(default_factory=dict)
+    total: int = 0
+    told: Mapping[str, Any] = field(default_factory=dict)
+    told_at: float | None = None
+
+
+class SelectionPart(Part):
+    """Finds what browsers pick, and asks its displays about it while somebody looks.
+
+    Args:
+        core: shared by all parts.
+        displays: all of them.
+    """
+
+    name = "Selection"
+
+    def __init__(self, core: Core, displays: DisplaysPart) -> None:
+        super().__init__(core)
+        self._displays = displays
+        self._wanted = InspectSelections()
+        self._selections: dict[int, _Selection] = {}
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {Select: self._select, Identify: self._identify, InspectSelections: self._inspect}
+
+    def keep_up(self, commanded: bool) -> None:
+        """Forget what belongs to removed displays, and renew what is looked at."""
+        runners = self._displays.list.runners()
+        for runner in runners:
+            runner.remember(self._wanted.is_picking)
+        known, now = set(runners), self.core.clock()
+        for browser, selection in self._selections.items():
+            if not known.issuperset(each.runner for each in selection.things.values()):
+                things = selection.things.items()
+                selection.things = {id: each for id, each in things if each.runner in known}
+                selection.told_at = None
+            is_few = len(selection.things) <= MAX_LIVE
+            is_old = selection.told_at is None or (is_few and now >= selection.told_at + EVERY_S)
+            if browser in self._wanted.viewers and is_old:
+                selection.told_at = now
+                told = self._told(selection)
+                selection.told = selection.told if told == selection.told else told
+
+    def state(self) -> Mapping[str, Any]:
+        """What each browser has selected."""
+        viewers = self._wanted.viewers
+        held, told = {}, {}
+        for browser, selection in self._selections.items():
+            things = selection.things.items()
+            held[browser] = {id: (each.runner.id, each.is_moving) for id, each in things}
+            told[browser] = selection.told if browser in viewers else {}
+        return {"selected": held, "selections": told}
+
+    def _inspect(self, command: InspectSelections, sender: Sender) -> None:
+        for browser in self._wanted.holders - command.holders:
+            self._selections.pop(browser, None)
+        for browser in command.viewers - self._wanted.viewers:
+            if browser in self._selections:
+                self._selections[browser].told_at = None
+        self._wanted = command
+
+    def _select(self, command: Select, sender: Sender) -> str:
+        count = sum(len(picks.items) for picks in command.picks)
+        if sender.browser is None:
+            raise Error("Only a browser can select.")
+        if count + len(command.keep) > MAX_SELECTED:
+            raise Error(f"Select at most {MAX_SELECTED} things at once.")
+        before = self._selections.get(sender.browser, _Selection()).things
+        things = {id: before[id] for id in command.keep if id in before}
+        new: dict[int, _Selected] = {}
+        for picks in command.picks:
+            new |= self._find(picks)
+        if not (things or command.picks):
+            self._selections.pop(sender.browser, None)
+            return ""
+        if count and not new:
+            raise Error(GONE)
+        selection = _Selection(things | new, command.total)
+        self._selections[sender.browser] = selection
+        return self._line(next(iter(new.values()))) if len(new) == 1 else ""
+
+    def _identify(self, command: Identify, sender: Sender) -> str:
+        found = self._find(command.picks)
+        return self._line(next(iter(found.values()))) if found else ""
+
+    def _find(self, picks: Picks) -> dict[int, _Selected]:
+        id = picks.group.partition("/")[0]
+        runner = next((each for each in self._displays.list.active() if each.id == id), None)
+        found = runner.find(picks) if runner else {}
+        return {id: _Selected(runner, each) for id, each in found.items()} if runner else {}
+
+    def _line(self, selected: _Selected) -> str:
+        details = self._details(selected)
+        if details is None:
+            return ""
+        parts = (selected.runner.display.name, details.title, first_line(details.values))
+        return " · ".join(part for part in parts if part)
+
+    def _details(self, selected: _Selected) -> Details | None:
+        return selected.runner.inspect(selected.found, self.core.frames)
+
+    def _told(self, selection: _Selection) -> Mapping[str, Any]:
+        """Of each thing, by id, what a page shows; "/info" is about the selection as a whole."""
+        told: dict[str, Any] = {}
+        known: set[object] = set()
+        for id, selected in selection.things.items():
+            runner, found = selected.runner, selected.found
+            details = self._details(selected)
+            values = {**(details.values if details else {}), **self._whereabouts(found)}
+            note = "" if runner.shows(found) else REPLACED
+            if details is None:
+                note = "It does not exist any more."
+            title = details.title if details else str(found.hit.id or found.hit.key)
+            each = {"title": title, "tree": details_tree(values), "note": note}
+            if details and _is_known(known, runner.id, title, details_tree(details.values)):
+                continue  # another part of the same thing
+            told[str(id)] = {"display": runner.id, "name": runner.display.name, **each}
+        info = {"total": max(selection.total, len(selection.things)), "live": MAX_LIVE}
+        return {**told, "/info": info | {"count": len(selection.things)}}
+
+    def _whereabouts(self, found: Found) -> dict[str, object]:
+        """What is known of anything that is drawn."""
+        hit = found.hit
+        known: dict[str, object] = {}
+        if (position := found.position(self.core.frames)) is not None:
+            frame, xyz = position
+            name = "Position" if hit.id is not None else "Clicked point"
+            known[f"{name} in {frame}"] = f"{', '.join(f'{c:.4f}' for c in xyz)} m"
+        if hit.frame:
+            known["Frame"] = hit.frame
+        if hit.samples and (stamp_ns := hit.sample.stamp_ns):
+            known["Stamp"] = f"{format_stamp(stamp_ns)} s"
+        return known
+
+
+def _is_known(known: set[object], *parts: object) -> bool:
+    text = repr(parts)
+    is_known = text in known
+    known.add(text)
+    return is_known

@@ -1,0 +1,173 @@
+"""From what a browser picked in its picture to what a display drew."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.context import Group, Placement
+from webviz.api.frames import Frames, compose
+from webviz.api.nodes import Arrows, Axes, Instances, Lines, Points, Pose
+from webviz.api.picking import Hit
+from webviz.api.sample import Sample
+from webviz.data.rotations import matrices
+from webviz.data.transforms.geometry import REACH_M
+from webviz.engine.commands import Pick
+from webviz.engine.pipeline.baking import Position
+
+TOLERANCE = 1e-6
+"""Of coordinates that went to a browser and back, metres or a share of them."""
+ARROW_TOLERANCE = 1e-4
+"""Of positions that a browser computed along an arrow."""
+
+Items = Points | Lines | Arrows | Axes | Instances
+"""Nodes whose items are selected one by one."""
+
+N = TypeVar("N", bound=Items)
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """What one call of a hook drew.
+
+    Args:
+        groups: by key, as they were sent.
+        samples: that it was drawn from.
+        fixed_frame: that it was drawn in.
+    """
+
+    groups: Mapping[str, Group]
+    samples: Sequence[Sample]
+    fixed_frame: str
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Something that was selected, and where it is.
+
+    Args:
+        hit: for the display.
+        pose: of the node in its frame.
+        placement: of its group.
+        fixed_frame: that it was drawn in.
+    """
+
+    hit: Hit
+    pose: Pose
+    placement: Placement
+    fixed_frame: str
+
+    def position(self, frames: Frames) -> tuple[str, Position] | None:
+        """A frame, and where it is in that frame; the fixed one unless that changed meanwhile."""
+        frame, pose = self.fixed_frame, self.pose
+        if (moving := self.placement.frame) is not None:
+            is_latest = self.placement.when == "latest"
+            outer = frames.latest(moving) if is_latest else frames.now(moving)
+            if outer is None:
+                return None
+            frame, pose = frames.fixed_frame, compose(outer, pose)
+        x, y, z = (matrices(pose.wxyz) @ self.hit.point + pose.position).tolist()
+        return frame, (x, y, z)
+
+
+def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dict[int, Found]:
+    """What was picked of a node, by id, if this is what was on the screen.
+
+    Of things that the node does not have, or has elsewhere, there is nothing: the picture was
+    another one, or a program made them up.
+    """
+    group = shot.groups.get(group_key)
+    node = group.nodes.get(key) if group else None
+    picks = [pick for pick in picks if all(abs(c) <= REACH_M for c in pick[2])]
+    if group is None or node is None or not picks:
+        return {}
+    placement = group.placement
+    pose = compose(placement.offset, group.poses.get(key, Pose()))
+    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
+
+    def found(id: Any, point: Position) -> Found:
+        hit = Hit(key, node, id, point, frame, shot.samples)
+        return Found(hit, pose, placement, shot.fixed_frame)
+
+    if not isinstance(node, Items):
+        return {pick[0]: found(None, pick[2]) for pick in picks}
+    rows = _drawn_rows(node)
+    count = _count(node) if rows is None else len(rows)
+    picks = [pick for pick in picks if pick[1] is not None and 0 <= pick[1] < count]
+    if not picks:
+        return {}
+    numbers = np.array([pick[1] for pick in picks])
+    picked_rows = numbers if rows is None else rows[numbers]
+    items = _only(node, picked_rows)
+    same = _is_at(items, np.array([pick[2] for pick in picks]))  # pyright: ignore[reportArgumentType]
+    if isinstance(items, Points) and not isinstance(items.colors, tuple):
+        same &= [
+            pick[3] == tuple(rgb) for pick, rgb in zip(picks, items.colors.tolist(), strict=True)
+        ]
+    points = _positions(items).astype(np.float64).tolist()
+    ids = _ids(node)
+    return {
+        picks[i][0]: found(int(picked_rows[i]) if ids is None else ids[picked_rows[i]], points[i])
+        for i in np.flatnonzero(same)
+    }
+
+
+def _count(node: Items) -> int:
+    return len(getattr(node, fields(node)[0].name))
+
+
+def _ids(node: Items) -> Sequence[Any] | None:
+    if node.ids is None:
+        return None
+    if len(node.ids) != _count(node):
+        raise ValueError(f"a node has {_count(node)} items, but {len(node.ids)} ids")
+    return node.ids.tolist()
+
+
+def _drawn_rows(node: Items) -> NDArray[np.intp] | None:
+    """The rows that browsers have, None for all; those that are not finite are not sent."""
+    if isinstance(node, Points):
+        return None
+    arrays = [getattr(node, name, None) for name in ("segments", "positions", "scales", "wxyzs")]
+    known = [array.reshape(len(array), -1) for array in arrays if array is not None]
+    if all(math.isfinite(array.sum(dtype=np.float64)) for array in known):
+        return None
+    return np.flatnonzero(np.all([np.isfinite(array).all(axis=1) for array in known], axis=0))
+
+
+def _only(node: N, rows: NDArray[np.intp]) -> N:
+    """Some of the items."""
+    count = _count(node)
+    values = {f.name: getattr(node, f.name) for f in fields(node)}
+    arrays = {name: v for name, v in values.items() if isinstance(v, np.ndarray)}
+    chosen = {name: v[rows] for name, v in arrays.items() if len(v) == count and name != "ids"}
+    return replace(node, ids=None, **chosen)
+
+
+def _positions(node: Items) -> NDArray[np.float32]:
+    """Where each item is; a line, in its middle; an arrow, at its tail."""
+    if isinstance(node, Points):
+        return node.xyz
+    if isinstance(node, Lines):
+        return node.segments.mean(axis=1)
+    return node.segments[:, 0] if isinstance(node, Arrows) else node.positions
+
+
+def _is_at(node: Items, positions: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether each item is where a browser has it."""
+    if isinstance(node, Arrows):
+        tails, tips = node.segments[:, 0].astype(np.float64), node.segments[:, 1]
+        ways = tips - tails
+        squares = np.maximum((ways**2).sum(axis=1), 1e-18)
+        along = np.clip(((positions - tails) * ways).sum(axis=1) / squares, 0.0, 1.0)
+        there, tolerance = tails + along[:, None] * ways, ARROW_TOLERANCE
+    else:
+        there = node.segments[:, 0] if isinstance(node, Lines) else _positions(node)
+        tolerance = TOLERANCE
+    is_close = np.isclose(there, positions, rtol=tolerance, atol=tolerance)
+    return np.asarray(is_close.all(axis=1))
