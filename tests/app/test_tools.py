@@ -65,7 +65,7 @@ def page(pages: list[Page], viewer: webviz.Viewer) -> Page:
     tab.locator(".wv-first-run, .wv-toast").evaluate_all(
         "(all) => all.forEach((one) => one.remove())"
     )
-    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 9, "the toolbar")
+    pages[0].wait_for(lambda: tab.locator(".wv-tools button").count() == 10, "the toolbar")
     pages[0].draw()
     tab.keyboard.press("Escape")
     return pages[0]

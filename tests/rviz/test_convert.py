@@ -26,6 +26,7 @@ Visualization Manager:
       Name: Mine
   Tools:
     - Class: rviz_default_plugins/Select
+    - Class: my_plugins/Brush
 """
 
 
@@ -57,7 +58,7 @@ def test_a_report_counts_what_is_carried(small: Path, capsys: pytest.CaptureFixt
     assert convert("--report", small) == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert ["displays", "1", "of", "2", "50", "%"] in lines
-    assert ["tools", "0", "of", "1", "0", "%"] in lines
+    assert ["tools", "1", "of", "2", "50", "%"] in lines
 
 
 def test_mistakes_are_one_sentence(
@@ -93,5 +94,5 @@ def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
     assert [(row.name, row.level.name) for row in states[-1].rows][1] == ("Mine", "ERROR")
     # Saving keeps what the import could not use.
     assert "my_plugins/Laser" in config_file.dump(viewer.config())
-    assert "rviz_default_plugins/Select" in config_file.dump(viewer.config())
+    assert "my_plugins/Brush" in config_file.dump(viewer.config())
     viewer._workers.close()

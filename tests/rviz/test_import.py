@@ -334,19 +334,21 @@ def test_panels_and_tools_are_told_once() -> None:
               - {Class: rviz_common/Displays, Name: Displays}
               - {Class: rviz_common/Time, Name: Time}
               - {Class: rviz_common/Selection, Name: Selection}
+              - {Class: rviz_common/Help, Name: Help}
               - {Class: my_package/Lamp, Name: Lamp}
             Visualization Manager:
               Tools:
                 - Class: rviz_default_plugins/MoveCamera
                 - Class: my_package/Brush
                 - Class: rviz_default_plugins/Select
+                - Class: rviz_default_plugins/Other
             """
         ),
         "x.rviz",
     )
     sentences = said(report)
     assert sentences == (
-        "Panels and tools: Selection, my_package/Lamp, my_package/Brush, Select: "
+        "Panels and tools: Help, my_package/Lamp, my_package/Brush, Other: "
         "unsupported; kept for export."
     )
 

@@ -12,10 +12,13 @@ from webviz.files.rviz.report import Report
 from webviz.files.rviz.tree import MANAGER, Tree, child
 
 SUPPORTED = {
-    "Panels": [f"rviz_common/{name}" for name in ("Displays", "Views", "Time", "Tool Properties")],
+    "Panels": [
+        f"rviz_common/{name}"
+        for name in ("Displays", "Selection", "Views", "Time", "Tool Properties")
+    ],
     "Tools": [
         f"rviz_default_plugins/{name}"
-        for name in ("Interact", "MoveCamera", "FocusCamera", "Measure")
+        for name in ("Interact", "MoveCamera", "Select", "FocusCamera", "Measure")
     ],
 }
 """RViz's panels that are tabs here, and the tools that every page has."""

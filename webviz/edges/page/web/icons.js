@@ -49,6 +49,7 @@ const PATHS = {
   save: "M5 4h11l3 3v13H5zM8 4v5h7V4M8 20v-6h8v6",
   screen: "M3 5h18v12H3zM8 21h8M12 17v4",
   search: "M11 18a7 7 0 1 0 0-14 7 7 0 0 0 0 14M16 16l5 5",
+  select: "M4 8V4h4M16 4h4v4M4 16v4h4M11 11l9 3-4 2-2 4z",
   sidebar: "M4 5h16v14H4zM10 5v14",
   sun: "M12 16a4 4 0 1 0 0-8 4 4 0 0 0 0 8M12 2v2M12 20v2M2 12h2M20 12h2M5 5l1.5 1.5M17.5 17.5 19 19M19 5l-1.5 1.5M6.5 17.5 5 19",
   target: "M12 20a8 8 0 1 0 0-16 8 8 0 0 0 0 16M12 2v5M12 17v5M2 12h5M17 12h5",

@@ -13,6 +13,7 @@ const NEEDS = {
   "scene.__r3f.root.getState()": "everything of three.js",
   "scene.__r3f.root.getState().gl.renderBufferDirect()": "surfaces that are transparent",
   "scene.__r3f.root.getState().raycaster.setFromCamera()": "picking what is under the mouse",
+  "scene.__r3f.root.getState().gl.getPixelRatio()": "picking points, which are as large as drawn",
   "scene.__r3f.root.getState().internal.subscribe()": "views that follow a frame",
   "canvas.clientHeight": "views without perspective",
   "camera.projectionMatrix.makeOrthographic()": "views without perspective",
@@ -84,13 +85,6 @@ export const setMaxOrbitDistance = (meters) => (page().configuredMaxOrbitDistanc
 
 /** Whether the messages are yet to be handled that make the scene after connecting. */
 export const isFirstBatch = () => page().firstMessageBatch;
-
-/** The name of the node of the scene that an object is part of, "" for none. */
-export function nodeOf(object) {
-  const names = new Map(Object.entries(nodes()).map(([name, node]) => [node, name]));
-  for (let part = object; part; part = part.parent) if (names.has(part)) return names.get(part);
-  return "";
-}
 
 /** Handles the messages that have come, as viser does when it draws a frame. */
 export function takeMessages() {

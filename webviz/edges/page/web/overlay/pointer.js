@@ -1,10 +1,12 @@
 // Where the mouse is on the ground, and what it points at; until it moves, what its buttons do.
 
+import { act } from "../act.js";
 import { el, setText } from "../dom.js";
 import { groundAt, toFixedFrame } from "../scene/ground.js";
 import { hit } from "../scene/mouse.js";
 import * as views from "../scene/view.js";
 import { watch } from "../stores.js";
+import { sendable } from "../tools/selection.js";
 import * as viser from "../viser_page.js";
 
 const REST_MS = 150;
@@ -41,12 +43,16 @@ export function build() {
     });
   }
 
-  // A ray through all that is drawn is too slow for each frame.
-  function rest() {
+  // A look at all that is drawn is too slow for each frame; and its display knows more.
+  async function rest() {
     const found = mouse && hit(mouse);
     if (!found?.object) return;
     isNamed = true;
-    show(toFixedFrame(found.point), nameOf(found.object, names));
+    const [at, point] = [mouse, toFixedFrame(found.point)];
+    show(point, nameOf(found, names));
+    const [picks] = sendable([{ ...found, id: 0 }]);
+    const { level, text } = await act("Identify", { picks }, { quiet: true, errors: "caller" });
+    if (isNamed && mouse === at && level === "ok" && text) show(point, text);
   }
 
   function leave() {
@@ -70,10 +76,9 @@ export function build() {
   return text;
 }
 
-// The display that an object belongs to, and the frame that it moves with, if it has one of its own.
-function nameOf(object, names) {
-  const node = viser.nodeOf(object).split("/")[2] ?? "";
-  const [id, , ...rest] = decodeURIComponent(node).split("/");
+// The display that drew something, and the frame that it moves with, if it has one of its own.
+function nameOf({ group }, names) {
+  const [id, , ...rest] = group.split("/");
   const part = rest.join("/").replace(/\|.*$/, "");
   return [names.get(id)?.name ?? "", part].filter(Boolean).join(": ");
 }

@@ -4,9 +4,10 @@
 // what is to be done when it is not any more.
 
 import { displays } from "./displays/displays.js";
+import { selectionPanel } from "./selection.js";
 import { toolsPanel } from "./tools.js";
 import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
-export const panels = [displays, views, topics, transforms, toolsPanel];
+export const panels = [displays, selectionPanel, views, topics, transforms, toolsPanel];

@@ -12,6 +12,11 @@ import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";
 
+let wanted = null;
+
+/** Marks a frame when the panel is shown. */
+export const showFrame = (name) => (wanted = name);
+
 export const transforms = {
   name: "transforms",
   title: "TF",
@@ -40,6 +45,9 @@ export const transforms = {
       if (!values?.has("/roots")) return;
       const rows = frameRows(values, folded, search.value);
       list.show(rows);
+      const row = rows.find(({ name }) => name === wanted);
+      if (row) list.mark(row.key);
+      wanted = null;
       const hasFrames = values.get("/roots").length > 0;
       setText(empty, hasFrames ? "No frame with these words." : NOTHING);
       set(empty, { hidden: rows.length > 0 });

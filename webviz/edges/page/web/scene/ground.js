@@ -1,7 +1,8 @@
 // Places in the fixed frame, whose plane z = 0 is the ground, as the camera sees them.
 
-import { casterAt, hit } from "./mouse.js";
 import constants from "../constants.js";
+import { hit } from "./mouse.js";
+import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
 const FARTHEST = 1e6; // metres

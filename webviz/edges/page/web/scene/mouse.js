@@ -4,12 +4,13 @@
 // under the mouse.
 
 import constants from "../constants.js";
+import { pickAt } from "./picking/pick.js";
+import { casterAt } from "./rays.js";
 import * as views from "./view.js";
 import * as viser from "../viser_page.js";
 
-const { ROOT, EYE, FIELD_OF_VIEW } = constants;
+const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
-const NEAR_PX = 4; // what the mouse points at although it is not quite there
 
 const isFPS = () => views.type() === "FPS";
 const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
@@ -69,36 +70,12 @@ function notches({ deltaY, deltaMode }) {
   return deltaMode === WheelEvent.DOM_DELTA_LINE ? deltaY / 3 : deltaY / 120;
 }
 
-/** What casts a ray through a point of the window, in three.js' coordinates. */
-export function casterAt([x, y]) {
-  const box = viser.canvas().getBoundingClientRect();
-  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
-  const caster = new (viser.Raycaster())();
-  caster.setFromCamera({ x: across * 2 - 1, y: 1 - down * 2 }, viser.camera());
-  return caster;
-}
-
-// The nearest thing under a point of the window: its place in three.js' coordinates, and the object;
-// on the ground the object is null, above the horizon all is.
+// The nearest thing under a point of the window, see `pickAt`; on the ground a place in three.js'
+// coordinates without an `object`, above the horizon null.
 export function hit(xy) {
-  const [camera, controls, canvas] = [viser.camera(), viser.controls(), viser.canvas()];
-  const world = viser.node(ROOT);
-  const ray = casterAt(xy);
-  const tall = 2 * controls.distance * Math.tan((camera.fov * Math.PI) / 360);
-  const pixel = tall / canvas.getBoundingClientRect().height;
-  ray.params.Points.threshold = NEAR_PX * pixel;
-  ray.params.Line2 = { threshold: NEAR_PX };
-  const things = [];
-  world.traverseVisible((thing) => {
-    if (thing.isPoints && thing.geometry) thing.geometry.boundingSphere = null;
-    if (thing.isMesh || thing.isPoints) things.push(thing);
-  });
-  const [first] = ray.intersectObjects(things, false);
-  if (first) {
-    // Not its point, which is wrong for instanced meshes.
-    return { point: ray.ray.at(first.distance, camera.position.clone()), object: first.object };
-  }
-  const { origin, direction } = ray.ray;
+  const found = pickAt(xy);
+  if (found) return found;
+  const { origin, direction } = casterAt(xy).ray;
   const steps = -origin.y / direction.y;
   if (!(steps > 0 && steps < 1e6)) return null;
   return { point: origin.addScaledVector(direction, steps), object: null };
@@ -115,8 +92,8 @@ export function focusOn(xy) {
   focus(origin.addScaledVector(direction, 1));
 }
 
-// RViz turns the camera to the point, and moves a view that cannot turn.
-function focus(point) {
+/** Looks at a point, as RViz does: turns the camera, and moves a view that cannot turn. */
+export function focus(point) {
   const controls = viser.controls();
   const at = point.applyMatrix4(views.followed().clone().invert());
   if (slides() || views.type() === "TopDownOrtho") {

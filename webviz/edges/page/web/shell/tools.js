@@ -8,6 +8,7 @@ import { hint, tell } from "../tools/hint.js";
 import * as history from "../tools/history.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
+import * as selecting from "../tools/select.js";
 import * as stroke from "../tools/stroke.js";
 import * as strokes from "../tools/strokes.js";
 import * as waypoints from "../tools/waypoints.js";
@@ -32,7 +33,8 @@ export const onTools = (listener) => listeners.add(listener);
 export function install() {
   registry.onChange(update);
   registry.setDefault(interact);
-  registry.provide("page", [interact, moveCamera, focusCamera, measure]);
+  registry.provide("page", [interact, moveCamera, selecting.select, focusCamera, measure]);
+  selecting.install();
   history.install();
   strokes.install();
   cards.append(waypoints.install(), goals.install());

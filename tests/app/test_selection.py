@@ -1,0 +1,265 @@
+"""Selecting in a real browser: what is clicked on is what is answered, exactly."""
+
+from __future__ import annotations
+
+import io
+import itertools
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import PIL.Image
+import playwright.sync_api as playwright
+import pytest
+from clouds import xyz_cloud
+from numpy.typing import NDArray
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+import webviz
+from webviz.data.messages import decode, encode
+from webviz.engine.commands import RemoveDisplay, SetFixedFrame, SetProperty, ShowView
+from webviz.files.config import Config
+from webviz.files.opening import parse
+from webviz.shell.app.running import checked_view
+from webviz.shell.pictures.browser import Page
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import HandFedSource
+
+SHARED = Path(__file__).parents[3] / "shared/data"
+PCD = SHARED / "clouds/251370668.pcd"
+BAG = SHARED / "bags/macfirst_floor_take_2"
+COUNT = 360_000
+"""Points of a cloud; a tenth cannot be drawn, and of the others 300 000 are."""
+CONFIG = """
+fixed_frame: map
+background: [0, 0, 0]
+displays:
+- {type: PointCloud2, name: Cloud, topic: /cloud, size: 0.15}
+- {type: Grid}
+- {type: LaserScan, name: Scan, topic: /scan, size: 0.02, enabled: false}
+"""
+TITLE = ".wv-selection [data-thing] .wv-field-name"
+
+
+@pytest.fixture(scope="module")
+def source() -> HandFedSource:
+    return HandFedSource()
+
+
+@pytest.fixture(scope="module")
+def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
+    def read(_: object) -> Config:
+        return parse(CONFIG, "x.yaml")
+
+    with webviz.Viewer(port=0, source=source, read=read) as viewer:
+        yield viewer
+
+
+@pytest.fixture(scope="module")
+def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
+    page = Page(browser, viewer.url, 1100, 700)
+    yield page
+    assert page.errors == []
+    page.close()
+
+
+def random_places() -> NDArray[np.float64]:
+    """Over 40 m, at all heights."""
+    return np.random.default_rng(0).uniform((-20, -20, 0), (20, 20, 5), (COUNT, 3))
+
+
+def street() -> NDArray[np.float64]:
+    """A real cloud, as often as it takes, each time a little elsewhere."""
+    head, _, data = PCD.read_bytes().partition(b"DATA binary\n")
+    names = next(line.split()[1:] for line in head.splitlines() if line.startswith(b"FIELDS"))
+    xyz = np.frombuffer(data, "<f4").reshape(-1, len(names))[:, :3].astype(np.float64)
+    times = -(-COUNT // len(xyz))
+    shifts = np.random.default_rng(1).uniform(-0.5, 0.5, (times, 1, 3))
+    return (xyz + shifts).reshape(-1, 3)[:COUNT]
+
+
+def numbered_cloud(xyz: NDArray[np.float64]) -> dict[str, Any]:
+    """A cloud whose points have the colour that is their index; every tenth is not finite."""
+    points = np.zeros(COUNT, [("xyz", "<f4", 3), ("rgb", "<u4"), ("temperature", "<f8")])
+    points["xyz"] = xyz
+    points["xyz"][::10, 0] = np.nan
+    points["rgb"] = np.arange(1, COUNT + 1)
+    points["temperature"] = 0.1 * np.arange(COUNT)
+    places = [("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("rgb", 12, 6), ("temperature", 16, 8)]
+    keys = ("name", "offset", "datatype")
+    return {
+        "height": 1,
+        "width": COUNT,
+        "fields": [{**dict(zip(keys, place, strict=True)), "count": 1} for place in places],
+        "point_step": 24,
+        "row_step": 24 * COUNT,
+        "data": points.view(np.uint8),
+    }
+
+
+def pixels(page: Page) -> NDArray[np.uint8]:
+    return np.asarray(PIL.Image.open(io.BytesIO(page.tab.screenshot())).convert("RGB"))
+
+
+def numbers_in(picture: NDArray[np.uint8]) -> NDArray[np.int64]:
+    """Index of the point that each pixel shows, -1 where there is none."""
+    return picture.astype(np.int64) @ (65536, 256, 1) - 1
+
+
+def publish(source: HandFedSource, topic: str, type_name: str, values: dict[str, Any]) -> None:
+    source.now += 1_000_000_000
+    values = {**values, "header": header("map", source.now)}
+    source.put(topic, type_name, encode(type_name, values))
+
+
+def test_a_click_on_a_point_of_300_000_gets_its_index_in_the_message(
+    viewer: webviz.Viewer, source: HandFedSource, page: Page
+) -> None:
+    """Pixels show the index of their point as a colour; edges are smooth, so others are used."""
+    places = street() if PCD.exists() else random_places()
+    publish(source, "/cloud", "sensor_msgs/msg/PointCloud2", numbered_cloud(places))
+    view = {"type": "Orbit", "distance": 30.0, "pitch": 0.9, "yaw": 0.7}
+    viewer.do(ShowView(checked_view(view)))
+    page.draw()
+    shown = numbers_in(pixels(page))
+    around = [np.roll(shown, shift, (0, 1)) for shift in itertools.product((-1, 0, 1), repeat=2)]
+    is_one = (np.stack(around) == shown).all(axis=0) & (shown >= 0) & (shown < COUNT)
+    ys, xs = np.nonzero(is_one[120:600, 400:900])  # away from the panels
+    page.tab.keyboard.press("Escape")
+    page.tab.keyboard.press("s")
+    for row in np.random.default_rng(2).choice(len(xs), 2, replace=False):
+        x, y = int(xs[row]) + 400, int(ys[row]) + 120
+        index = int(shown[y, x])
+        page.tab.mouse.click(x, y)
+        wait_for_titles(page, [f"Point {index}"])
+        row_of = page.tab.locator(".wv-selection .wv-field-row", has_text="temperature")
+        assert float(row_of.locator(".wv-field-value").inner_text()) == 0.1 * index
+    viewer.do(SetProperty("display1", "enabled", False))
+
+
+@pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is absent")
+def test_a_click_on_a_beam_of_a_real_scan_gets_its_index_range_and_intensity(
+    viewer: webviz.Viewer, source: HandFedSource, page: Page
+) -> None:
+    with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+        connections = [each for each in reader.connections if each.topic == "/scan"]
+        _, _, data = next(reader.messages(connections))
+    scan = decode("sensor_msgs/msg/LaserScan", bytes(data))
+    source.now += 10_000_000_000
+    viewer.do(SetFixedFrame(scan.header.frame_id))
+    viewer.do(SetProperty("display3", "enabled", True))
+    source.put("/scan", "sensor_msgs/msg/LaserScan", bytes(data))
+    page.tab.keyboard.press("Escape")
+    page.tab.keyboard.press("s")
+    for beam in isolated_beams(scan)[::70][:3]:
+        place = places_of(scan)[beam].tolist()
+        view = {"type": "TopDownOrtho", "scale": 300.0, "x": place[0] - 0.3, "y": place[1] - 0.2}
+        viewer.do(ShowView(checked_view(view)))
+        page.draw()
+        page.tab.mouse.click(*on_screen(page, place))
+        wait_for_titles(page, [f"Beam {beam}"])
+        told = page.tab.locator(".wv-selection").inner_text().split("\n")
+        assert told[told.index("Range") + 1] == f"{scan.ranges[beam]!s} m"
+        assert told[told.index("Intensity") + 1] == str(scan.intensities[beam])
+
+
+def places_of(scan: Any) -> NDArray[np.float64]:
+    """Where each beam ends, in metres; NaN where it does not."""
+    angles = scan.angle_min + np.arange(len(scan.ranges)) * scan.angle_increment
+    ways = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    places = scan.ranges.astype(np.float64)[:, None] * ways
+    return np.where((scan.ranges < scan.range_max)[:, None], places, np.nan)
+
+
+def isolated_beams(scan: Any) -> NDArray[np.intp]:
+    """The beams whose points, drawn 2 cm wide, no other point touches."""
+    places = places_of(scan)
+    distances = np.linalg.norm(places[:, None] - places[None], axis=2)
+    np.fill_diagonal(distances, np.inf)
+    return np.flatnonzero(np.nanmin(distances, axis=1, initial=np.inf) > 0.035)
+
+
+def test_boxes_select_and_keys_add_and_remove(
+    viewer: webviz.Viewer, source: HandFedSource, page: Page
+) -> None:
+    """Nine points, a metre from each other, and a grid below them, which no box takes."""
+    viewer.do(SetFixedFrame("map"))
+    viewer.do(SetProperty("display3", "enabled", False))
+    page.tab.keyboard.press("Escape")
+    page.tab.keyboard.press("s")
+    viewer.do(ShowView(checked_view({"type": "TopDownOrtho", "scale": 60.0})))
+    viewer.do(SetProperty("display1", "enabled", True))
+    places = [(x, y, 0.0) for y in (-1.0, 0.0, 1.0) for x in (-1.0, 0.0, 1.0)]
+    publish(source, "/cloud", "sensor_msgs/msg/PointCloud2", xyz_cloud(places))
+    page.draw()
+    tab = page.tab
+    box(page, (-1.5, -1.5), (0.5, 0.5))
+    wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4"])
+    box(page, (0.5, 0.5), (1.5, 1.5), "Shift")
+    wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4", "Point 8"])
+    tab.keyboard.down("Control")
+    tab.mouse.click(*on_screen(page, (0.0, 0.0)))
+    tab.keyboard.up("Control")
+    wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 8"])
+
+    tab.mouse.click(*on_screen(page, (0.4, 0.6)))
+    wait_for_titles(page, [])
+    tab.mouse.click(*on_screen(page, (1.0, 0.0)))
+    wait_for_titles(page, ["Point 5"])
+    tab.keyboard.press("f")
+    page.wait_for(lambda: np.allclose(on_screen(page, (1.0, 0.0)), middle(page), atol=2), "F")
+
+    viewer.do(RemoveDisplay("display1"))
+    wait_for_titles(page, [])
+    tab.keyboard.press("Escape")
+    page.wait_for(lambda: tab.locator(".wv-tool[aria-label=Select]").get_attribute("aria-pressed")
+                  == "false", "Escape")  # fmt: skip
+
+
+def wait_for_titles(page: Page, titles: list[str]) -> None:
+    """Wait until the panel lists exactly these."""
+    found: list[str] = []
+
+    def is_so() -> bool:
+        found[:] = page.tab.locator(TITLE).all_inner_texts()
+        return sorted(found) == titles
+
+    try:
+        page.wait_for(is_so, "the selection", 60.0)
+    except TimeoutError:
+        assert found == titles
+
+
+def on_screen(page: Page, xy: Sequence[float]) -> tuple[float, float]:
+    """Where a point of the ground is in the window."""
+    return page.tab.evaluate(
+        """async ([x, y]) => {
+          const { onCanvas } = await import("/webviz/scene/ground.js");
+          const box = document.querySelector("canvas").getBoundingClientRect();
+          const place = onCanvas([x, y, 0]);
+          return [box.left + place[0], box.top + place[1]];
+        }""",
+        [float(xy[0]), float(xy[1])],
+    )
+
+
+def middle(page: Page) -> tuple[float, float]:
+    """The middle of the scene in the window."""
+    box = page.tab.locator("canvas").first.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def box(page: Page, start: Sequence[float], end: Sequence[float], key: str = "") -> None:
+    """Drag a box between two points of the ground."""
+    first, last = on_screen(page, start), on_screen(page, end)
+    if key:
+        page.tab.keyboard.down(key)
+    page.tab.mouse.move(*first)
+    page.tab.mouse.down()
+    page.tab.mouse.move(*last, steps=3)
+    page.tab.mouse.up()
+    if key:
+        page.tab.keyboard.up(key)

@@ -1,0 +1,150 @@
+// The panel "Selection": what this page has selected in the scene, as a tree of values.
+
+import { copy } from "../clipboard.js";
+import { indent, rowList, touchable } from "../controls/rows.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { toast } from "../shell/toasts.js";
+import { openPanel } from "../shell/shell.js";
+import { watch } from "../stores.js";
+import { select } from "../tools/registry.js";
+import * as tool from "../tools/select.js";
+import * as selection from "../tools/selection.js";
+import { rowsOf, textOf } from "./message_tree.js";
+import { showFrame } from "./transforms.js";
+
+const ROW_PX = 24;
+const FRAMES = new Set(["Frame", "Parent", "Parent frame", "Child frame", "Reference frame"]);
+
+export const selectionPanel = {
+  name: "selection",
+  title: "Selection",
+  open(element) {
+    const folds = new Map();
+    let values = new Map();
+    let frames = new Set();
+
+    const button = (label, iconName, onclick) =>
+      el("button", { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
+        icon(iconName));
+    const count = el("span", { class: "wv-selection-count", role: "status" });
+    const look = button("Look at the selection", "focus", tool.lookAtSelection);
+    const copyAll = button("Copy all values", "copy", () => copied(textOfAll(values)));
+    const clear = button("Clear the selection", "close", () => selection.change("replace", []));
+    const note = el("div", { class: "wv-selection-note wv-quiet", hidden: true });
+    const list = rowList({
+      label: "Selection", role: "tree", rowRole: "treeitem", height: touchable(ROW_PX),
+      make: makeRow, update: updateRow, choose, onKey,
+    });
+    const start = el("button", {
+      type: "button", class: "wv-button", onclick: () => select(tool.select),
+    }, icon("select"), "Select");
+    const empty = el("div", { class: "wv-empty" },
+      el("p", {}, "Nothing is selected. Choose the tool, and click on something in the scene."), start);
+    element.append(el("section", { class: "wv-selection", "aria-label": "Selection" },
+      el("header", {}, count, look, copyAll, clear), note, empty, list.element));
+    list.element.addEventListener("click", onLink, { capture: true });
+
+    function show() {
+      const ids = idsOf(values);
+      const rows = ids.flatMap((id) => rowsOfThing(id, values.get(id), ids.length === 1));
+      list.show(rows);
+      const { total = 0, count: held = 0, live = 0 } = values.get("/info") ?? {};
+      setText(count, held ? `${held} selected` : "");
+      set(empty, { hidden: held > 0 });
+      for (const one of [look, copyAll, clear]) set(one, { disabled: held === 0 });
+      const notes = [
+        held < total ? `The first ${held} of ${total}.` : "",
+        held > live ? "With so many, values are those of the moment of selection." : "",
+      ];
+      setText(note, notes.filter(Boolean).join(" "));
+      set(note, { hidden: !notes.some(Boolean) });
+    }
+
+    function rowsOfThing(id, { title, name, tree, note: remark }, isAlone) {
+      const isOpen = folds.get(id) ?? isAlone;
+      const row = { key: id, id, depth: 0, name: title, value: name, isOpen, isThing: true, remark };
+      return isOpen ? [row, ...rowsOf(tree, folds, 1, id)] : [row];
+    }
+
+    function choose(row) {
+      if (row.isOpen === null) return copied(row.value);
+      folds.set(row.key, !row.isOpen);
+      show();
+    }
+
+    function onKey({ key }, row) {
+      const isFold = (key === "ArrowLeft" && row.isOpen) || (key === "ArrowRight" && row.isOpen === false);
+      if (isFold) choose(row);
+      else if (key === "ArrowLeft" && row.depth) list.mark(row.key.slice(0, row.key.lastIndexOf("/")));
+      return isFold || key === "ArrowLeft";
+    }
+
+    function makeRow() {
+      return el("div", { class: "wv-field-row" },
+        el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
+        el("span", { class: "wv-field-name" }),
+        el("span", { class: "wv-field-value wv-ellipsis" }),
+        el("button", {
+          type: "button", class: "wv-icon wv-selection-frame", title: "Show the frame in the panel TF",
+          "aria-label": "Show the frame", tabindex: -1,
+        }, icon("tree", 14)));
+    }
+
+    function updateRow(row, { name, value, depth, isOpen, isThing = false, remark = "" }) {
+      const [fold, label, text, link] = row.children;
+      set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
+      setText(label, name);
+      setText(text, isThing && remark ? `${value} · replaced` : value);
+      set(row, {
+        "aria-level": depth + 1, "aria-expanded": isOpen === null ? null : String(isOpen),
+        "data-thing": isThing,
+        "data-tip": remark || (isOpen === null ? `${value}\nClick to copy` : null),
+      });
+      const frame = FRAMES.has(name) && frames.has(value) ? value : null;
+      set(link, { hidden: frame === null, "data-frame": frame });
+      indent(row, depth);
+    }
+
+    function onLink(event) {
+      const frame = event.target.closest(".wv-selection-frame")?.dataset.frame;
+      if (frame === undefined) return;
+      event.stopPropagation();
+      showFrame(frame);
+      openPanel("transforms");
+    }
+
+    const ends = [
+      watch(`selection:${window.webviz.browser}`, (known) => {
+        values = known;
+        show();
+      }),
+      watch("frames", (known) => {
+        frames = new Set(known.get("frames") ?? []);
+        show();
+      }),
+    ];
+    show();
+    return () => {
+      for (const end of ends) end();
+      list.close();
+      element.replaceChildren();
+    };
+  },
+};
+
+/** Ids of what is selected, in the order in which it was. */
+const idsOf = (values) =>
+  [...values.keys()].filter((id) => id !== "/info").sort((a, b) => Number(a) - Number(b));
+
+const textOfAll = (values) =>
+  idsOf(values).map((id) => {
+    const { title, name, tree, note } = values.get(id);
+    const head = [`${title} (${name})`, note].filter(Boolean).join(": ");
+    return `${head}\n${textOf(tree, "  ")}\n`;
+  }).join("");
+
+async function copied(text) {
+  const isDone = await copy(text);
+  toast(isDone ? "Copied." : "This browser does not allow copying.", { level: isDone ? "ok" : "error" });
+}

@@ -1,0 +1,137 @@
+// What is under a point of the window, or in a box of it: the node, and which of its items.
+
+import { casterAt } from "../rays.js";
+import * as viser from "../../viser_page.js";
+import { depthOf, lensOf, onCanvasAt, project } from "./lens.js";
+import { lineAt, lineCount, lineOf } from "./lines.js";
+import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
+import { isTile, things } from "./things.js";
+
+const NEAR_PX = 4; // what the pointer means although it is not quite on it
+const BEHIND = 1e-3; // how much farther pictures count, for what lies on them; a share
+
+/**
+ * The thing under a point of the window, or null: `{group, key, number, at, color}` as the server knows
+ * it, `point` in three.js' coordinates, and `object`, `name`, `ordinal` and `item` of what draws it.
+ *
+ * What the pointer is on comes first, the nearest of several; then lines and points next to it. A
+ * picture, such as a map, comes last of what is not behind it.
+ */
+export function pickAt(xy) {
+  const at = onCanvasAt(xy);
+  const caster = casterAt(xy);
+  let [on, near, flat] = [null, null, null];
+  for (const thing of things()) {
+    const hit = hitOf(thing, at, caster);
+    if (!hit) continue;
+    const found = { ...thing, ...hit, rank: rankOf(thing.object) };
+    if (found.layer !== undefined) flat = isOver(found, flat) ? found : flat;
+    else if (found.off === 0) on = isNearer(found, on) ? found : on;
+    else if (!near || found.off < near.off) near = found;
+  }
+  const floor = flat && !(on && on.depth < flat.depth) ? flat : null;
+  const best = floor ? (near && near.depth < floor.depth ? near : floor) : (on ?? near);
+  return best && described(best, caster);
+}
+
+/** All things whose middle is in a box of the window, the first `most`, and how many there are. */
+export function pickIn({ left, top, right, bottom }, most) {
+  const { left: x, top: y } = viser.canvas().getBoundingClientRect();
+  const box = { left: left - x, top: top - y, right: right - x, bottom: bottom - y };
+  const picks = [];
+  let total = 0;
+  for (const thing of things()) {
+    const take = (number) => {
+      if (picks.length < most) picks.push(described({ ...thing, number }));
+      total += 1;
+    };
+    if (!isTile(thing.name)) itemsIn(thing.object, box, take);
+  }
+  return { picks, total };
+}
+
+function hitOf({ object, name }, at, caster) {
+  if (object.isPoints) return pointAt(object, at, NEAR_PX);
+  if (object.isLineSegments2) return lineAt(object, at, NEAR_PX);
+  const [hit] = caster.intersectObject(object, false).sort((a, b) => a.distance - b.distance);
+  if (!hit) return null;
+  // Not the point of the hit, which is wrong for instanced meshes.
+  const point = caster.ray.at(hit.distance, viser.camera().position.clone());
+  const found = { number: hit.instanceId ?? null, off: 0, depth: depthOf(point), point };
+  if (!isTile(name)) return found;
+  return { ...found, depth: found.depth * (1 + BEHIND), layer: object.renderOrder };
+}
+
+// Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
+function isNearer(a, b) {
+  if (b && Math.abs(a.depth - b.depth) < BEHIND * b.depth && a.rank !== b.rank) {
+    return a.rank > b.rank;
+  }
+  return !b || a.depth < b.depth;
+}
+
+const rankOf = (object) => (object.isPoints ? 2 : object.isLineSegments2 ? 1 : 0);
+
+// Pictures of one plane lie over each other by their layer.
+function isOver(a, b) {
+  if (b && Math.abs(a.depth - b.depth) < BEHIND * b.depth) return a.layer >= b.layer;
+  return isNearer(a, b);
+}
+
+function described(found, caster) {
+  const { object, name, ordinal, number } = found;
+  const { group, key, path, first } = found.node;
+  const thing = { group, key, path, name, ordinal, object, number, color: null };
+  const local = anchorOf(object, number);
+  const inThree = (xyz) =>
+    viser.camera().position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
+  if (object.isPoints) {
+    const more = { number: number + first, item: number, color: colorOf(object, number) };
+    return { ...thing, ...more, at: local, local, point: inThree(local) };
+  }
+  const point = found.point ?? (caster && onRay(found, caster)) ?? inThree(local);
+  if (number !== null) return { ...thing, item: number, at: local, local, point };
+  // In the coordinates of the node, which has several objects.
+  const whole = viser.node(path) ?? object;
+  const at = point.clone().applyMatrix4(whole.matrixWorld.clone().invert()).toArray();
+  return { ...thing, item: null, at, local, point };
+}
+
+// Where a line is next to the pointer.
+function onRay({ depth }, caster) {
+  const forward = caster.ray.direction.clone().transformDirection(viser.camera().matrixWorldInverse);
+  const start = depthOf(caster.ray.origin);
+  return caster.ray.at((depth - start) / -forward.z, viser.camera().position.clone());
+}
+
+/** Where an item is in the coordinates of its object; of a mesh, its middle. */
+export function anchorOf(object, number) {
+  if (object.isPoints) return pointOf(object, number);
+  if (object.isLineSegments2) return lineOf(object, number)[0] ?? [];
+  if (number === null) {
+    if (!object.geometry.boundingBox) object.geometry.computeBoundingBox();
+    const { min, max } = object.geometry.boundingBox;
+    return [(min.x + max.x) / 2, (min.y + max.y) / 2, (min.z + max.z) / 2];
+  }
+  if (number >= object.instancesCount) return [];
+  return object.getMatrixAt(number, object.matrixWorld.clone()).elements.slice(12, 15);
+}
+
+// Lines count when they are in the box as a whole: else a box on a grid would take most of it.
+function itemsIn(object, box, take) {
+  if (object.isPoints) return pointsIn(object, box, take);
+  const lens = lensOf(object);
+  const isIn = (xyz) => {
+    const place = xyz.length ? project(lens, xyz) : null;
+    if (!place) return false;
+    const [x, y] = place;
+    return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
+  };
+  if (object.isLineSegments2) {
+    for (let i = 0; i < lineCount(object); i++) if (lineOf(object, i).every(isIn)) take(i);
+  } else if (object.instancesCount === undefined) {
+    if (isIn(anchorOf(object, null))) take(null);
+  } else {
+    for (let i = 0; i < object.instancesCount; i++) if (isIn(anchorOf(object, i))) take(i);
+  }
+}

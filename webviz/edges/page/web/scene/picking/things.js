@@ -1,0 +1,60 @@
+// What is drawn in the scene, with the names of the nodes that it belongs to.
+
+import constants from "../../constants.js";
+import * as viser from "../../viser_page.js";
+
+const { ROOT, TILE_PREFIX, PART_PREFIX, POINTS_PER_PART } = constants;
+
+/**
+ * All that displays draw and that can be seen: `{object, name, node, ordinal}`; `name` is that of viser's
+ * node, see `nodeNamed`, and `ordinal` counts the objects of one.
+ */
+export function things() {
+  const names = new Map(Object.entries(viser.nodes()).map(([name, node]) => [node, name]));
+  const counts = new Map();
+  const found = [];
+  visit(viser.node(ROOT), ROOT);
+  return found;
+
+  function visit(object, outer) {
+    if (!object.visible) return;
+    const name = names.get(object) ?? outer;
+    const node = isPickable(object) ? nodeNamed(name) : null;
+    if (node) {
+      const ordinal = counts.get(name) ?? 0;
+      counts.set(name, ordinal + 1);
+      found.push({ object, name, node, ordinal });
+    }
+    for (const child of object.children) visit(child, name);
+  }
+}
+
+/** Finds among `things` the object of a node by its name and ordinal; null for none. */
+export function finder() {
+  const objects = new Map(things().map(({ object, name, ordinal }) => [`${ordinal} ${name}`, object]));
+  return (name, ordinal) => objects.get(`${ordinal} ${name}`) ?? null;
+}
+
+// Without a `raycast` of its own an object is a second pass of another, as viser draws lines.
+const isPickable = (object) =>
+  Boolean(object.geometry) && (object.isPoints || (object.isMesh && object.raycast.length > 0));
+
+export const isTile = (name) => name.includes(`/${TILE_PREFIX}`);
+
+/**
+ * The node of the viewer that a node of viser is or is part of: `{group, key, path, first}`; `first` is
+ * the number of its first point. Null for what is not of a display.
+ */
+export function nodeNamed(name) {
+  const [, , group, key, part = ""] = name.split("/");
+  if (group === undefined || key === undefined) return null;
+  const before = part.startsWith(PART_PREFIX) ? Number(part.slice(PART_PREFIX.length)) : 0;
+  try {
+    const path = `${ROOT}/${group}/${key}`;
+    return { group: text(group), key: text(key), path, first: before * POINTS_PER_PART };
+  } catch {
+    return null; // no name that can be written in Unicode
+  }
+}
+
+const text = (segment) => (segment === "%" ? "" : decodeURIComponent(segment));

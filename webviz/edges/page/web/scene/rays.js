@@ -1,0 +1,12 @@
+// Rays from the camera through points of the window.
+
+import * as viser from "../viser_page.js";
+
+/** What casts a ray through a point of the window, in three.js' coordinates. */
+export function casterAt([x, y]) {
+  const box = viser.canvas().getBoundingClientRect();
+  const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
+  const caster = new (viser.Raycaster())();
+  caster.setFromCamera({ x: across * 2 - 1, y: 1 - down * 2 }, viser.camera());
+  return caster;
+}

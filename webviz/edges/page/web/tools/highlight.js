@@ -1,0 +1,88 @@
+// Marks what is selected, over the scene of this page alone.
+
+import { el } from "../dom.js";
+import { outlineOf } from "../scene/picking/outline.js";
+import { finder } from "../scene/picking/things.js";
+import * as viser from "../viser_page.js";
+import { makeLayer } from "./layer.js";
+import * as selection from "./selection.js";
+
+const COLOR = "#00e5ff";
+const BACK = "rgba(0, 0, 0, 0.65)";
+const POINT_PX = 5; // half of the square around a point
+
+let layer = null;
+let drawing = null;
+let isEmpty = true;
+
+export function install() {
+  selection.onChange(() => viser.requestRender());
+  viser.beforeRender(draw);
+}
+
+/** The middle of all that is marked, in three.js' coordinates, or null. */
+export function middle() {
+  const find = finder();
+  const points = [...selection.all().values()].flatMap((pick) =>
+    outlineOf(pick, find, selection.moves(pick))?.points ?? []);
+  if (!points.length) return null;
+  const sum = points.reduce((whole, point) => whole.add(point), points[0].clone().set(0, 0, 0));
+  return sum.divideScalar(points.length);
+}
+
+function draw() {
+  const picks = [...selection.all().values()];
+  if (!picks.length && isEmpty) return;
+  isEmpty = !picks.length;
+  if (!layer) {
+    drawing = el("canvas", { class: "wv-highlight" });
+    layer = makeLayer("highlight", drawing);
+  }
+  layer.place();
+  const { clientWidth: wide, clientHeight: tall } = viser.canvas();
+  const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
+  if (drawing.width !== width || drawing.height !== height) Object.assign(drawing, { width, height });
+  const pen = drawing.getContext("2d");
+  pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+  pen.clearRect(0, 0, wide, tall);
+  const find = picks.length ? finder() : null;
+  const [now, old] = [[], []];
+  for (const pick of picks) {
+    const outline = outlineOf(pick, find, selection.moves(pick));
+    if (outline) (outline.isOld ? old : now).push(outline);
+  }
+  stroke(pen, now, []);
+  stroke(pen, old, [2, 3]);
+}
+
+// First a dark line that is wider: legible on any ground.
+function stroke(pen, outlines, dash) {
+  if (!outlines.length) return;
+  pen.beginPath();
+  for (const outline of outlines) trace(pen, outline);
+  pen.setLineDash(dash);
+  for (const [color, width] of [[BACK, 3.5], [COLOR, 1.5]]) {
+    pen.strokeStyle = color;
+    pen.lineWidth = width;
+    pen.stroke();
+  }
+}
+
+function trace(pen, { points, edges }) {
+  const places = points.map(placeOf);
+  for (const [from, to] of edges) {
+    if (!places[from] || !places[to]) continue;
+    pen.moveTo(...places[from]);
+    pen.lineTo(...places[to]);
+  }
+  if (edges.length || !places[0]) return;
+  const [x, y] = places[0];
+  pen.rect(x - POINT_PX, y - POINT_PX, 2 * POINT_PX, 2 * POINT_PX);
+}
+
+function placeOf(point) {
+  const [camera, { clientWidth, clientHeight }] = [viser.camera(), viser.canvas()];
+  if (point.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;
+  const { x, y } = point.clone().project(camera);
+  return [((x + 1) / 2) * clientWidth, ((1 - y) / 2) * clientHeight];
+}

@@ -1,0 +1,125 @@
+// The tool that selects: a click, or a box. Shift adds, Ctrl removes, and Alt leaves the mouse to the
+// camera, as in RViz.
+
+import { el } from "../dom.js";
+import { focus } from "../scene/mouse.js";
+import { pickAt, pickIn } from "../scene/picking/pick.js";
+import { openPanel } from "../shell/shell.js";
+import { watch } from "../stores.js";
+import { canvas } from "../viser_page.js";
+import { install as installHighlight, middle } from "./highlight.js";
+import { tell } from "./hint.js";
+import { makeLayer } from "./layer.js";
+import * as selection from "./selection.js";
+
+const CLICK_PX = 4;
+const HINT = "Click, or drag a box. Shift adds, Ctrl removes, Alt moves the camera. F looks at it.";
+
+let drag = null;
+let box = null;
+let endPicking = () => {};
+
+export const select = {
+  id: "select", name: "Select", shortcut: "s", icon: "select", order: 2, isLean: true, hint: HINT,
+  tooltip: "Select points, links, frames and cells to see their values.", cursor: "default",
+  pointer: follow,
+  select() {
+    // Meanwhile the server knows for a moment what it has replaced.
+    endPicking = watch("picking", () => {});
+    window.addEventListener("keydown", onKey, { capture: true });
+  },
+  leave() {
+    endPicking();
+    window.removeEventListener("keydown", onKey, { capture: true });
+    cancel();
+  },
+};
+
+export function install() {
+  selection.install();
+  installHighlight();
+}
+
+/** Looks at the middle of what is selected. */
+export function lookAtSelection() {
+  const point = middle();
+  if (point) focus(point);
+}
+
+function follow(event) {
+  const { type, pointerId, clientX, clientY } = event;
+  if (type === "pointerdown") {
+    if (drag !== null || event.button !== 0 || event.altKey) return drag !== null;
+    event.preventDefault();
+    drag = { pointer: pointerId, from: [clientX, clientY], isBox: false };
+    canvas().setPointerCapture(pointerId);
+    return true;
+  }
+  if (drag === null) return false;
+  if (pointerId !== drag.pointer) return type !== "wheel";
+  if (type === "pointermove") move(clientX, clientY);
+  else if (type === "pointerup") finish(event);
+  else if (type === "pointercancel") cancel();
+  return true;
+}
+
+function move(x, y) {
+  drag.isBox ||= Math.hypot(x - drag.from[0], y - drag.from[1]) >= CLICK_PX;
+  if (!drag.isBox) return;
+  box ??= makeBox();
+  box.layer.place();
+  const { left, top, right, bottom } = boxTo(x, y);
+  const { left: x0, top: y0 } = canvas().getBoundingClientRect();
+  box.element.style.cssText =
+    `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
+}
+
+function boxTo(x, y) {
+  const [fromX, fromY] = drag.from;
+  return {
+    left: Math.min(x, fromX), right: Math.max(x, fromX),
+    top: Math.min(y, fromY), bottom: Math.max(y, fromY),
+  };
+}
+
+function makeBox() {
+  const element = el("div", { class: "wv-select-box" });
+  return { element, layer: makeLayer("select", element) };
+}
+
+function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
+  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MOST) : picked([clientX, clientY]);
+  cancel();
+  const way = shiftKey ? "add" : ctrlKey || metaKey ? "remove" : "replace";
+  if (found.total === 0 && way !== "replace") return;
+  if (found.total > 0 && !document.body.classList.contains("wv-folded")) openPanel("selection");
+  selection.change(way, found.picks, found.total).then(({ level, text }) => {
+    if (level === "error") return tell("warn", text);
+    const [count, total] = [selection.all().size, selection.totalCount()];
+    if (count < total) tell("ok", `Selected the first ${count} of ${total}.`);
+    else if (text) tell("ok", text);
+    else if (count) tell("ok", `${count} selected.`);
+    else tell("ok", found.total ? "Nothing is selected." : "Nothing is there.");
+  });
+}
+
+function picked(xy) {
+  const found = pickAt(xy);
+  return { picks: found ? [found] : [], total: found ? 1 : 0 };
+}
+
+function cancel() {
+  if (drag && canvas().hasPointerCapture(drag.pointer)) canvas().releasePointerCapture(drag.pointer);
+  drag = null;
+  box?.layer.element.remove();
+  box = null;
+}
+
+// As in RViz, F is about the selection while this tool is active.
+function onKey(event) {
+  const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+  const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
+  if (event.key !== "f" || isTyping || !isPlain || !selection.all().size) return;
+  event.stopImmediatePropagation();
+  lookAtSelection();
+}
