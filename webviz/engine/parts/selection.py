@@ -157,26 +157,29 @@ class SelectionPart(Part):
     def _told(self, selection: _Selection) -> Mapping[str, Any]:
         """Of each thing, by id, what a page shows; "/info" is about the selection as a whole."""
         told: dict[str, Any] = {}
-        known: set[object] = set()
+        known: dict[tuple[str, str], list[Any]] = {}
         for id, selected in selection.things.items():
             runner, found = selected.runner, selected.found
             details = self._details(selected)
-            values = {**(details.values if details else {}), **self._whereabouts(found)}
+            title = details.title if details else str(found.hit.id or found.hit.key)
+            tree = details_tree(details.values if details else {})
+            alike = known.setdefault((runner.id, title), [])
+            if tree in alike:
+                continue  # another part of the same thing
+            alike.append(tree)
             note = "" if runner.shows(found) else REPLACED
             if details is None:
                 note = "It does not exist any more."
-            title = details.title if details else str(found.hit.id or found.hit.key)
-            each = {"title": title, "tree": details_tree(values), "note": note}
-            if details and _is_known(known, runner.id, title, details_tree(details.values)):
-                continue  # another part of the same thing
+            fields = {**tree["fields"], **self._whereabouts(found)}
+            each = {"title": title, "tree": {"fields": fields}, "note": note}
             told[str(id)] = {"display": runner.id, "name": runner.display.name, **each}
         info = {"total": max(selection.total, len(selection.things)), "live": MAX_LIVE}
         return {**told, "/info": info | {"count": len(selection.things)}}
 
-    def _whereabouts(self, found: Found) -> dict[str, object]:
+    def _whereabouts(self, found: Found) -> dict[str, str]:
         """What is known of anything that is drawn."""
         hit = found.hit
-        known: dict[str, object] = {}
+        known: dict[str, str] = {}
         if (position := found.position(self.core.frames)) is not None:
             frame, xyz = position
             name = "Position" if hit.id is not None else "Clicked point"
@@ -186,10 +189,3 @@ class SelectionPart(Part):
         if hit.samples and (stamp_ns := hit.sample.stamp_ns):
             known["Stamp"] = f"{format_stamp(stamp_ns)} s"
         return known
-
-
-def _is_known(known: set[object], *parts: object) -> bool:
-    text = repr(parts)
-    is_known = text in known
-    known.add(text)
-    return is_known

@@ -110,23 +110,20 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
             pick[3] == tuple(rgb) for pick, rgb in zip(picks, items.colors.tolist(), strict=True)
         ]
     points = _positions(items).astype(np.float64).tolist()
-    ids = _ids(node)
-    return {
-        picks[i][0]: found(int(picked_rows[i]) if ids is None else ids[picked_rows[i]], points[i])
-        for i in np.flatnonzero(same)
-    }
+    ids = _ids(node, picked_rows)
+    return {picks[i][0]: found(ids[i], points[i]) for i in np.flatnonzero(same)}
 
 
 def _count(node: Items) -> int:
     return len(getattr(node, fields(node)[0].name))
 
 
-def _ids(node: Items) -> Sequence[Any] | None:
+def _ids(node: Items, rows: NDArray[np.intp]) -> list[Any]:
     if node.ids is None:
-        return None
+        return rows.tolist()
     if len(node.ids) != _count(node):
         raise ValueError(f"a node has {_count(node)} items, but {len(node.ids)} ids")
-    return node.ids.tolist()
+    return node.ids[rows].tolist()
 
 
 def _drawn_rows(node: Items) -> NDArray[np.intp] | None:
