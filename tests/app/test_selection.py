@@ -153,7 +153,7 @@ def test_a_click_on_a_beam_of_a_real_scan_gets_its_index_range_and_intensity(
     source.put("/scan", "sensor_msgs/msg/LaserScan", bytes(data))
     page.tab.keyboard.press("Escape")
     page.tab.keyboard.press("s")
-    for beam in isolated_beams(scan)[::70][:3]:
+    for beam in isolated_beams(scan)[::70][:2]:
         place = places_of(scan)[beam].tolist()
         view = {"type": "TopDownOrtho", "scale": 300.0, "x": place[0] - 0.3, "y": place[1] - 0.2}
         viewer.do(ShowView(checked_view(view)))
@@ -178,7 +178,8 @@ def isolated_beams(scan: Any) -> NDArray[np.intp]:
     places = places_of(scan)
     distances = np.linalg.norm(places[:, None] - places[None], axis=2)
     np.fill_diagonal(distances, np.inf)
-    return np.flatnonzero(np.nanmin(distances, axis=1, initial=np.inf) > 0.035)
+    is_alone = np.nanmin(distances, axis=1, initial=np.inf) > 0.035
+    return np.flatnonzero(is_alone & np.isfinite(places[:, 0]))
 
 
 def test_boxes_select_and_keys_add_and_remove(

@@ -3,7 +3,9 @@
 
 import { el } from "../dom.js";
 import { focus } from "../scene/mouse.js";
+import { outlineOf } from "../scene/picking/outline.js";
 import { pickAt, pickIn } from "../scene/picking/pick.js";
+import { finder } from "../scene/picking/things.js";
 import { openPanel } from "../shell/shell.js";
 import { watch } from "../stores.js";
 import { canvas } from "../viser_page.js";
@@ -89,6 +91,9 @@ function makeBox() {
 
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
   const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MOST) : picked([clientX, clientY]);
+  // At once: a moment later there may be another message.
+  const find = finder();
+  for (const pick of found.picks) outlineOf(pick, find, false);
   cancel();
   const way = shiftKey ? "add" : ctrlKey || metaKey ? "remove" : "replace";
   if (found.total === 0 && way !== "replace") return;
