@@ -19,7 +19,7 @@ from webviz.engine.commands import (
     Sender,
     SetProperty,
 )
-from webviz.engine.parts.selection import MAX_SELECTED
+from webviz.engine.parts.selection import MAX_PAST, MAX_SELECTED
 
 SECOND = 1_000_000_000
 PAGE, OTHER = Sender(1), Sender(2)
@@ -188,6 +188,16 @@ def test_a_selection_has_a_limit(shown: Any) -> None:
     shown.do(Select((Picks(DOTS, "dots", items[:-1]),), total=50_000), PAGE)
     info = shown.states[-1].selections[1]["/info"]
     assert (info["count"], info["total"]) == (1000, 50_000)
+
+
+def test_only_so_many_replaced_messages_are_held(shown: Any) -> None:
+    """A program could otherwise hold every cloud that ever came."""
+    for number in range(30):
+        keep = tuple(range(number))
+        shown.do(Select((dot(1.0 + number, id=number),), keep, number + 1), PAGE)
+        pose(shown, 2.0 + number)
+    state = shown.do(Select(keep=tuple(range(30)), total=30), PAGE)
+    assert [*state.selected[1]] == [*range(30 - MAX_PAST, 30)]
 
 
 def test_the_selection_of_a_removed_display_goes(shown: Any) -> None:

@@ -22,6 +22,8 @@ MAX_LIVE = 50
 """Of a selection whose values are kept up to date."""
 EVERY_S = 0.5
 """How often they are."""
+MAX_PAST = 20
+"""Messages that are held for a selection alone, because newer ones have replaced them."""
 
 GONE = "It has been replaced since the click. Click again."
 REPLACED = "A newer message has replaced this one; the values are those of the selected message."
@@ -121,7 +123,7 @@ class SelectionPart(Part):
         if count + len(command.keep) > MAX_SELECTED:
             raise Error(f"Select at most {MAX_SELECTED} things at once.")
         before = self._selections.get(sender.browser, _Selection()).things
-        things = {id: before[id] for id in command.keep if id in before}
+        things = _affordable({id: before[id] for id in command.keep if id in before})
         new: dict[int, _Selected] = {}
         for picks in command.picks:
             new |= self._find(picks)
@@ -189,3 +191,17 @@ class SelectionPart(Part):
         if hit.samples and (stamp_ns := hit.sample.stamp_ns):
             known["Stamp"] = f"{format_stamp(stamp_ns)} s"
         return known
+
+
+def _affordable(things: Mapping[int, _Selected]) -> dict[int, _Selected]:
+    """Without those of the oldest messages that only the selection holds, if these are many."""
+    past: dict[int, None] = {}
+    for each in reversed(things.values()):
+        if not each.runner.shows(each.found):
+            past.setdefault(id(each.found.hit.sample))
+    dropped = set(list(past)[MAX_PAST:])
+    return {
+        number: each
+        for number, each in things.items()
+        if each.is_moving or id(each.found.hit.sample) not in dropped
+    }

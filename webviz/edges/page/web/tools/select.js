@@ -15,7 +15,7 @@ import { makeLayer } from "./layer.js";
 import * as selection from "./selection.js";
 
 const CLICK_PX = 4;
-const HINT = "Click, or drag a box. Shift adds, Ctrl removes, Alt moves the camera. F looks at it.";
+const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";
 
 let drag = null;
 let box = null;
