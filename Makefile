@@ -18,6 +18,8 @@ endif
 comma := ,
 
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
+# Images of Python set it: each process would compile the modules and the tests anew.
+unexport PYTHONDONTWRITEBYTECODE
 # Neither a browser nor a ROS graph.
 QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages pipeline rviz \
 	sources transforms views)

@@ -5,10 +5,8 @@ from __future__ import annotations
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
-import urllib.request
 import venv
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +19,8 @@ from program import Program
 from webviz.shell.cli import main as cli
 
 ROOT = Path(__file__).parents[2]
+PATIENCE_S = 180.0
+"""For what takes two seconds on a machine that does nothing else."""
 
 
 def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
@@ -29,7 +29,7 @@ def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.Comple
         [sys.executable, "-m", "webviz", *arguments],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=PATIENCE_S,
         env={**os.environ, **(env or {})},
     )
 
@@ -89,17 +89,10 @@ def test_a_broken_config_is_an_error_with_its_place(tmp_path: Path) -> None:
     assert f"{path}:3 is not valid YAML" in refused("-d", str(path))
 
 
-def test_a_taken_port_is_an_error() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        sentence = refused("--port", str(port))
-    assert sentence.startswith(f"webviz: Port {port} of 127.0.0.1 is in use")
+def test_an_address_that_cannot_be_served_is_an_error() -> None:
+    sentence = refused("--host", "192.0.2.1", "--port", "8123")
+    assert sentence.startswith("webviz: Cannot listen on port 8123 of 192.0.2.1")
     assert "\n" not in sentence
-
-
-def test_an_address_of_another_machine_is_an_error() -> None:
-    sentence = refused("--host", "192.0.2.1", "--port", "0")
-    assert sentence.startswith("webviz: Cannot listen on port 0 of 192.0.2.1")
 
 
 @pytest.mark.skipif("rclpy" in os.environ.get("PYTHONPATH", ""), reason="a sourced ROS")
@@ -118,7 +111,7 @@ def test_without_ros_one_sentence_says_how_to_get_it(tmp_path: Path) -> None:
             [folder / "bin" / "python", "-m", "webviz", *arguments, "--port", "0"],
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=PATIENCE_S,
             env=env,
         )
         assert result.returncode == 1, result.stderr
@@ -132,24 +125,6 @@ def test_bad_ros_arguments_are_one_sentence() -> None:
     sentence = refused("--port", "0", "--ros-args", "-r", "nonsense").splitlines()[-1]
     assert sentence.startswith("webviz: ROS did not start: ")
     assert "/src/" not in sentence
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_the_demo_ends_cleanly_and_leaves_nothing(
-    start: Callable[..., Program], number: signal.Signals
-) -> None:
-    pytest.importorskip("rclpy", reason="needs rclpy")
-    program = start("webviz", "demo", "--port", "0")
-    url = program.url()
-    assert b"<html" in urllib.request.urlopen(url, timeout=60).read(4000)
-    children = command_lines(program.process.pid)
-    assert any("webviz_sim" in line for line in children.values())
-    assert program.end(number) == 0, program.output()
-    assert "Traceback" not in program.output()
-    _, alive = psutil.wait_procs(children, timeout=60)
-    assert alive == []
-    with pytest.raises(OSError):  # noqa: PT011 - the kind depends on the system
-        urllib.request.urlopen(url, timeout=2)
 
 
 def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(

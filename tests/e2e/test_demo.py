@@ -155,6 +155,13 @@ def viewer(start: Callable, folder: Path, fixed_frame: str) -> Iterator[str]:
     assert program.end() == 0, program.output()
 
 
+def opened(open_page: Callable[..., Page], url: str) -> Page:
+    """A page that draws only when it is looked at: a graphics card in software is slow."""
+    page = open_page(url)
+    page.hold()
+    return page
+
+
 def settled(page: Page) -> Seen:
     """What is seen once everything is drawn."""
 
@@ -205,21 +212,21 @@ def test_robot_and_scan_move_by_the_commanded_amount_and_the_map_stands(
     simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
 ) -> None:
     with viewer(start, tmp_path, "map") as url:
-        check_drive_in_map(open_page(url), driver)
+        check_drive_in_map(opened(open_page, url), driver)
 
 
 def test_seen_from_the_robot_the_map_moves(
     simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
 ) -> None:
     with viewer(start, tmp_path, "base_link") as url:
-        check_drive_in_base(open_page(url), driver)
+        check_drive_in_base(opened(open_page, url), driver)
 
 
 def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
     simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
 ) -> None:
     with viewer(start, tmp_path, "map") as url:
-        page = open_page(url)
+        page = opened(open_page, url)
         settled(page)
         side = Side(page)
         side.select("LaserScan")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import pty
 import random
@@ -10,12 +11,14 @@ import signal
 import subprocess
 import sys
 import time
+import urllib.request
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 
 import psutil
 import pytest
+from processes import command_lines
 from program import Program
 
 pytest.importorskip("rclpy", reason="needs rclpy")
@@ -58,17 +61,22 @@ def check_nothing_is_left(family: list[psutil.Process], files: Iterable[Path] = 
 def test_a_signal_at_any_moment_of_its_start_ends_the_demo_with_one_line_and_leaves_nothing(
     start: Callable[..., Program], number: signal.Signals
 ) -> None:
-    for delay in (0.0, *(random.uniform(0.0, 4.0) for _ in range(3))):
+    for delay in (0.0, random.uniform(0.0, 4.0), random.uniform(0.0, 4.0), math.inf):
         program = start("webviz", "demo", "--port", "0")
         while not has_handlers(program):
             time.sleep(0.001)
-        time.sleep(delay)
+        if delay < math.inf:
+            time.sleep(delay)
+        else:
+            assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
+            assert any("webviz_sim" in line for line in command_lines(program.process.pid).values())
         family = family_of(program)
         files = shared_memory(family)
         status = program.end(number)
         output = re.sub("webviz: open .*\n", "", program.output())
         assert output in LINES, f"after {delay:.3f} s"
         assert status == (0 if "stopped" in output else 130), f"after {delay:.3f} s"
+        assert "stopped" in output or delay < math.inf
         check_nothing_is_left(family, files)
 
 

@@ -9,6 +9,9 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+PATIENCE_S = 180.0
+"""To start, which takes three seconds on a machine that does nothing else."""
+
 
 class Program:
     """A program under test and what it prints."""
@@ -23,7 +26,7 @@ class Program:
     def output(self) -> str:
         return self.log.read_text()
 
-    def wait_for(self, pattern: str, seconds: float = 60.0) -> re.Match[str]:
+    def wait_for(self, pattern: str, seconds: float = PATIENCE_S) -> re.Match[str]:
         """Wait until it prints something."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
