@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import copy
-import itertools
 import logging
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 import msgspec
 
-from webviz.api.declared import Topic, make, set_property, to_values
+from webviz.api.declared import Topic, set_property
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
+from webviz.engine.parts.copies import twin_of
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
@@ -26,8 +25,6 @@ from webviz.files.config import Branch, ConfigError, Item, Location, Settings, U
 from webviz.files.config.reading import MAX_DISPLAYS
 
 log = logging.getLogger("webviz")
-
-D = TypeVar("D", bound=Display)
 
 
 class DisplayList:
@@ -86,11 +83,8 @@ class DisplayList:
         if not (original := self.find(id)):
             return None
         self._make_room(len(self.within(id)))
-        copied = _copy(self._item(original))
         names = {entry.declared.name for entry in self._entries}
-        if not isinstance(copied, Unreadable):
-            own = copied.group if isinstance(copied, Branch) else copied
-            own.name = _fresh(own.name, names)
+        copied = twin_of(self._item(original), names)
         twin, *_ = self.add([copied], original.parent)
         siblings = [entry for entry in self._entries if entry.parent is original.parent]
         self.move(twin.id, _id(original.parent), siblings[siblings.index(original) + 1].id)
@@ -296,22 +290,6 @@ class DisplayList:
         for order, entry in enumerate(self._entries):
             if isinstance(entry.content, Runner):
                 entry.content.order = order
-
-
-def _copy(item: Item) -> Item:
-    if isinstance(item, Branch):
-        return Branch(_copied(item.group), [_copy(each) for each in item.displays])
-    return copy.deepcopy(item) if isinstance(item, Unreadable) else _copied(item)
-
-
-def _copied(display: D) -> D:
-    return make(type(display), to_values(display))
-
-
-def _fresh(name: str, taken: set[str]) -> str:
-    """An unused name: `Scan 2` for `Scan`."""
-    stem = re.sub(r" \d+$", "", name)
-    return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)
 
 
 def _id(entry: Entry | None) -> str:
