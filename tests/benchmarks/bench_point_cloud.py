@@ -58,6 +58,7 @@ def serialized(count: int, channel: str, frame: str, seed: int) -> bytes:
 
 def ours(server: viser.ViserServer, clouds: list[bytes], **properties: Any) -> Callable[[], None]:
     """A turn of the frame loop for each cloud: intake, decoding, drawing, baking, sending."""
+    PointCloud2.is_threaded = False  # all of it is to be measured
     scene = ViserScene(server)
     services = Services(scene, Workers(lambda: None), lambda topic: topic, strict=True)
     runner = Runner("cloud", PointCloud2(**properties), services)
