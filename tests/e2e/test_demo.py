@@ -132,6 +132,9 @@ class Driver:
         for _ in range(5):
             self._publisher.publish(twist)
             time.sleep(0.1)
+        before = self.where()
+        while np.linalg.norm((now := self.where()) - before) > 0.001:
+            before = now
 
     def close(self) -> None:
         self._executor.shutdown()
@@ -180,10 +183,11 @@ def settled(page: Page) -> Seen:
 def check_drive_in_map(page: Page, driver: Driver) -> None:
     before, start = settled(page), driver.where()
     driver.drive(SPEED, SECONDS)
-    page.tab.wait_for_timeout(1500)
-    after, end = settled(page), driver.where()
-    driven = end - start
+    driven = driver.where() - start
     assert np.linalg.norm(driven) == pytest.approx(SPEED * SECONDS, abs=0.15)
+    goal = pytest.approx(before.robot + driven, abs=0.06)
+    page.wait_for(lambda: look(page).robot == goal, "the robot where it drove")
+    after = settled(page)
     assert after.robot - before.robot == pytest.approx(driven, abs=0.06)
     # Walls that were black are black or under points of the scan.
     assert share_on_walls(before.walls, np.vstack([after.walls, after.scan]), 0.06) > 0.95
@@ -196,14 +200,18 @@ def check_drive_in_map(page: Page, driver: Driver) -> None:
 def check_drive_in_base(page: Page, driver: Driver) -> None:
     before, start = settled(page), driver.where()
     driver.drive(-SPEED, SECONDS)
-    page.tab.wait_for_timeout(1500)
-    after, end = settled(page), driver.where()
-    assert after.robot - before.robot == pytest.approx(0, abs=0.03)
-    shift = start - end
-    walls = before.walls + shift
+    walls = before.walls + (start - driver.where())
     inside = np.abs(walls).max(axis=1) < 2.5
+
+    def are_where_they_should_be(seen: Seen) -> bool:
+        now = np.vstack([seen.walls, seen.scan])
+        return share_on_walls(walls[inside], now, 0.06) > 0.95
+
+    page.wait_for(lambda: are_where_they_should_be(look(page)), "the map has moved")
+    after = settled(page)
+    assert after.robot - before.robot == pytest.approx(0, abs=0.03)
+    assert are_where_they_should_be(after)
     now = np.vstack([after.walls, after.scan])
-    assert share_on_walls(walls[inside], now, 0.06) > 0.95
     assert share_on_walls(before.walls[inside], now, 0.06) < 0.9
     assert share_on_walls(after.scan, after.walls) > 0.9
 
