@@ -106,6 +106,9 @@ def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
     assert phone.page.evaluate("document.documentElement.scrollWidth") == 250
     phone.page.keyboard.press("ArrowRight")
     playwright.expect(first).to_be_in_viewport(ratio=0.95)
+    first.hover()
+    phone.page.mouse.wheel(0, 300)
+    playwright.expect(tab).to_be_in_viewport(ratio=0.95)
 
 
 def too_small(phone: Tab) -> list[str]:

@@ -24,6 +24,9 @@ export function tabs() {
     button.click();
   });
 
+  // A wheel turns up and down only; tabs beyond the edge are at the side.
+  list.addEventListener("wheel", ({ deltaY }) => (list.scrollLeft += deltaY), { passive: true });
+
   function button({ name }) {
     const id = `wv-tab-${name}`;
     return el("button", {
