@@ -172,7 +172,8 @@ class SelectionPart(Part):
             note = "" if runner.shows(found) else REPLACED
             if details is None:
                 note = "It does not exist any more."
-            fields = {**tree["fields"], **self._whereabouts(found)}
+            own = tree["fields"]
+            fields = own | {k: v for k, v in self._whereabouts(found).items() if k not in own}
             each = {"title": title, "tree": {"fields": fields}, "note": note}
             told[str(id)] = {"display": runner.id, "name": runner.display.name, **each}
         info = {"total": max(selection.total, len(selection.things)), "live": MAX_LIVE}
