@@ -114,10 +114,15 @@ def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
             distance_remaining=index / 100,
             number_of_recoveries=2,
         )
-    values = {"Distance left": "10.0 m", "Time left": "2 h 05 min", "Time": "1 min 05 s"}
+    values = {"Distance left": "10.0 m", "Time left": "2 h 05 min", "Time taken": "1 min 05 s"}
     assert robot.only().values == {**values, "Recoveries": "2"}
     feedback(goal, distance_remaining=NAN, estimated_time_remaining={"sec": -1})
-    values = {"Distance left": "unknown", "Time left": "unknown", "Time": "0 s", "Recoveries": "0"}
+    values = {
+        "Distance left": "unknown",
+        "Time left": "unknown",
+        "Time taken": "0 s",
+        "Recoveries": "0",
+    }
     assert robot.only().values == values
     goal.feedback(b"no message")
     assert robot.only().values == values

@@ -117,7 +117,7 @@ def _progress(feedback: Any) -> dict[str, str]:
     values = {
         "Distance left": f"{left:.1f} m" if math.isfinite(left) else "unknown",
         "Time left": _time(feedback.estimated_time_remaining),
-        "Time": _time(feedback.navigation_time),
+        "Time taken": _time(feedback.navigation_time),
         "Recoveries": str(feedback.number_of_recoveries),
     }
     poses_left = getattr(feedback, "number_of_poses_remaining", None)
