@@ -16,7 +16,9 @@ const IDLE_BEATS = 4; // one heartbeat in so many while nothing is held
 const GAP_MS = 15; // between two that something changes
 const SLOW_MS = 500; // after which the server does not count a heartbeat any more
 const STILL = [0, 0, 0];
-const HINT = "Hold W A S D, the arrow keys, or the stick. Esc leaves.";
+const HINT = matchMedia("(pointer: coarse)").matches
+  ? "Drag the stick."
+  : "Hold W A S D, the arrow keys, or the stick. Esc leaves.";
 
 let driven = null; // what is open while a tool that drives is active
 let isHere = true;
@@ -50,6 +52,9 @@ export function install() {
   });
 }
 
+/** What is driven, and by whom; null while no tool that drives is active. */
+export const state = () => driven;
+
 // The card is there while the tool is active, however it became so.
 function follow() {
   const active = registry.active();
@@ -65,7 +70,7 @@ function open(id) {
   gamepad.disarm();
   driven = {
     id, card, beat: 0, beats: 0, sent: 0, heard: performance.now(), held: STILL,
-    canGoSideways: false,
+    driver: null, canGoSideways: false,
     ends: [
       watch(`driving:${id}`, card.showRobot),
       watch(`tool:${id}`, (values) => {
@@ -136,7 +141,7 @@ function send() {
 function hear({ tool: id, beat, driver, problem }) {
   if (id !== driven?.id) return;
   driven.heard = performance.now();
-  driven.beat = beat;
+  Object.assign(driven, { beat, driver });
   const isOthers = driver !== null && driver !== window.webviz.browser;
   const others = `Browser ${driver} is driving. You can drive once it has let go for a second.`;
   driven.card.showNote(isOthers ? others : problem, isOthers || problem !== "");

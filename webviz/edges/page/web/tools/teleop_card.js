@@ -8,8 +8,8 @@ export function makeCard(change) {
   const stick = makeStick(change);
   const sideways = [["Q", "Drive to the left", 1], ["E", "Drive to the right", -1]].map(
     ([key, label, way]) => makeHold(key, label, way, change));
-  const speed = el("output", { "aria-label": "Speed" });
-  const turnRate = el("output", { "aria-label": "Turn rate" });
+  const speed = el("b");
+  const turnRate = el("b");
   const topic = el("span", { class: "wv-teleop-topic" });
   const note = el("p", { class: "wv-teleop-note", role: "status" });
   const [left, right] = sideways.map(({ element }) => element);

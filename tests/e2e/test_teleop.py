@@ -1,0 +1,269 @@
+"""Driving with real keys in a real browser, heard by another node over DDS."""
+
+from __future__ import annotations
+
+import itertools
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import playwright.sync_api as playwright
+import psutil
+import pytest
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy")
+
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+
+import webviz
+from webviz.commands import AddDisplay
+from webviz.files.config import Config
+from webviz.files.opening import parse
+from webviz.shell.pictures.browser import Page
+
+PATIENCE_S = 60.0
+FULL = 0.5
+"""The highest speed of the tool in m/s."""
+DRIVER = """
+import sys
+from webviz.shell.pictures.browser import Page, launched
+with launched() as browser:
+    tab = Page(browser, sys.argv[1], 600, 400).tab
+    tab.keyboard.press("t")
+    tab.locator(".wv-teleop").wait_for()
+    tab.keyboard.down("w")
+    tab.wait_for_timeout(600_000)
+"""
+
+
+class Robot:
+    """Hears /cmd_vel in a thread of its own."""
+
+    def __init__(self) -> None:
+        self.heard: list[Twist] = []
+        self._context = Context()
+        rclpy.init(context=self._context)
+        self._node = rclpy.create_node("robot", context=self._context)
+        self._node.create_subscription(Twist, "/cmd_vel", self.heard.append, 100)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._executor.spin)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join()
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+    def publishers(self) -> int:
+        return self._node.count_publishers("/cmd_vel")
+
+    def speeds(self) -> list[float]:
+        return [twist.linear.x for twist in self.heard]
+
+    def has_stopped(self) -> bool:
+        """Whether a drive ended with a zero; of several, those that wait give way to the next."""
+        return any(self.speeds()) and self.speeds()[-1] == 0.0
+
+
+@pytest.fixture(scope="module")
+def robot(ros_env: dict[str, str]) -> Iterator[Robot]:
+    robot = Robot()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture(autouse=True)
+def nothing_heard(robot: Robot) -> None:
+    robot.heard.clear()
+
+
+@pytest.fixture(scope="module")
+def viewer(robot: Robot) -> Iterator[webviz.Viewer]:
+    def read(_: object) -> Config:
+        return parse("displays: []\n", "x.yaml")
+
+    with webviz.Viewer(port=0, read=read) as viewer:
+        yield viewer
+
+
+@pytest.fixture(scope="module")
+def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
+    opened = [Page(browser, viewer.url, 700, 500) for _ in range(2)]
+    yield opened
+    errors = [error for page in opened for error in page.errors]
+    for page in opened:
+        page.close()
+    assert errors == []
+
+
+@pytest.fixture
+def page(pages: list[Page], robot: Robot) -> Iterator[Page]:
+    """A page that may drive, and nobody else."""
+    choose(pages[0], robot)
+    yield pages[0]
+    for each in pages:
+        each.tab.keyboard.up("w")
+        each.tab.keyboard.press("Escape")
+
+
+def choose(page: Page, robot: Robot) -> None:
+    """Select the tool, and wait until nobody drives."""
+    page.wait_for(lambda: page.tab.get_by_role("button", name="Teleop").count() == 1, "the tool")
+    if page.tab.locator(".wv-teleop").count() == 0:
+        page.tab.keyboard.press("t")
+    page.wait_for(lambda: page.evaluate(DRIVER_OF) == [True, None], "a free helm", PATIENCE_S)
+    page.wait_for(lambda: robot.publishers() > 0, "the publisher", PATIENCE_S)
+
+
+DRIVER_OF = """async () => {
+  const { state } = await import("/webviz/tools/teleop.js");
+  return [state()?.beat > 0, state()?.driver];
+}"""
+
+
+def hold(page: Page, robot: Robot) -> None:
+    """Hold a key until the robot is at full speed."""
+    page.tab.keyboard.down("w")
+    page.wait_for(lambda: robot.speeds()[-1:] == [FULL], "full speed", PATIENCE_S)
+
+
+def wait_until_stopped(page: Page, robot: Robot) -> None:
+    page.wait_for(robot.has_stopped, "zeros", PATIENCE_S)
+
+
+@contextmanager
+def blocked(viewer: webviz.Viewer) -> Iterator[None]:
+    """The frame loop stands still during the block."""
+    begun, done = threading.Event(), threading.Event()
+
+    def wait(_: str) -> None:
+        begun.set()
+        done.wait(PATIENCE_S)
+
+    viewer._loop.enqueue(AddDisplay("Axes", {}, "", wait))
+    assert begun.wait(PATIENCE_S)
+    yield
+    done.set()
+
+
+def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_stands_still(
+    page: Page, robot: Robot, viewer: webviz.Viewer
+) -> None:
+    with blocked(viewer):
+        hold(page, robot)
+        page.tab.keyboard.up("w")
+        wait_until_stopped(page, robot)
+        until(lambda: not viewer._loop.helms._is_moving())
+        page.tab.wait_for_timeout(100)
+        speeds = robot.speeds()
+        assert all(b - a <= 0.05 + 1e-9 for a, b in itertools.pairwise([0.0, *speeds]))  # 1 m/s²
+        page.tab.wait_for_timeout(300)
+        assert robot.speeds() == speeds
+        assert {(twist.linear.y, twist.angular.z) for twist in robot.heard} == {(0.0, 0.0)}
+
+
+def cut(page: Page, viewer: webviz.Viewer) -> None:
+    server = viewer._scene.link.server
+    for connection in tuple(server._websock_server._live_connections.values()):
+        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+
+
+def freeze(page: Page, viewer: webviz.Viewer) -> None:
+    page.evaluate("() => { const until = Date.now() + 1500; while (Date.now() < until); }")
+
+
+def hide(page: Page, viewer: webviz.Viewer) -> None:
+    page.evaluate("""() => {
+      Object.defineProperty(document, "hidden", { get: () => true, configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+      delete document.hidden;
+    }""")
+
+
+def blur(page: Page, viewer: webviz.Viewer) -> None:
+    page.evaluate("() => window.dispatchEvent(new Event('blur'))")
+
+
+def leave(page: Page, viewer: webviz.Viewer) -> None:
+    page.tab.keyboard.press("Escape")
+
+
+@pytest.mark.parametrize("cause", [cut, freeze, hide, blur, leave])
+def test_the_robot_stops_although_the_key_is_still_held(
+    page: Page,
+    robot: Robot,
+    viewer: webviz.Viewer,
+    cause: Callable[[Page, webviz.Viewer], None],
+) -> None:
+    hold(page, robot)
+    with blocked(viewer):
+        cause(page, viewer)
+        page.wait_for(lambda: 0.0 in robot.speeds(), "zero", PATIENCE_S)
+    if cause is not freeze:  # a page that goes on sees that the key is held
+        wait_until_stopped(page, robot)
+
+
+def test_the_first_of_two_drivers_keeps_control_and_the_second_learns_who_has_it(
+    page: Page, pages: list[Page], robot: Robot
+) -> None:
+    other = pages[1]
+    choose(other, robot)
+    hold(page, robot)
+    number = page.evaluate("() => window.webviz.browser")
+    other.tab.keyboard.down("s")
+    other.wait_for(
+        lambda: f"Browser {number} is driving." in other.tab.locator(".wv-teleop").inner_text(),
+        "who drives",
+    )
+    page.tab.keyboard.up("w")
+    other.wait_for(lambda: robot.speeds()[-1] == -FULL, "the other one to drive", PATIENCE_S)
+    other.tab.keyboard.up("s")
+    speeds = robot.speeds()
+    assert 0.0 in speeds[: next(i for i, speed in enumerate(speeds) if speed < 0.0)]
+    wait_until_stopped(other, robot)
+
+
+def test_zeros_are_the_last_after_a_browser_was_killed_and_after_the_viewer_was_told_to_end(
+    start: Callable[..., Program],
+    browser: playwright.Browser,
+    robot: Robot,
+    said_on_consoles: list[str],
+) -> None:
+    program = start("webviz", "--port", "0")
+    command = [sys.executable, "-c", DRIVER, program.url()]
+    driver = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    try:
+        until(lambda: robot.speeds()[-1:] == [FULL])
+        for process in reversed(psutil.Process(driver.pid).children(recursive=True)):
+            if process.is_running():
+                process.kill()
+        until(robot.has_stopped)
+    finally:
+        driver.kill()
+        driver.wait()
+    robot.heard.clear()
+    page = Page(browser, program.url(), 600, 400)
+    choose(page, robot)
+    hold(page, robot)
+    assert program.end(signal.SIGTERM) == 0
+    page.close()
+    until(lambda: robot.publishers() == 0)
+    assert robot.speeds()[-1] == 0.0
+    said_on_consoles.clear()
+
+
+def until(condition: Callable[[], object]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
