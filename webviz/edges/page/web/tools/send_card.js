@@ -3,12 +3,14 @@
 import { el } from "../dom.js";
 import { canvas } from "../viser_page.js";
 
-const BELOW = 18; // pixels from the start of the gesture
+const GAP = 18; // pixels from the start of the gesture
 const MARGIN = 8;
 const BAR = 96; // of the toolbar and the hint
 
-/** A card with two buttons; `place([x, y])` puts it below a point of the canvas, or, without one,
- * in the middle. */
+/**
+ * A card with two buttons; `place([x, y], ahead)` puts it below a point of the canvas, or above it if
+ * the heading, a point, too, is below. Without a point it is in the middle.
+ */
 export function sendCard(send, cancel) {
   const button = (name, label, run) =>
     el("button", { type: "button", class: `wv-button ${name}`, onclick: run }, label);
@@ -18,12 +20,14 @@ export function sendCard(send, cancel) {
   return {
     element,
     focus: () => first.focus({ preventScroll: true }),
-    place(point) {
+    place(point, ahead) {
       const { clientWidth: width, clientHeight: height } = canvas();
       const { offsetWidth, offsetHeight } = element;
       const [x, y] = point ?? [width / 2, height / 2];
       const left = clamp(x - offsetWidth / 2, MARGIN, width - offsetWidth - MARGIN);
-      const top = clamp(y + BELOW, BAR, height - offsetHeight - MARGIN);
+      const isAbove = Boolean(ahead) && ahead[1] > y;
+      const beside = isAbove ? y - GAP - offsetHeight : y + GAP;
+      const top = clamp(beside, BAR, height - offsetHeight - MARGIN);
       const moved = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
       if (element.style.transform !== moved) element.style.transform = moved;
     },

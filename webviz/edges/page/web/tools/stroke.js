@@ -156,7 +156,8 @@ function redraw(shown) {
   const foot = (isLifted && onCanvas([start[0], start[1], 0])) || top;
   set(stem, { x1: top[0], y1: top[1], x2: foot[0], y2: foot[1] });
   set(dot, { cx: top[0], cy: top[1] });
-  stroke.card?.place(onCanvas(start));
+  const heading = [start[0] + Math.cos(yaw), start[1] + Math.sin(yaw), start[2]];
+  stroke.card?.place(onCanvas(start), tool.gesture === "pose" && onCanvas(heading));
 }
 
 function makeDrawing() {
