@@ -102,7 +102,7 @@ def source(webviz_domain: int) -> Iterator[RosSource]:
 
 
 @pytest.fixture(scope="module")
-def counter(webviz_domain: int) -> Iterator[None]:
+def counter(webviz_domain: int, source: RosSource) -> Iterator[None]:
     pytest.importorskip("test_msgs", reason="needs test_msgs: install webviz[ros-test]")
     env = os.environ | {"ROS_DOMAIN_ID": str(webviz_domain)}
     process = subprocess.Popen(
@@ -110,6 +110,7 @@ def counter(webviz_domain: int) -> Iterator[None]:
     )
     assert process.stdout is not None
     process.stdout.readline()
+    until(lambda: "/counter" in source.graph.nodes(), lambda: time.sleep(0.05))
     yield
     process.terminate()
     process.communicate()
