@@ -79,8 +79,10 @@ def test_the_toolbar_comes_back_in_its_order_with_every_key() -> None:
 def test_estimates_and_points_come_back_as_they_were() -> None:
     tools = [
         {"Class": "rviz_default_plugins/Interact", "Hide Inactive Objects": True},
-        {"Class": "rviz_default_plugins/Measure", "Line color": "128; 128; 0"},
+        {"Class": "rviz_default_plugins/MoveCamera"},
+        {"Class": "rviz_default_plugins/Select"},
         {"Class": "rviz_default_plugins/FocusCamera"},
+        {"Class": "rviz_default_plugins/Measure", "Line color": "128; 128; 0"},
         {
             "Class": "rviz_default_plugins/SetInitialPose",
             "Covariance x": 0.5,
@@ -93,15 +95,22 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
             "Single click": False,
             "Topic": {"Value": "/point", **QOS},
         },
+        {
+            "Class": "rviz_default_plugins/SetGoal",
+            "Confirm": True,
+            "Topic": {"Value": "/goal", **QOS, "Durability Policy": "Transient Local"},
+        },
     ]
     config, report = opened(json.dumps(tools))
     assert report.sentences() == []
-    estimate, point, _ = config.tools
+    estimate, point, goal, _ = config.tools
     assert isinstance(estimate, PoseEstimate)
     assert isinstance(point, PublishPoint)
     assert (estimate.covariance_x, estimate.covariance_yaw) == (0.5, 0.1)
     assert (estimate.topic.name, point.topic.name) == ("/estimate", "/point")
     assert point.stays
+    assert isinstance(goal, GoalPose)
+    assert goal.asks
     assert written(config) == tools
 
 
