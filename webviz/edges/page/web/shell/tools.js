@@ -92,7 +92,7 @@ function buttonOf(tool) {
     button.dataset.tool = text;
     set(button, {
       "aria-label": name,
-      "data-tip": refusal || (isLean ? `${name}: ${tooltip}` : tooltip),
+      "data-tip": refusal || isLean ? `${name}: ${refusal || tooltip}` : tooltip,
       "aria-disabled": refusal ? "true" : null,
       "data-key": shortcut || null,
     });
