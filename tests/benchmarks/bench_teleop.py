@@ -27,11 +27,11 @@ PRESSES = 50
 PATIENCE_S = 60.0
 BRIDGE = """
 import asyncio, json
-import rclpy
+import rclpy, rclpy.signals
 import websockets.asyncio.server as websocket
 from geometry_msgs.msg import Twist
 
-rclpy.init()
+rclpy.init(signal_handler_options=rclpy.signals.SignalHandlerOptions.NO)  # it ends at once
 node = rclpy.create_node("bridge")
 publisher = node.create_publisher(Twist, "/cmd_vel", 1)
 
@@ -132,14 +132,14 @@ def main() -> None:
             for name, program in programs.items():
                 assert program.stdout is not None
                 url = program.stdout.readline().replace("webviz: open ", "").split()[0]
-                pages[name] = page = browser.new_page(viewport={"width": 700, "height": 500})
+                page = pages[name] = browser.new_page(viewport={"width": 700, "height": 500})
                 if name == "webviz":
                     page.goto(url)
                     page.get_by_role("button", name="Teleop").click(timeout=60_000)
                 else:
                     page.evaluate(PLAIN_PAGE, url)
                 page.evaluate(NOTE)
-            until(page, lambda: robot.publishers() == len(programs))
+            until(pages["webviz"], lambda: robot.publishers() == len(programs))
             for _ in range(presses):
                 for name, page in pages.items():
                     taken[name].append(press(page, robot))

@@ -157,6 +157,19 @@ def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
     until(lambda: not peer.node.count_publishers("/old_goal"), peer.turn)
 
 
+def test_a_message_does_not_wait_for_what_arrives(
+    webviz_domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.edges.ros.node.SPIN_S", 3600.0)
+    source = RosSource(domain_id=webviz_domain)
+    outlet = Outlet("/lonely", STRING)
+    for _ in range(5):
+        assert source.graph.publish(outlet, encode(STRING)).result(60.0) == 0
+    monkeypatch.undo()
+    source.graph.publish(outlet, encode(STRING)).result(60.0)  # begins another wait
+    source.close()
+
+
 def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:
     assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(30.0) == 0
 

@@ -80,7 +80,7 @@ class RosSource:
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
         self.control = Control(self._node)
         self._executor = _executor(self._context)
-        self.graph = RosGraph(self._node, self._executor.wake)
+        self.graph = RosGraph(self._node, self._wake)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
@@ -125,6 +125,10 @@ class RosSource:
         """Destroy the node and end the thread."""
         self._stop.set()
         self._thread.join()
+
+    def _wake(self) -> None:
+        """End a `spin_once` that waits; `wake` of the events executor does not."""
+        self._executor.create_task(_do_nothing)
 
     def _run(self) -> None:
         executor = self._executor
@@ -238,6 +242,10 @@ class _Held:
     policies: tuple[qos.Reliability, qos.Durability]
     is_mixed: bool
     subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)
+
+
+def _do_nothing() -> None:
+    """A task that wakes the executor."""
 
 
 def _executor(context: Context) -> Executor:
