@@ -31,11 +31,11 @@ Benches = Callable[..., Any]
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 
 
-def pick(at: Any, key: str, number: int | None, point: tuple[float, ...] = ()) -> Details:
+def pick(at: Any, key: str, number: int | None, point: Any = None) -> Details:
     """What is said about an item of a node, given as a browser has it, or about a point on one."""
     group = next(group for group, nodes in at.scene.groups.items() if key in nodes)
     node, _ = at.scene.groups[group][key]
-    color = None
+    color: Any = None
     if number is not None:
         place = getattr(node, fields(node)[0].name)[number]
         point = tuple(map(float, place[0] if place.ndim > 1 else place))
@@ -74,8 +74,9 @@ def point_of_a_thinned_cloud(bench: Benches) -> Details:
     at.send(CLOUD, cloud([*XYZ, ("i", 12, UINT32, 1)], points), frame="lidar")
     at.turn()
     details = pick(at, "solids", 4)
-    assert 40 <= details.values["i"] < 50
-    assert details.title == f"Point {details.values['i']}"
+    number = details.values["i"]
+    assert number in range(40, 50)
+    assert details.title == f"Point {number}"
     return Details("Point of ten", details.values)
 
 

@@ -116,7 +116,7 @@ def test_a_picture_that_was_replaced_is_answered_from_what_was_on_the_screen(sho
         Picks(DOTS, "dots", ((5, 10**30, (1.0, 1.0, 0.0), (0, 255, 0)),)),
         Picks(DOTS, "dots", ((5, -1, (1.0, 1.0, 0.0), (0, 255, 0)),)),
         Picks(DOTS, "dots", ((5, None, (1.0, 1.0, 0.0), (0, 255, 0)),)),
-        Picks(DOTS, "dots", ((5, 1, (math.nan,) * 3, (0, 255, 0)),)),
+        Picks(DOTS, "dots", ((5, 1, (math.nan, math.nan, math.nan), (0, 255, 0)),)),
         Picks(DOTS, "dots", ((5, 1, (math.inf, 1e308, -1e308), (0, 255, 0)),)),
         Picks(DOTS, "other", dot(1.0).items),
         Picks("display1/../topic.0/", "dots", dot(1.0).items),

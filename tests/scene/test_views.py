@@ -328,6 +328,7 @@ def test_moving_orbit_stays_in_the_plane_of_the_picture(window: Window) -> None:
     window.look(Orbit(distance=10.0, yaw=0.0, pitch=math.pi / 6))
     window.drag(0, 50, "middle")
     view = window.tell(lambda view: math.hypot(*view.focal_point) > 0.1, "it moved")
+    assert isinstance(view, Orbit)
     x, y, z = view.focal_point
     assert (z / x, y) == pytest.approx((-math.sqrt(3.0), 0.0), abs=1e-3)
 

@@ -197,7 +197,7 @@ class SelectionPart(Part):
 def _affordable(things: Mapping[int, _Selected]) -> dict[int, _Selected]:
     """Without those of the oldest messages that only the selection holds, if these are many."""
     past: dict[int, None] = {}
-    for each in reversed(things.values()):
+    for each in reversed(list(things.values())):
         if not each.runner.shows(each.found):
             past.setdefault(id(each.found.hit.sample))
     dropped = set(list(past)[MAX_PAST:])
