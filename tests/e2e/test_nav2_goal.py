@@ -8,6 +8,7 @@ from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from pages import open_pages
 from program import Program
 
 import webviz
@@ -53,12 +54,8 @@ def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
-    opened = [Page(browser, viewer.url, 900, 600) for _ in range(2)]
-    yield opened
-    errors = [error for page in opened for error in page.errors]
-    for page in opened:
-        page.close()
-    assert errors == []
+    with open_pages(browser, viewer.url, 900, 600) as opened:
+        yield opened
 
 
 @pytest.fixture

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 import playwright.sync_api as playwright
 import psutil
 import pytest
+from pages import open_pages
 from program import Program
 
 pytest.importorskip("rclpy", reason="needs rclpy")
@@ -98,12 +99,8 @@ def viewer(robot: Robot) -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
-    opened = [Page(browser, viewer.url, 700, 500) for _ in range(2)]
-    yield opened
-    errors = [error for page in opened for error in page.errors]
-    for page in opened:
-        page.close()
-    assert errors == []
+    with open_pages(browser, viewer.url, 700, 500) as opened:
+        yield opened
 
 
 @pytest.fixture

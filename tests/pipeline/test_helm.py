@@ -55,7 +55,7 @@ def test_a_driver_who_falls_silent_stops_the_vehicle_at_once() -> None:
     assert len(moving) * PERIOD_S == pytest.approx(BEAT_S, abs=PERIOD_S)
     assert set(moving) == {Velocity(linear=0.5)}
     assert steps[len(moving) :] == [STILL] * TAIL + [None] * (len(steps) - len(moving) - TAIL)
-    # Whoever still holds a key is heard again, from a standstill.
+    # A key that is still held counts again, from a standstill.
     helm.steer(1, AHEAD, 3.0)
     assert helm.step(3.0) == Velocity(linear=0.05)
 

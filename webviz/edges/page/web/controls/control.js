@@ -4,7 +4,7 @@
 // it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
 // that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
 // unless it is being edited; `describe(text)` is its tooltip; `focus()`. Some have an `end()`, and those
-// of properties with an "otherwise" are told its value by `follow(value)`.
+// of properties with an "otherwise" get its value by `follow(value)`.
 
 import { checkbox, choice, text } from "./simple.js";
 import { color } from "./color.js";

@@ -12,7 +12,7 @@ const MOST_ROWS = 8;
 const ROW_PX = 24;
 
 /**
- * A dictionary of switches by the names of frames; see `control.js`. `follow(value)` is told what
+ * A dictionary of switches by the names of frames; see `control.js`. `follow(value)` sets what
  * holds for names that have no switch of their own.
  */
 export function switches(_, { label, change, refused }) {

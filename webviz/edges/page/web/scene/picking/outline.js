@@ -12,9 +12,9 @@ const EDGES = CORNERS.flatMap((from) =>
 
 /**
  * What is to be drawn around a pick, whose object `find` finds (see `finder`), and which `moves` and
- * stays what it is, or not: `{points, edges, isOld}`, `points` in three.js' coordinates; of a
- * point of a cloud there are no edges. `isOld` says that something else is drawn there now: the outline
- * is where it was. Null while its node is not shown.
+ * stays what it is, or not: `{points, edges, isOld}`, `points` in three.js' coordinates; a point of
+ * a cloud has no edges. `isOld` says that something else is drawn there now, and the outline is where
+ * it was. Null while its node is not shown.
  */
 export function outlineOf(pick, find, moves) {
   const object = find(pick.name, pick.ordinal);
