@@ -29,6 +29,14 @@ WAITING := 3
 FIRST := $(addprefix tests/,benchmarks e2e testing sim page capture)
 SLOW := $(FIRST) tests $(addprefix --ignore=,$(QUICK))
 
+# $(call run,OPTIONS,TESTS): a busy machine delays threads, browsers and ROS graphs, so what fails
+# runs once more, alone.
+define run
+$(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
+	echo "Running the failed tests once more, alone: a busy machine may have delayed them." && \
+	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
+endef
+
 .PHONY: install test quick check bench browser docs
 
 install: $(VENV)/ready
@@ -39,13 +47,11 @@ ifdef ARGS
 	@$(PYTEST) -n 2 $(ARGS)
 else
 	@$(MAKE) --no-print-directory -j2 check quick
-	@$(PYTEST) -n $(WAITING) --no-loadscope-reorder --cache-clear $(SLOW) || { [ $$? = 1 ] && \
-		echo "Running the failed tests once more, alone: a busy machine may have delayed them." && \
-		$(PYTEST) -n 0 --last-failed --maxfail 3 $(SLOW); }
+	@$(call run,-n $(WAITING) --no-loadscope-reorder,$(SLOW))
 endif
 
 quick: $(VENV)/ready-to-test
-	@$(PYTEST) -n 2 $(QUICK)
+	@$(call run,-n 2,$(QUICK))
 
 check: $(VENV)/ready-to-test
 	@$(VENV)/bin/ruff check
