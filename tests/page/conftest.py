@@ -23,6 +23,7 @@ from webviz.engine.commands import (
     AddDisplay,
     Command,
     DuplicateDisplay,
+    InspectSelections,
     Refresh,
     Sender,
     SetProperty,
@@ -97,7 +98,7 @@ class Loop:
         """Collect the commands, obey the property changes that are valid, and update the pages."""
         while not self._queue.empty():
             command, sender, answer = self._queue.get()
-            if not isinstance(command, Refresh):
+            if not isinstance(command, Refresh | InspectSelections):  # which nobody has clicked
                 self.commands.append(command)
                 self.senders.append(sender)
             reply = self.answer

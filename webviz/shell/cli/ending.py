@@ -46,9 +46,19 @@ def say(line: str) -> None:
         os.write(sys.stderr.fileno(), f"{line}\n".encode())
 
 
+_has_said_end = threading.Lock()
+"""Held once the line is written with which the program ends."""
+
+
+def say_end(line: str) -> None:
+    """Write the last line of the program; the first thread that wants to does."""
+    if _has_said_end.acquire(blocking=False):
+        say(line)
+
+
 def leave() -> NoReturn:
     """Exit at once, ending child processes only."""
-    say("webviz: interrupted.")
+    say_end("webviz: interrupted.")
     end_children()
     os._exit(INTERRUPTED)
 

@@ -15,7 +15,7 @@ from cyclopts import App
 
 from webviz.api.status import Level, Status
 from webviz.engine import plugins
-from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say
+from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say_end
 from webviz.shell.cli.options import ROS_ARGS_HELP, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.shell.pictures import files as picture_files
@@ -47,7 +47,7 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
         with one_sentence():
             return _make(options, ros)
     except KeyboardInterrupt:
-        say("webviz: interrupted.")
+        say_end("webviz: interrupted.")
         return INTERRUPTED
 
 

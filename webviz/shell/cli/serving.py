@@ -12,7 +12,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
 from webviz.files.config import Config
 from webviz.shell.app.viewer import Viewer
-from webviz.shell.cli.ending import INTERRUPTED, Stop, say
+from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.viewing_options import LOCAL, ViewingOptions
 
 DEMO = Path(__file__).parent / "demo.yaml"
@@ -66,7 +66,7 @@ def serve(
             if is_shown:
                 _announce(options, viewer)
                 viewer.wait()
-    say("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
+    say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
 
 

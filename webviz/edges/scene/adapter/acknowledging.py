@@ -65,7 +65,10 @@ class Acknowledgements:
             socket.queue_message(shared)
             self._server.flush()
             for client in asked.values():
-                client._websock_connection.queue_message(own)
+                connection = client._websock_connection
+                # It may be gone by now, which viser would warn of.
+                with connection.get_message_buffer().sanctioned_dead_writes():
+                    connection.queue_message(own)
                 client.flush()
                 self._server.channel.send(Ask(tokens[2]), client.client_id)
             with self._changed:

@@ -11,12 +11,13 @@ const KEYS = {
 
 const held = new Set();
 
-/** Whether a key drives; then it is held from now on. Q and E go sideways, if the robot can. */
+/** Whether a key is for driving; then it is held from now on. Q and E go sideways, if the robot can. */
 export function press(event, canGoSideways) {
   const [axis] = KEYS[event.code] ?? [];
   if (event.ctrlKey || event.metaKey || event.altKey) release(); // some hide that a key is let go
-  else if (axis !== undefined && (axis !== LATERAL || canGoSideways)) {
-    if (!event.repeat) held.add(event.code);
+  else if (axis !== undefined) {
+    // A key that cannot drive is taken as well, else viser's camera would walk.
+    if (!event.repeat && (axis !== LATERAL || canGoSideways)) held.add(event.code);
     return true;
   }
   return false;
