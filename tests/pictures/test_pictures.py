@@ -27,7 +27,7 @@ from webviz_displays.tf import TF
 from webviz_sim.pose import Pose2D
 
 REFERENCES = Path(__file__).parent
-FOLDERS = sorted(path for path in REFERENCES.iterdir() if path.is_dir())
+FOLDERS = sorted(path for path in REFERENCES.iterdir() if any(path.rglob("*.png")))
 EVERYTHING: tuple[type[Display], ...] = (
     Grid,
     Axes,
