@@ -201,6 +201,6 @@ def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
         b.publish("/odom", ODOMETRY, {"twist": {"twist": twist}})
         assert readout() == expected
     b.publish("/odom", ODOMETRY, {"twist": {"twist": {"linear": {"x": float("nan")}}}})
-    assert readout().problem == "/odom has velocities that are not finite."
+    assert readout().problem == "/odom has velocities that are not finite. Correct its publisher."
     b.clock += 2.0
     assert readout() == Driving(problem=f"No message on /odom. {remedy}")

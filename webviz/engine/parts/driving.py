@@ -18,6 +18,7 @@ FRESH_S = 1.0
 """How long a speed counts."""
 DIGITS = 2
 """Of speeds, so that nothing is sent while nothing changes."""
+REMEDY = "Choose another topic of odometry in the panel Tools."
 
 
 class DrivingPart(Part):
@@ -81,16 +82,16 @@ class DrivingPart(Part):
         raw, at = self._newest.get(name, (None, -math.inf))
         if raw is None or self.core.clock() - at > FRESH_S:
             offer = self.core.offers.get(name)
-            remedy = "Choose another topic of odometry in the panel Tools."
             if offer is None or not offer.publishers:
-                return Driving(driver, problem=f"No publisher on {name}. {remedy}")
-            return Driving(driver, problem=f"No message on {name}. {remedy}")
+                return Driving(driver, problem=f"No publisher on {name}. {REMEDY}")
+            return Driving(driver, problem=f"No message on {name}. {REMEDY}")
         try:
             twist = decode(ODOMETRY, raw.cdr).twist.twist
         except MessageError as error:
-            return Driving(driver, problem=f"{name} cannot be read: {error}")
+            return Driving(driver, problem=f"{name} cannot be read: {error} {REMEDY}")
         x, y, turn = float(twist.linear.x), float(twist.linear.y), float(twist.angular.z)
         speed = math.copysign(math.hypot(x, y), x) if abs(x) >= abs(y) else math.hypot(x, y)
         if not (math.isfinite(speed) and math.isfinite(turn)):
-            return Driving(driver, problem=f"{name} has velocities that are not finite.")
+            cause = f"{name} has velocities that are not finite."
+            return Driving(driver, problem=f"{cause} Correct its publisher.")
         return Driving(driver, round(speed, DIGITS) + 0.0, round(turn, DIGITS) + 0.0)
