@@ -15,6 +15,7 @@ from rviz_files import FILES
 
 from webviz.api import registry
 from webviz.api.declared import make
+from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.files import rviz
@@ -26,7 +27,7 @@ from webviz.shell.cli.schema import COMMAND, SHIPPED, text
 from webviz.shell.cli.serving import DEMO
 
 INSTALLED = display_types()
-SCHEMA = schema(INSTALLED, plugin_types(Tool))
+SCHEMA = schema(INSTALLED, plugin_types(Tool), plugin_types(Panel))
 CHECK = Draft7Validator(SCHEMA)
 
 

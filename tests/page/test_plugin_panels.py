@@ -6,19 +6,19 @@ import logging
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import pytest
 
 from tests.page.conftest import Loop, Tab
 from webviz.api import registry
+from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Ui
-from webviz.api.registry import plugin_types
 from webviz.edges.page.plugin_panels import MAX_WAITING
 from webviz.edges.page.widgets import MAX_HTML, MAX_LINES, RecordedUi
-from webviz.engine.commands import InspectTopic, Reset
+from webviz.engine.commands import InspectTopic, Reset, SetPanelProperty
 from webviz.engine.plugins import load
-from webviz.engine.state import State, Traffic
+from webviz.engine.state import PanelTab, State, Traffic
 
 EXAMPLE = Path(__file__).parents[2] / "displays/docs/examples/quiet_topics.py"
 HOSTILE = "<img src=x onerror=alert(1)>"
@@ -64,6 +64,16 @@ class Form(Panel):
             self.robot.show(state.frames[0])
 
 
+class Limited(Panel):
+    """A panel with a property."""
+
+    most: Annotated[int, Prop(ge=1, help="Lines.")] = 3
+
+    def build(self, ui: Ui, send: Send) -> None:
+        self.text = ui.area()
+        self.text.text("limited")
+
+
 class Moody(Panel):
     """A panel that fails until a frame is known."""
 
@@ -93,9 +103,10 @@ class Slow(Panel):
 
 
 @pytest.fixture(autouse=True)
-def _register(tab: Tab) -> Iterator[None]:
+def _register(loop: Loop, tab: Tab) -> Iterator[None]:
     yield
     registry.register("tests", {})
+    loop.show(panels=())
     tab.show_tab("Displays")
 
 
@@ -104,8 +115,14 @@ def tabs(tab: Tab) -> list[str]:
     return tab.page.get_by_role("tab").all_inner_texts()
 
 
-def open_panel(tab: Tab, type_: type[Panel]) -> None:
-    registry.register("tests", {type_.__name__: type_})
+def shown(*types: Any) -> tuple[PanelTab, ...]:
+    """What the state has of panels of these types, which are registered."""
+    registry.register("tests", {cls.__name__: cls for cls in types if cls.__module__ == __name__})
+    return tuple(PanelTab(f"panel{i}", make(cls, {})) for i, cls in enumerate(types))
+
+
+def open_panel(loop: Loop, tab: Tab, type_: type[Panel]) -> None:
+    loop.show(panels=shown(type_))
     tab.wait_for(lambda: type_.__name__ in tabs(tab))
     tab.show_tab(type_.__name__)
     tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
@@ -114,14 +131,14 @@ def open_panel(tab: Tab, type_: type[Panel]) -> None:
 def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: Tab) -> None:
     before = tabs(tab)
     loop.show(frames=("map", HOSTILE))
-    open_panel(tab, Frames)
+    open_panel(loop, tab, Frames)
     assert tabs(tab) == [*before, "Frames"]
     tab.wait_for(lambda: HOSTILE in tab.text())
     assert tab.button("Forget all").get_attribute("data-tip") == "All of it"
     tab.button("Forget all").click()
     tab.wait_for_command(Reset())
     assert loop.senders[-1].browser is not None
-    registry.register("tests", {})
+    loop.show(panels=())
     tab.wait_for(lambda: tabs(tab) == before)
     assert tab.page.locator("[role=tab][aria-selected=true]").count() == 1
 
@@ -129,7 +146,7 @@ def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: 
 def test_every_kind_of_widget_is_drawn_and_heard(loop: Loop, tab: Tab) -> None:
     Form.entered.clear()
     loop.show()
-    open_panel(tab, Form)
+    open_panel(loop, tab, Form)
     tab.wait_for(lambda: f"a text {HOSTILE}" in tab.text())
     assert tab.page.locator("pre").inner_text() == "one\n  two"
     assert tab.page.locator("#bold").inner_text() == "bold"
@@ -149,7 +166,7 @@ def test_what_somebody_types_stays_while_the_panel_shows_something_else(
     loop: Loop, tab: Tab
 ) -> None:
     loop.show()
-    open_panel(tab, Form)
+    open_panel(loop, tab, Form)
     name = tab.page.get_by_label("Name", exact=True)
     name.click()
     name.press("End")
@@ -162,11 +179,24 @@ def test_what_somebody_types_stays_while_the_panel_shows_something_else(
     tab.wait_for(lambda: name.input_value() == "map")
 
 
+def test_the_properties_of_a_panel_are_edited_in_its_tab(loop: Loop, tab: Tab) -> None:
+    open_panel(loop, tab, Limited)
+    tab.page.get_by_text("Properties", exact=True).click()
+    most = tab.page.get_by_role("spinbutton", name="Most")
+    most.fill("7")
+    most.press("Enter")
+    tab.wait_for_command(SetPanelProperty("panel0", "most", 7))
+    loop.show(panels=shown(Limited, Limited))
+    tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
+    open_panel(loop, tab, Frames)
+    assert not tab.page.get_by_text("Properties", exact=True).is_visible(), "it has none"
+
+
 def test_a_button_that_fails_says_so_in_the_browser(
     loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
 ) -> None:
     loop.show()
-    open_panel(tab, Frames)
+    open_panel(loop, tab, Frames)
     tab.button("Break").click()
     sentence = "The panel Frames failed: ZeroDivisionError: division by zero"
     tab.wait_for(lambda: sentence in tab.text())
@@ -176,9 +206,8 @@ def test_a_button_that_fails_says_so_in_the_browser(
 def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
     loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
 ) -> None:
-    registry.register("tests", {"Moody": Moody, "Unbuilt": Unbuilt})
     with caplog.at_level(logging.WARNING):
-        loop.show()
+        loop.show(panels=shown(Moody, Unbuilt))
     unbuilt, moody = (
         "The panel Unbuilt failed: SystemExit: not today",
         "The panel Moody failed: ValueError: no frames, sorry",
@@ -201,7 +230,7 @@ def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
 def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> None:
     Slow.go_on.clear()
     try:
-        registry.register("tests", {"Slow": Slow, "Frames": Frames})
+        loop.show(panels=shown(Slow, Frames))
         tab.wait_for(lambda: "Slow" in tabs(tab))
         tab.show_tab("Slow")
         tab.wait_for(lambda: tab.button("Wait").count() > 0)
@@ -218,7 +247,7 @@ def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> 
 
 def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(loop: Loop, tab: Tab) -> None:
     loop.show()
-    open_panel(tab, Frames)
+    open_panel(loop, tab, Frames)
     tab.wait_for(lambda: "Forget all" in tab.text())
     tab.page.wait_for_timeout(200)
     tab.turn()
@@ -232,7 +261,7 @@ def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(loop: Loop, tab: 
 
 def test_what_is_shown_already_is_not_sent_again(loop: Loop, tab: Tab) -> None:
     loop.show(frames=("map",))
-    open_panel(tab, Frames)
+    open_panel(loop, tab, Frames)
     tab.wait_for(lambda: tab.page.locator("td").count() == 2)
     tab.page.evaluate(
         "window.changes = 0; new MutationObserver(() => { changes += 1 }).observe("
@@ -247,7 +276,7 @@ def test_a_panel_is_the_same_in_a_browser_that_comes_late(
     loop: Loop, tab: Tab, open_tab: Callable[[], Tab]
 ) -> None:
     loop.show(frames=("late_frame",))
-    open_panel(tab, Frames)
+    open_panel(loop, tab, Frames)
     late = open_tab()
     late.wait_for(lambda: "Frames" in tabs(late))
     late.show_tab("Frames")
@@ -257,7 +286,8 @@ def test_a_panel_is_the_same_in_a_browser_that_comes_late(
 def test_the_example_of_the_docs_works_from_its_file(loop: Loop, tab: Tab) -> None:
     types = load(EXAMPLE)
     try:
-        loop.show(traffic={"/scan": Traffic(0.0, 0.0), "/map": Traffic(2.0, 10.0)})
+        quiet = {"/scan": Traffic(0.0, 0.0), "/map": Traffic(2.0, 10.0)}
+        loop.show(traffic=quiet, panels=shown(types["QuietTopics"]))
         tab.wait_for(lambda: "Quiet topics" in tabs(tab))
         tab.show_tab("Quiet topics")
         tab.wait_for(lambda: "no messages" in tab.text())
@@ -265,9 +295,8 @@ def test_the_example_of_the_docs_works_from_its_file(loop: Loop, tab: Tab) -> No
         assert "/map" not in tab.text()
         tab.button("Look into none").click()
         tab.wait_for_command(InspectTopic(""))
-        load(EXAMPLE)  # after a save: the same tab, of the new class
-        loop.show(traffic={})
-        assert plugin_types(Panel)["QuietTopics"] is not types["QuietTopics"]
+        again = load(EXAMPLE)  # after a save: the same tab, of the new class
+        loop.show(traffic={}, panels=shown(again["QuietTopics"]))
         tab.wait_for(lambda: "has messages" in tab.text())
     finally:
         registry.register(str(EXAMPLE), {})

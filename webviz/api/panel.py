@@ -12,7 +12,8 @@
         def show(self, state):
             self.frames.table([(frame,) for frame in state.frames])
 
-All browsers share a panel. Commands are those of `webviz.commands`.
+All browsers share a panel. Commands are those of `webviz.commands`. Properties are declared as
+those of displays, edited in the tab, and kept in the config under `panels`.
 """
 
 from __future__ import annotations

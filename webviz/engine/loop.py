@@ -20,6 +20,7 @@ from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.history import HistoryPart
+from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.settings import SettingsPart
@@ -98,8 +99,11 @@ class FrameLoop:
         self.helms = Helms(gate, source.now_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
         tools = ToolsPart(core, goals, self.helms)
-        files = self._files = FilesPart(core, displays, settings, views, tools, config, path)
-        history = HistoryPart(core, displays, settings, views, tools, files)
+        panels = PanelsPart(core)
+        files = self._files = FilesPart(
+            core, displays, settings, views, tools.list, panels.list, config, path
+        )
+        history = HistoryPart(core, displays, settings, views, tools.list, panels.list, files)
         all_parts = [
             transforms,
             self._time,
@@ -107,13 +111,14 @@ class FrameLoop:
             settings,
             views,
             tools,
+            panels,
             goals,
             DrivingPart(core, self.helms, tools.odometry),
             files,
             history,
             TopicsPart(core),
             SelectionPart(core, displays),
-            PluginsPart(core, displays, settings),
+            PluginsPart(core, displays, [tools.list, panels.list], settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *(make(core) for make in parts),
         ]
@@ -130,7 +135,7 @@ class FrameLoop:
 
     @property
     def settings(self) -> Settings:
-        """Everything in the config except displays and tools."""
+        """Everything in the config except its lists."""
         return self._settings.settings
 
     def enqueue(self, command: Command, sender: Sender = PROGRAM) -> Future[str]:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from webviz.api import registry
-from webviz.api.declared import Declared, make, set_property, to_values
+from webviz.api.declared import Declared, P, make, set_property, to_values
 from webviz.api.display import Display, inputs_of
 from webviz.api.errors import Error
 from webviz.api.properties import value_at
@@ -200,12 +200,7 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
         runner.remarks[STATUS] = Status(Level.ERROR, text)
         log.warning("%s (%s)", text, old.name)
         return
-    display = make(types[name], {})
-    lost = [
-        problem
-        for key, value in to_values(old).items()
-        for problem in _carry_over(display, key, value)
-    ]
+    display, lost = made_new(old, types[name])
     runner.replace(display)
     if lost:
         text = f"{path} has changed, values were dropped: {'; '.join(lost)}."
@@ -213,16 +208,27 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
         log.warning("%s (%s)", text, old.name)
 
 
-def _carry_over(display: Display, path: str, value: Any) -> list[str]:
+def made_new(old: Declared, cls: type[P]) -> tuple[P, list[str]]:
+    """An instance of a class with the values of an older one, and which of them do not fit."""
+    made = make(cls, {})
+    lost = [
+        problem
+        for key, value in to_values(old).items()
+        for problem in _carry_over(made, key, value)
+    ]
+    return made, lost
+
+
+def _carry_over(made: Declared, path: str, value: Any) -> list[str]:
     """Set a property if it still exists and the value fits; else the reason, per property."""
     try:
-        if isinstance(value, dict) and isinstance(value_at(display, path), msgspec.Struct):
+        if isinstance(value, dict) and isinstance(value_at(made, path), msgspec.Struct):
             return [
                 problem
                 for key, item in value.items()
-                for problem in _carry_over(display, f"{path}.{key}", item)
+                for problem in _carry_over(made, f"{path}.{key}", item)
             ]
-        set_property(display, path, value)
+        set_property(made, path, value)
     except AttributeError:
         return [f"{path} = {value!r} (no such property)"]
     except Exception as error:  # of validation, or of the class itself

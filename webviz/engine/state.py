@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
+from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
 from webviz.api.tool import Gesture, Tool
 from webviz.api.views import View
@@ -193,6 +194,19 @@ class ToolButton:
 
 
 @dataclass(frozen=True)
+class PanelTab:
+    """One panel of a plug-in.
+
+    Args:
+        id: for commands.
+        panel: read-only but for its own methods.
+    """
+
+    id: str
+    panel: Panel
+
+
+@dataclass(frozen=True)
 class GoalProgress:
     """A goal that a tool sent to an action.
 
@@ -267,7 +281,7 @@ class State:
         frames: all known frame ids, sorted.
         topics: message types by topic name.
         statuses: of the viewer as a whole, such as "Fixed Frame".
-        settings: everything in the config except displays and tools.
+        settings: everything in the config except its lists.
         file: of the config.
         clock: the time.
         offers: publishers and QoS by topic name.
@@ -277,6 +291,7 @@ class State:
         between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
         tools: in the order of the toolbar.
+        panels: of plug-ins, in the order of their tabs.
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
         history: what can be undone and redone.
@@ -301,6 +316,7 @@ class State:
     between: Mapping[tuple[str, str], Between] = field(default_factory=dict)
     views: Mapping[int, View] = field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
+    panels: tuple[PanelTab, ...] = ()
     goals: tuple[GoalProgress, ...] = ()
     driving: Mapping[str, Driving] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()

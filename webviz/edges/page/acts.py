@@ -25,6 +25,7 @@ ALLOWED = (
     commands.ResetDisplay,
     commands.SetProperty,
     commands.SetToolProperty,
+    commands.SetPanelProperty,
     commands.CancelGoal,
     commands.DismissGoal,
     commands.SetBackground,

@@ -48,6 +48,7 @@ class Pages:
         self._of_panels = {
             "commands": panels.commands,
             "panel": panels.panel,
+            "panel_properties": panels.properties,
             "panels": panels.panels,
         }
         self._read: dict[str, Reading] = {}

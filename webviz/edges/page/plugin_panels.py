@@ -5,25 +5,28 @@ from __future__ import annotations
 import contextlib
 import queue
 import threading
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from webviz.api.declared import make
 from webviz.api.panel import Panel
-from webviz.api.registry import broken_types, plugin_types
+from webviz.api.registry import broken_types, type_name
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.content.forms import form, values_of
 from webviz.edges.page.messages import Done, Use
 from webviz.edges.page.widgets import RecordedUi, Widget, clean
 from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
-from webviz.engine.state import State
+from webviz.engine.state import PanelTab, State
 
 MAX_WAITING = 16
 """Acts of one panel that wait for one that takes long."""
+_SHARED = ("name",)
+"""Properties of all panels, which their tab does not show."""
 
 
 class PluginPanels:
-    """All panels of the registry; those of files come and go with it.
+    """The panels of plug-ins, each in a tab named after its type.
 
     All browsers share them. `update` is called by the frame loop; what browsers do runs in a thread
     of each panel, so that no act stops the viewer or another panel.
@@ -37,16 +40,18 @@ class PluginPanels:
         self._channel = channel
         self._enqueue = enqueue
         self._tabs: dict[str, _Tab] = {}
+        self._order: list[str] = []
         self._broken = broken_types(Panel)
         channel.on(Use, self._use)
 
     def update(self, state: State) -> None:
         """Let every panel show the viewer."""
-        types = plugin_types(Panel)
-        for name in [n for n, tab in self._tabs.items() if types.get(n) is not tab.type]:
+        panels = _by_name(state.panels)
+        for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
             self._tabs.pop(name).close()
-        for name in types.keys() - self._tabs.keys():
-            self._tabs[name] = _Tab(name, types[name], self._send)
+        for name in panels.keys() - self._tabs.keys():
+            self._tabs[name] = _Tab(name, panels[name], self._send)
+        self._order = list(panels)
         for tab in self._tabs.values():
             tab.update(state)
 
@@ -54,10 +59,9 @@ class PluginPanels:
 
     def panels(self, state: State, _: str) -> Mapping[str, Any]:
         """Title by name, and "/order": the names from left to right."""
-        order = sorted(self._tabs, key=lambda name: (self._tabs[name].type.place, name))
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
-        return {**titles, **broken, "/order": [*order, *self._broken]}
+        return {**titles, **broken, "/order": [*self._order, *self._broken]}
 
     def panel(self, state: State, name: str) -> Mapping[str, Any]:
         """The widgets of a panel by id, "/order", and "/failure": a sentence or ""."""
@@ -68,6 +72,14 @@ class PluginPanels:
         values = {id_: widget.values for id_, widget in widgets.items()}
         return {**values, "/order": list(widgets), "/failure": tab.failure}
 
+    def properties(self, state: State, name: str) -> Mapping[str, Any]:
+        """Of a panel, as the store `tool` has them of a tool; nothing if it has none."""
+        found = next((tab for tab in state.panels if self._is_in(name, tab.panel)), None)
+        if found is None or not (own := values_of(found.panel, _SHARED)):
+            return {}
+        cls = type(found.panel)
+        return {"id": found.id, "type": cls.__name__, "declared": form(cls, _SHARED), **own}
+
     def commands(self, state: State, _: str) -> Mapping[str, Any]:
         """The commands of all panels: panel, widget, label and key."""
         return {
@@ -75,6 +87,10 @@ class PluginPanels:
             for name, tab in self._tabs.items()
             for id_, command in dict(tab.ui.commands).items()
         }
+
+    def _is_in(self, name: str, panel: Panel) -> bool:
+        tab = self._tabs.get(name)
+        return tab is not None and tab.panel is panel
 
     # Called on the event loop
 
@@ -98,26 +114,26 @@ class _Tab:
     """One panel in its tab.
 
     Args:
-        name: of the panel in the registry.
-        type_: the panel.
+        name: of the tab.
+        panel: not built yet.
         send: see `webviz.api.panel.Send`.
     """
 
-    def __init__(self, name: str, type_: type[Panel], send: Callable[..., None]) -> None:
-        self.type = type_
-        self.title = clean(type_.title or name)
+    def __init__(self, name: str, panel: Panel, send: Callable[..., None]) -> None:
+        self.panel = panel
+        self.title = clean(panel.name)
         self.ui = RecordedUi()
         self.hands = _Hands(f"webviz-panel-{name}")
         self.failure = ""
         self._guard = Guard(f"The panel {self.title}", strict=False)
         self._acts = Guard(f"The panel {self.title}", strict=False)
-        self._panel: Panel | None = None
+        self._is_built = False
         self._guard("build", self._build, send)
 
     def update(self, state: State) -> None:
         """Let the panel show the viewer, and note what it raises."""
-        if self._panel is not None:
-            self._guard("show", self._panel.show, state)
+        if self._is_built:
+            self._guard("show", self.panel.show, state)
         self.failure = next(iter(self._guard.crashes.values()), "")
 
     def use(self, widget: Widget, value: Any, browser: int) -> str:
@@ -133,9 +149,19 @@ class _Tab:
         self.hands.close()
 
     def _build(self, send: Callable[..., None]) -> None:
-        panel = make(self.type, {})
-        panel.build(self.ui, send)
-        self._panel = panel
+        self.panel.build(self.ui, send)
+        self._is_built = True
+
+
+def _by_name(tabs: Iterable[PanelTab]) -> dict[str, Panel]:
+    """Panels by the name of their tab: their type, with a number from the second of a type on."""
+    found: dict[str, Panel] = {}
+    count: Counter[str] = Counter()
+    for tab in tabs:
+        name = type_name(type(tab.panel))
+        count[name] += 1
+        found[name if count[name] == 1 else f"{name} {count[name]}"] = tab.panel
+    return found
 
 
 class _Hands:

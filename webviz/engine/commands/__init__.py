@@ -13,7 +13,7 @@ from webviz.engine.commands.displays import (
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
 from webviz.engine.commands.goals import CancelGoal, DismissGoal
 from webviz.engine.commands.history import Redo, Undo
-from webviz.engine.commands.panel import Refresh
+from webviz.engine.commands.panel import Refresh, SetPanelProperty
 from webviz.engine.commands.plugins import ReloadPlugin
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
@@ -75,6 +75,7 @@ __all__ = [
     "SetBackground",
     "SetFixedFrame",
     "SetFrameRate",
+    "SetPanelProperty",
     "SetProperty",
     "SetToolProperty",
     "ShowView",

@@ -10,13 +10,15 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
+from webviz.api.panel import Panel
 from webviz.api.status import Status
+from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.engine.commands import Command, Export, Load, Open, Save, Sender, WriteDisplays
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import File
@@ -39,7 +41,7 @@ class FilesPart(Part):
         displays: empty; filled with those of the config.
         settings: replaced by those of the config.
         views: reset when another config is opened.
-        tools: replaced by those of the config.
+        tools, panels: replaced by those of the config.
         config: what to show first.
         path: its file, None if it has none.
     """
@@ -52,7 +54,8 @@ class FilesPart(Part):
         displays: DisplaysPart,
         settings: SettingsPart,
         views: ViewsPart,
-        tools: ToolsPart,
+        tools: PluginList[Tool],
+        panels: PluginList[Panel],
         config: Config,
         path: Path | None = None,
     ) -> None:
@@ -61,6 +64,7 @@ class FilesPart(Part):
         self._settings = settings
         self._views = views
         self._tools = tools
+        self._panels = panels
         self._path: Path | None = None
         self._folder = path.absolute().parent if path else Path.cwd()
         self._report: list[str] = []
@@ -86,7 +90,8 @@ class FilesPart(Part):
 
     def config(self) -> Config:
         """The current config: a snapshot, for any thread."""
-        return Config(self._settings.settings, self._displays.list.items(), self._tools.items())
+        displays, tools, panels = self._displays.list, self._tools, self._panels
+        return Config(self._settings.settings, displays.items(), tools.items(), panels.items())
 
     def origin(self) -> tuple[Path | None, list[str]]:
         """The file that is shown, and what of it has no counterpart here."""
@@ -181,6 +186,7 @@ class FilesPart(Part):
         self._displays.list.add(config.displays)
         self._settings.settings = config.settings
         self._tools.show(config.tools)
+        self._panels.show(config.panels)
         self._path = path
         self._report = config.report
         self._saved = {path: config_file.document(self.config())}

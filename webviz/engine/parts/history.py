@@ -1,4 +1,4 @@
-"""Undo and redo of everything that changes displays, tools, settings or saved views."""
+"""Undo and redo of everything that changes displays, tools, panels, settings or saved views."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from webviz.api.panel import Panel
+from webviz.api.tool import Tool
 from webviz.engine.commands import Command, Redo, Sender, Undo
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Difference, Moment, difference
-from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import Step, UndoHistory
@@ -39,7 +41,7 @@ class HistoryPart(Part):
 
     Args:
         core: what all parts share.
-        displays, settings, views, tools, files: what is brought back.
+        displays, settings, views, tools, panels, files: what is brought back.
     """
 
     name = "History"
@@ -50,7 +52,8 @@ class HistoryPart(Part):
         displays: DisplaysPart,
         settings: SettingsPart,
         views: ViewsPart,
-        tools: ToolsPart,
+        tools: PluginList[Tool],
+        panels: PluginList[Panel],
         files: FilesPart,
     ) -> None:
         super().__init__(core)
@@ -58,6 +61,7 @@ class HistoryPart(Part):
         self._settings = settings
         self._views = views
         self._tools = tools
+        self._panels = panels
         self._files = files
         self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._redo: list[_Done] = []
@@ -155,12 +159,14 @@ class HistoryPart(Part):
             self._settings.settings,
             self._displays.list.kept(before.displays),
             self._tools.kept(before.tools),
+            self._panels.kept(before.panels),
             *self._files.origin(),
         )
 
     def _show(self, moment: Moment) -> None:
         self._displays.list.restore(moment.displays)
         self._tools.restore(moment.tools)
+        self._panels.restore(moment.panels)
         self._settings.settings = moment.settings
         self._views.start_with(moment.settings.view)
         self._files.set_origin(moment.path, moment.report)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from webviz.engine import plugins
 from webviz.engine.commands import Command, ReloadPlugin, Sender
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 
 
@@ -16,15 +18,22 @@ class PluginsPart(Part):
 
     Args:
         core: shared by all parts.
-        displays: become instances of the reloaded classes.
+        displays, lists: become instances of the reloaded classes.
         settings: keep the parts of entries from RViz that only saving needs.
     """
 
     name = "Plugins"
 
-    def __init__(self, core: Core, displays: DisplaysPart, settings: SettingsPart) -> None:
+    def __init__(
+        self,
+        core: Core,
+        displays: DisplaysPart,
+        lists: Sequence[PluginList[Any]],
+        settings: SettingsPart,
+    ) -> None:
         super().__init__(core)
         self._displays = displays
+        self._lists = lists
         self._settings = settings
 
     @property
@@ -35,4 +44,6 @@ class PluginsPart(Part):
     def _reload(self, command: ReloadPlugin, sender: Sender) -> None:
         displays, settings = self._displays.list, self._settings
         plugins.reload(command.path, displays.runners())
+        for each in self._lists:
+            each.renew()
         settings.settings = displays.read_again(settings.settings)

@@ -17,10 +17,10 @@ from webviz.files.config import Settings, Unreadable
 
 @dataclass(frozen=True)
 class Snapshot:
-    """One entry of the list of displays, or one tool.
+    """One entry of the list of displays, one tool or one panel.
 
     Args:
-        class_: of the display, group or tool; None for an entry that cannot be shown.
+        class_: of the display, group, tool or panel; None for an entry that cannot be shown.
         values: all of its properties as plain values.
         content: to make it again from: the entry itself if it cannot be shown, else None.
         group: id of the group it is in, "" for none.
@@ -62,6 +62,7 @@ class Moment:
         settings: of the config.
         displays: by id, in the order of the list.
         tools: by id, in the order of the toolbar.
+        panels: by id, in the order of their tabs.
         path: of the config file, None for none.
         report: on what of a .rviz file has no counterpart.
     """
@@ -69,6 +70,7 @@ class Moment:
     settings: Settings = field(default_factory=Settings)
     displays: Mapping[str, Snapshot] = field(default_factory=dict)
     tools: Mapping[str, Snapshot] = field(default_factory=dict)
+    panels: Mapping[str, Snapshot] = field(default_factory=dict)
     path: Path | None = None
     report: Sequence[str] = ()
 
@@ -94,7 +96,12 @@ def difference(before: Moment, after: Moment) -> Difference:
     """
     if before.path != after.path:
         return Difference(f"Open {after.path.name}" if after.path else "Open another config")
-    for old, new in ((before.displays, after.displays), (before.tools, after.tools)):
+    lists = (
+        (before.displays, after.displays),
+        (before.tools, after.tools),
+        (before.panels, after.panels),
+    )
+    for old, new in lists:
         gone = [kept for id, kept in old.items() if id not in new]
         come = [kept for id, kept in new.items() if id not in old]
         if gone and come:

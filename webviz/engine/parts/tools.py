@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import copy
 import inspect
 import logging
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Future
-from typing import Any, cast
+from typing import Any
 
-import msgspec
-
-from webviz.api.declared import Topic, set_property
+from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.ports import Output
@@ -25,11 +22,10 @@ from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.driving import Helms
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.steps import Snapshot, kept, made_anew
+from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.sources import Outlet
 from webviz.engine.state import ToolButton
-from webviz.files.config import ConfigError, ToolItem, Unreadable, nearest
+from webviz.files.config import ConfigError
 
 log = logging.getLogger("webviz")
 
@@ -57,8 +53,7 @@ class ToolsPart(Part):
         super().__init__(core)
         self._goals = goals
         self._helms = helms
-        self._items: dict[str, ToolItem] = {}
-        self._made = 0
+        self.list = PluginList(Tool)
         self._advertised: set[Outlet] = set()
 
     @property
@@ -66,35 +61,10 @@ class ToolsPart(Part):
         """The handler of each command."""
         return {UseTool: self._use, SetToolProperty: self._set}
 
-    def show(self, items: Sequence[ToolItem]) -> None:
-        """Replace all tools."""
-        self._items = {}
-        for item in items:
-            self._made += 1
-            self._items[f"tool{self._made}"] = item
-            if isinstance(item, Unreadable):
-                log.warning("%s", item.reason)
-
-    def items(self) -> list[ToolItem]:
-        """The tools to save: a snapshot, for any thread."""
-        return [copy.copy(item) for item in self._items.values()]
-
     def odometry(self) -> dict[str, Topic]:
         """The odometry of each vehicle, by id of its tool."""
-        vehicles = {id: tool.vehicle for id, tool in self._tools().items()}
+        vehicles = {id: tool.vehicle for id, tool in self.list.usable().items()}
         return {id: vehicle.odometry for id, vehicle in vehicles.items() if vehicle}
-
-    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
-        """What undo needs of the tools, by id; unchanged ones are those from `before`."""
-        return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
-
-    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
-        """Have the tools that were kept."""
-        now = self.kept({})
-        self._items = {
-            id: self._items[id] if now.get(id) == each else cast(ToolItem, made_anew(each))
-            for id, each in wanted.items()
-        }
 
     def keep_up(self, commanded: bool) -> None:
         """Advertise the outputs of all tools, so that their first messages arrive.
@@ -103,7 +73,7 @@ class ToolsPart(Part):
         """
         vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
         wanted: set[Outlet] = set()
-        for id, tool in self._tools().items():
+        for id, tool in self.list.usable().items():
             if (vehicle := tool.vehicle) is None:
                 wanted.update(self._outlets(tool))
             elif outlet := self._outlet(vehicle.type, vehicle.topic, DRIVING_DEPTH):
@@ -119,7 +89,7 @@ class ToolsPart(Part):
     def state(self) -> Mapping[str, Any]:
         """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
         keys: dict[str, str] = {}
-        for id, tool in self._tools().items():
+        for id, tool in self.list.usable().items():
             keys.setdefault(tool.shortcut, id)
         return {
             "tools": tuple(
@@ -129,29 +99,16 @@ class ToolsPart(Part):
                     tool.shortcut if keys[tool.shortcut] == id else "",
                     self._refusal(tool),
                 )
-                for id, tool in self._tools().items()
+                for id, tool in self.list.usable().items()
             )
         }
 
     def statuses(self) -> Mapping[str, Status]:
         """Which tools cannot be used."""
-        faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
-        return {"Tools": Status(Level.ERROR, " ".join(faults))} if faults else {}
-
-    def _tools(self) -> dict[str, Tool]:
-        return {id: item for id, item in self._items.items() if isinstance(item, Tool)}
-
-    def _find(self, wanted: str) -> tuple[str, Tool]:
-        """Id and tool by its id or name."""
-        tools = self._tools()
-        ids = {tool.name: id for id, tool in tools.items()} | {id: id for id in tools}
-        if wanted not in ids:
-            names = [tool.name for tool in tools.values()]
-            raise ConfigError(f"Unknown tool `{wanted[:80]}`: {nearest(wanted, names)}")
-        return ids[wanted], tools[ids[wanted]]
+        return self.list.statuses()
 
     def _use(self, command: UseTool, sender: Sender) -> None:
-        id, tool = self._find(command.tool)
+        id, tool = self.list.find(command.tool)
         stroke = _stroke(tool, command, sender)
         ports = {name: (output, topic) for name, output, topic in outputs(tool)}
 
@@ -214,11 +171,7 @@ class ToolsPart(Part):
         )
 
     def _set(self, command: SetToolProperty, sender: Sender) -> None:
-        (_, tool), path, value = self._find(command.tool), command.path, command.value
-        try:
-            set_property(tool, path, value)
-        except msgspec.ValidationError as error:
-            raise not_changed(error, type(tool), path, value) from error
+        self.list.set(command.tool, command.path, command.value)
 
 
 def _stroke(tool: Tool, command: UseTool, sender: Sender) -> Stroke:

@@ -1,4 +1,4 @@
-"""The saved state of a viewer as YAML: settings, and the lists of displays and tools."""
+"""The saved state of a viewer as YAML: settings, and the lists of displays, tools and panels."""
 
 from webviz.files.config.atomic import write_text
 from webviz.files.config.errors import ConfigError, nearest
@@ -10,13 +10,15 @@ from webviz.files.config.model import (
     Branch,
     Config,
     Item,
+    PanelItem,
     Settings,
     ToolItem,
     Unreadable,
+    all_panels,
     all_tools,
     standard,
 )
-from webviz.files.config.reading import read, read_display, read_tool
+from webviz.files.config.reading import read, read_display, read_panel, read_tool
 from webviz.files.config.source import MAX_DEPTH, MAX_VALUES, Location, YamlDocument
 from webviz.files.config.writing import document, dump, dump_displays
 
@@ -30,10 +32,12 @@ __all__ = [
     "ConfigError",
     "Item",
     "Location",
+    "PanelItem",
     "Settings",
     "ToolItem",
     "Unreadable",
     "YamlDocument",
+    "all_panels",
     "all_tools",
     "document",
     "dump",
@@ -44,6 +48,7 @@ __all__ = [
     "nearest",
     "read",
     "read_display",
+    "read_panel",
     "read_text",
     "read_tool",
     "sentences",

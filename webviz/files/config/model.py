@@ -1,4 +1,4 @@
-"""What a config holds: settings, and the lists of displays and tools."""
+"""What a config holds: settings, and the lists of displays, tools and panels."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import msgspec
 from webviz.api.declared import Color, Prop, make
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
+from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
@@ -51,7 +52,7 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass
 class Unreadable:
-    """A display or tool that cannot be used; saving keeps its entry unchanged.
+    """A display, tool or panel that cannot be used; saving keeps its entry unchanged.
 
     Args:
         values: the entry of the file.
@@ -97,6 +98,8 @@ Item = Display | Unreadable | Branch
 """An entry of a list of displays."""
 ToolItem = Tool | Unreadable
 """An entry of a list of tools."""
+PanelItem = Panel | Unreadable
+"""An entry of a list of panels."""
 
 
 def all_tools() -> list[ToolItem]:
@@ -105,20 +108,28 @@ def all_tools() -> list[ToolItem]:
     return [make(cls, {}) for cls in types]
 
 
+def all_panels() -> list[PanelItem]:
+    """The panels of plug-ins without a list of panels: every installed one, in order."""
+    types = sorted(plugin_types(Panel).items(), key=lambda item: (item[1].place, item[0]))
+    return [make(cls, {}) for _, cls in types]
+
+
 @dataclass
 class Config:
     """A whole config.
 
     Args:
-        settings: everything but displays and tools.
+        settings: everything but the lists.
         displays: in order.
         tools: in the order of the toolbar.
+        panels: of plug-ins, in the order of their tabs.
         report: sentences on unsupported parts of a .rviz file.
     """
 
     settings: Settings = field(default_factory=Settings)
     displays: list[Item] = field(default_factory=list)
     tools: list[ToolItem] = field(default_factory=all_tools)
+    panels: list[PanelItem] = field(default_factory=all_panels)
     report: list[str] = field(default_factory=list)
 
     def set_fixed_frame(self, frame: str) -> None:

@@ -17,6 +17,7 @@ from webviz.files.config import (
     ConfigError,
     Item,
     Location,
+    PanelItem,
     Settings,
     ToolItem,
     Unreadable,
@@ -24,13 +25,15 @@ from webviz.files.config import (
     explain,
     nearest,
     read_display,
+    read_panel,
     read_tool,
 )
 from webviz.files.config.source import Path
 
-Entry = Item | ToolItem
+Entry = Item | ToolItem | PanelItem
 """What the lists of a config consist of."""
 
+_LISTS = {"displays": read_display, "tools": read_tool, "panels": read_panel}
 FORM = "write it as displays.Scan.size=0.1 or view.distance=5"
 _SETTINGS = tuple(key for key in Settings.__struct_fields__ if key not in ("version", "rviz"))
 _STEP = re.compile(
@@ -45,7 +48,7 @@ def override(config: Config, assignments: Sequence[str]) -> Config:
         config: not modified.
         assignments: each a path, "=", and a value as YAML has it. Displays have their name or
             their place in the list: `displays.Sensors.Front.size=0.1`, `displays[2].color[0]=255`;
-            a name with dots is quoted. So do tools: `tools."2D Goal Pose".topic=/goal`.
+            a name with dots is quoted. So do tools and panels: `tools."2D Goal Pose".topic=/goal`.
 
     Raises:
         ConfigError: the path is unknown or ambiguous, or the value is invalid.
@@ -72,16 +75,14 @@ class _Assignment:
 
     def applied(self, config: Config) -> Config:
         steps = self._path[1:]
-        if self._path[0] == "displays":
-            return dataclasses.replace(config, displays=self._in_list(config.displays, steps))
-        if self._path[0] == "tools":
-            return dataclasses.replace(config, tools=self._in_list(config.tools, steps))
+        if (key := str(self._path[0])) in _LISTS:
+            return dataclasses.replace(config, **{key: self._in_list(getattr(config, key), steps)})
         return dataclasses.replace(config, settings=self._in_settings(config.settings))
 
     def _in_settings(self, settings: Settings) -> Settings:
         key = str(self._path[0])
         if key not in _SETTINGS:
-            self._refuse(f"unknown key, {nearest(key, ['displays', 'tools', *_SETTINGS])}")
+            self._refuse(f"unknown key, {nearest(key, [*_LISTS, *_SETTINGS])}")
         values = msgspec.to_builtins(settings)
         if self._path == ("view", "type"):  # each type has keys of its own
             values[key] = {"type": self._value}
@@ -127,7 +128,7 @@ class _Assignment:
         """An invalid entry, which this value may repair."""
         if item.is_from_rviz or not isinstance(item.values, Mapping) or not steps:
             self._refuse(f"this {self._kind} is not shown: {item.reason}")
-        read_again = read_tool if self._kind == "tool" else read_display
+        read_again = _LISTS[str(self._path[0])]
         read = read_again(_patched(dict(item.values), steps, self._value), Location())
         if isinstance(read, Unreadable):
             self._refuse(read.reason)

@@ -11,21 +11,32 @@ import msgspec
 from webviz.api.declared import P, make
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
+from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.api.views import with_type
 from webviz.files.config.errors import ConfigError, nearest
 from webviz.files.config.explain import explain, mistakes, sentences, unknown_key
-from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, ToolItem, Unreadable
+from webviz.files.config.model import (
+    VERSION,
+    Branch,
+    Config,
+    Item,
+    PanelItem,
+    Settings,
+    ToolItem,
+    Unreadable,
+)
 from webviz.files.config.source import Location, YamlDocument
 
 NO_TYPE = "a {} needs a `type`, such as `type: {}`."
-EXAMPLES = {"display": "Grid", "tool": "GoalPose"}
+EXAMPLES = {"display": "Grid", "tool": "GoalPose", "panel": "QuietTopics"}
 NO_LIST = "expected a list, each entry with a `type`."
 MAX_DISPLAYS = 500
 """Per config, including groups. Real ones have fewer than 100; with 1000 the page hangs."""
-MAX_TOOLS = 100
-_LISTS = ("displays", "tools")
+MAX_PLUGINS = 100
+"""Tools, or panels, per config."""
+_LISTS = ("displays", "tools", "panels")
 _KEYS = (*Settings.__struct_fields__, *_LISTS)
 _TELLING = frozenset(_KEYS) - {"version", "rviz"}
 """Keys that only webviz's configs have."""
@@ -40,7 +51,7 @@ def read(text: str, where: str) -> Config:
 
     Raises:
         ConfigError: the text is not YAML or not a config; the sentence does not quote
-            the file. A single invalid display or tool becomes an `Unreadable` instead.
+            the file. A single invalid display, tool or panel becomes an `Unreadable` instead.
     """
     source = YamlDocument(text, where)
     document, top = source.values(), Location(source=source)
@@ -67,13 +78,23 @@ def read(text: str, where: str) -> Config:
     entries = _list(document, "displays", top)
     refuse_too_many(entries, "displays", where)
     items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
-    if "tools" not in document:
-        return Config(settings, items)
-    entries = _list(document, "tools", top)
-    if len(entries) > MAX_TOOLS:
-        raise ConfigError(f"{where} has {len(entries)} tools; the limit is {MAX_TOOLS}.")
-    tools = [read_tool(entry, top.at("tools", i)) for i, entry in enumerate(entries)]
-    return Config(settings, items, tools)
+    config = Config(settings, items)
+    if "tools" in document:
+        config.tools = _plugins(Tool, document, where, top)
+    if "panels" in document:
+        config.panels = _plugins(Panel, document, where, top)
+    return config
+
+
+def _plugins(
+    base: type[P], document: Mapping[Any, Any], where: str, top: Location
+) -> list[P | Unreadable]:
+    """The list of tools or panels."""
+    key = f"{base.kind}s"
+    entries = _list(document, key, top)
+    if len(entries) > MAX_PLUGINS:
+        raise ConfigError(f"{where} has {len(entries)} {key}; the limit is {MAX_PLUGINS}.")
+    return [_read_plugin(base, entry, top.at(key, i)) for i, entry in enumerate(entries)]
 
 
 def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:
@@ -145,10 +166,15 @@ def read_tool(entry: Any, place: Location) -> ToolItem:
     return _read_plugin(Tool, entry, place)
 
 
+def read_panel(entry: Any, place: Location) -> PanelItem:
+    """A panel from an entry at `place` of a list in a config file."""
+    return _read_plugin(Panel, entry, place)
+
+
 def _read_plugin(
     base: type[P], entry: Any, place: Location, others: tuple[str, ...] = ()
 ) -> P | Unreadable:
-    """A display or tool from an entry of a list; the keys `others` are not its properties."""
+    """A plug-in from an entry of a list; the keys `others` are not its properties."""
     kind = base.kind
     if not isinstance(entry, Mapping) or not isinstance(entry.get("type"), str):
         return Unreadable(entry, place.says(NO_TYPE.format(kind, EXAMPLES[kind])))

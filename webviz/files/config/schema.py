@@ -1,8 +1,8 @@
 """The JSON Schema of config files, with which editors complete and check them.
 
-It follows draft 7, which the YAML language servers of editors support best. It accepts displays and
-tools of types that are not installed, since plug-ins add types; webviz reports unknown types on
-opening.
+It follows draft 7, which the YAML language servers of editors support best. It accepts displays,
+tools and panels of types that are not installed, since plug-ins add types; webviz reports unknown
+types on opening.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from msgspec import inspect
 from webviz.api.declared import Declared, Topic
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
+from webviz.api.panel import Panel
 from webviz.api.properties import Property, properties_of
 from webviz.api.tool import Tool
 from webviz.files.config.model import VERSION, Settings
@@ -36,20 +37,26 @@ _BOUNDS = {
 }
 
 
-def schema(displays: Mapping[str, type[Display]], tools: Mapping[str, type[Tool]]) -> Schema:
+def schema(
+    displays: Mapping[str, type[Display]],
+    tools: Mapping[str, type[Tool]],
+    panels: Mapping[str, type[Panel]],
+) -> Schema:
     """The JSON Schema of a config file.
 
     Args:
         displays: display classes by the name each has in config files.
-        tools: tool classes in the same way.
+        tools, panels: their classes in the same way.
     """
     made = _Schemas()
     top = made.properties(Settings)
     top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
     top["displays"] = _list_of(Display, "What is shown, in the order of the list.")
     top["tools"] = _list_of(Tool, "The toolbar; without this key, all tools that are installed.")
+    top["panels"] = _list_of(Panel, "Panels of plug-ins; without this key, all that are installed.")
     made.add(Display, displays)
     made.add(Tool, tools)
+    made.add(Panel, panels)
     return {
         "$schema": DRAFT,
         "title": "webviz",
@@ -69,7 +76,7 @@ def _list_of(base: type[Declared], description: str) -> Schema:
 def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema) -> Schema:
     """An entry of a list; only what its type says is checked, so that errors are about that."""
     known = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
-    return {
+    schema: Schema = {
         "type": "object",
         "required": ["type"],
         "properties": {
@@ -79,7 +86,9 @@ def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema
             },
             "name": name,
         },
-        "allOf": [
+    }
+    if types:  # an empty list is not valid here
+        schema["allOf"] = [
             {
                 # What is kept of RViz has the name of RViz's class as its type.
                 "if": {
@@ -90,12 +99,12 @@ def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema
                 "then": {"$ref": DEFINITION + _definition(base, name)},
             }
             for name in types
-        ],
-    }
+        ]
+    return schema
 
 
 def _definition(base: type[Declared], name: str) -> str:
-    """A display and a tool may have one name; those of displays stand alone."""
+    """A display and a tool may have the same name; those of displays stand alone."""
     return name if base is Display else f"{base.kind}.{name}"
 
 
@@ -106,7 +115,7 @@ class _Schemas:
         self.definitions: dict[str, Schema] = {}
 
     def add(self, base: type[Declared], types: Mapping[str, type[Declared]]) -> None:
-        """Define the entries of a list of displays or tools."""
+        """Define the entries of a list of displays, tools or panels."""
         for name, cls in types.items():
             properties = {"type": {"const": name}, **self.properties(cls)}
             if cls is DisplayGroup:

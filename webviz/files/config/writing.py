@@ -12,7 +12,16 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
-from webviz.files.config.model import VERSION, Branch, Config, Item, Settings, Unreadable, all_tools
+from webviz.files.config.model import (
+    VERSION,
+    Branch,
+    Config,
+    Item,
+    Settings,
+    Unreadable,
+    all_panels,
+    all_tools,
+)
 from webviz.files.config.representer import Representer
 
 LINE = 88
@@ -27,9 +36,11 @@ def document(config: Config) -> dict[str, Any]:
     values |= {key: value for key, value in settings.items() if value != basis[key]}
     kept = values.pop("rviz", None)
     values["displays"] = [_entry(display) for display in config.displays]
-    tools = [_entry(tool) for tool in config.tools]
-    if tools != [_entry(tool) for tool in all_tools()]:
-        values["tools"] = tools
+    plugins = {"tools": (config.tools, all_tools()), "panels": (config.panels, all_panels())}
+    for key, (items, installed) in plugins.items():
+        entries = [_entry(item) for item in items]
+        if entries != [_entry(item) for item in installed]:
+            values[key] = entries
     if kept:
         values["rviz"] = kept  # last, because it is long and seldom read
     return values

@@ -76,7 +76,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
-    return Config(settings, items, tools, report.sentences()), report
+    return Config(settings, items, tools, report=report.sentences()), report
 
 
 def write(config: Config) -> tuple[str, Report]:

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.engine import plugins
@@ -21,7 +22,7 @@ COMMAND = "`make docs`"
 
 EXAMPLES = """\
 Examples:
-  webviz schema -o webviz.schema.json           all installed displays and tools
+  webviz schema -o webviz.schema.json           all installed plug-ins
   webviz schema --plugin my_display.py -o ...   and the displays of a file
 
 Editors with a YAML language server use it for files whose first line is
@@ -56,5 +57,5 @@ def schema(
 
 def text() -> str:
     """The text of the schema of all installed displays and tools."""
-    schema = json_schema(display_types(), plugin_types(Tool))
+    schema = json_schema(display_types(), plugin_types(Tool), plugin_types(Panel))
     return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"

@@ -1,9 +1,11 @@
 // The panels of plug-ins: what a Python program has recorded of widgets, drawn.
 
-import { use } from "../act.js";
+import { act, use } from "../act.js";
+import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { provide } from "../shell/commands.js";
 import { watch } from "../stores.js";
+import { maker } from "./displays/properties.js";
 import { makeWidget } from "./plugin_widgets.js";
 
 /** Calls `offer(panels)` with the panels of plug-ins whenever they change. */
@@ -25,10 +27,14 @@ export function followPlugins(offer) {
 function open(element, name) {
   const failure = el("div", { class: "wv-plugin-failure", role: "alert", hidden: true, "data-level": "error" });
   const place = el("div", { class: "wv-plugin-widgets" });
-  element.append(el("div", { class: "wv-plugin" }, failure, place));
+  const properties = el("div");
+  const settings = el("details", { class: "wv-tool-properties", hidden: true },
+    el("summary", {}, "Properties"), properties);
+  element.append(el("div", { class: "wv-plugin" }, failure, place), settings);
+  const endProperties = showProperties(settings, properties, name);
   const drawn = new Map();
 
-  return watch(`panel:${name}`, (values, changed) => {
+  const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
     for (const id of order) {
       const widget = values.get(id);
@@ -43,4 +49,26 @@ function open(element, name) {
     setText(failure, sentence);
     set(failure, { hidden: !sentence });
   });
+  return () => {
+    end();
+    endProperties();
+  };
+}
+
+function showProperties(settings, place, name) {
+  let id = "";
+  const send = (path, value) =>
+    act("SetPanelProperty", { panel: id, path, value }, { quiet: true, errors: "caller" });
+  const made = maker(place, (declared, values) => {
+    return form(declared, { send, name: `panel.${values.get("type")}` });
+  });
+  const end = watch(`panel_properties:${name}`, (values, changed) => {
+    id = values.get("id") ?? "";
+    set(settings, { hidden: !id });
+    if (id) made.update(values, changed);
+  });
+  return () => {
+    end();
+    made.end();
+  };
 }

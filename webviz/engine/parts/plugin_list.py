@@ -1,0 +1,113 @@
+"""The tools, or the panels, of the config."""
+
+from __future__ import annotations
+
+import copy
+import logging
+from collections.abc import Mapping, Sequence
+from typing import Any, Generic, cast
+
+import msgspec
+
+from webviz.api.declared import P, make, set_property
+from webviz.api.registry import plugin_types
+from webviz.api.status import Level, Status
+from webviz.engine.parts.refusals import not_changed
+from webviz.engine.parts.steps import Snapshot, kept, made_anew
+from webviz.engine.plugins import made_new
+from webviz.files.config import ConfigError, Unreadable, nearest
+
+log = logging.getLogger("webviz")
+
+
+class PluginList(Generic[P]):
+    """Tools or panels in order, each with an id.
+
+    Args:
+        base: what all of them are.
+    """
+
+    def __init__(self, base: type[P]) -> None:
+        self._base = base
+        self._types = plugin_types(base)
+        self._items: dict[str, P | Unreadable] = {}
+        self._made = 0
+
+    def show(self, items: Sequence[P | Unreadable]) -> None:
+        """Replace all of them."""
+        self._items = {}
+        for item in items:
+            self._add(item)
+            if isinstance(item, Unreadable):
+                log.warning("%s", item.reason)
+
+    def items(self) -> list[P | Unreadable]:
+        """What to save: a snapshot, for any thread."""
+        return [copy.copy(item) for item in self._items.values()]
+
+    def usable(self) -> dict[str, P]:
+        """Those that can be used, by id."""
+        return {id: item for id, item in self._items.items() if isinstance(item, self._base)}
+
+    def renew(self) -> None:
+        """Use the classes of files that were loaded again, with the values of the old ones."""
+        before, self._types = self._types, plugin_types(self._base)
+        for id, item in self.usable().items():
+            name = next((name for name, cls in before.items() if cls is type(item)), "")
+            cls = self._types.get(name)
+            if cls is None:
+                del self._items[id]
+            elif cls is not type(item):
+                self._items[id], lost = made_new(item, cls)
+                if lost:
+                    log.warning("%s: values were dropped: %s.", item.name, "; ".join(lost))
+        for name in self._types.keys() - before.keys():
+            self._add(make(self._types[name], {}))
+
+    def find(self, wanted: str) -> tuple[str, P]:
+        """Id and item by its id or name.
+
+        Raises:
+            ConfigError: there is none.
+        """
+        usable = self.usable()
+        ids = {item.name: id for id, item in usable.items()} | {id: id for id in usable}
+        if wanted not in ids:
+            names = [item.name for item in usable.values()]
+            kind = self._base.kind
+            raise ConfigError(f"Unknown {kind} `{wanted[:80]}`: {nearest(wanted, names)}")
+        return ids[wanted], usable[ids[wanted]]
+
+    def set(self, wanted: str, path: str, value: Any) -> None:
+        """Change a property of one.
+
+        Raises:
+            ConfigError: there is no such item, or the value is invalid.
+        """
+        _, item = self.find(wanted)
+        try:
+            set_property(item, path, value)
+        except msgspec.ValidationError as error:
+            raise not_changed(error, type(item), path, value) from error
+
+    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
+        """What undo needs of them, by id; unchanged ones are those from `before`."""
+        return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
+
+    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
+        """Have those that were kept."""
+        now = self.kept({})
+        self._items = {
+            id: self._items[id] if now.get(id) == each else cast(P | Unreadable, made_anew(each))
+            for id, each in wanted.items()
+        }
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Which of them cannot be used."""
+        faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
+        key = f"{self._base.kind}s".capitalize()
+        return {key: Status(Level.ERROR, " ".join(faults))} if faults else {}
+
+    def _add(self, item: P | Unreadable) -> None:
+        self._made += 1
+        self._items[f"{self._base.kind}{self._made}"] = item
