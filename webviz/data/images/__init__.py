@@ -1,0 +1,27 @@
+"""Images: every encoding of sensor_msgs to pixels, and values to colours."""
+
+from webviz.data.images.color_maps import COLOR_MAPS
+from webviz.data.images.compressed import CompressedInfo, inspect_compressed, read_png16
+from webviz.data.images.compressed_depth import decode_depth
+from webviz.data.images.encodings import ENCODINGS, Layout, layout_of
+from webviz.data.images.errors import ImageError
+from webviz.data.images.raw import RawImage, remarks, values
+from webviz.data.images.tone import Tone, to_rgb, value_range
+
+__all__ = [
+    "COLOR_MAPS",
+    "ENCODINGS",
+    "CompressedInfo",
+    "ImageError",
+    "Layout",
+    "RawImage",
+    "Tone",
+    "decode_depth",
+    "inspect_compressed",
+    "layout_of",
+    "read_png16",
+    "remarks",
+    "to_rgb",
+    "value_range",
+    "values",
+]

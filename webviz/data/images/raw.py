@@ -1,0 +1,151 @@
+"""Pixels of uncompressed images."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.images.bayer import demosaic
+from webviz.data.images.encodings import Layout, layout_of
+from webviz.data.images.errors import ImageError
+from webviz.data.images.yuv import packed_to_rgb, planes_to_rgb
+
+MAX_PIXELS = 1 << 26
+"""8192 x 8192: what browsers can show."""
+
+_NATIVE_BIG = np.dtype(np.uint16).newbyteorder("=") == np.dtype(">u2")
+
+
+@dataclass(frozen=True, eq=False)
+class RawImage:
+    """An image as in sensor_msgs/Image, checked: its bytes hold what its fields say.
+
+    Args:
+        width, height: in pixels.
+        encoding: one of `ENCODINGS`.
+        step: bytes from one row to the next.
+        is_bigendian: byte order of numbers of several bytes.
+        data: uint8 (N,).
+    """
+
+    width: int
+    height: int
+    encoding: str
+    step: int
+    is_bigendian: bool
+    data: NDArray[np.uint8]
+
+    @staticmethod
+    def of(message: Any) -> RawImage:
+        """The image of a sensor_msgs/Image.
+
+        A step of 0 counts as rows without a gap.
+
+        Raises:
+            ImageError: the fields contradict each other or the data.
+        """
+        layout = layout_of(message.encoding)
+        width, height = int(message.width), int(message.height)
+        if not width or not height:
+            raise ImageError(
+                f"The image is {width} x {height} pixels: the publisher sends an empty image."
+            )
+        if width * height > MAX_PIXELS:
+            raise ImageError(
+                f"{width} x {height} pixels are more than {MAX_PIXELS // 10**6} million."
+            )
+        row = width * layout.pixel_bytes
+        step = int(message.step) or row
+        if step < row:
+            raise ImageError(
+                f"step is {step} bytes, but {width} pixels of {message.encoding} take {row}. "
+                "Correct the width, encoding or step in the publisher."
+            )
+        data = np.asarray(message.data, np.uint8)
+        needed = _needed(layout, width, height, step)
+        if len(data) < needed:
+            raise ImageError(
+                f"data has {len(data)} bytes, but {width} x {height} pixels of "
+                f"{message.encoding} with a step of {step} take {needed}. "
+                "Correct the size, encoding or step in the publisher."
+            )
+        return RawImage(width, height, message.encoding, step, bool(message.is_bigendian), data)
+
+    @property
+    def layout(self) -> Layout:
+        """Of its encoding."""
+        return layout_of(self.encoding)
+
+
+def remarks(message: Any, image: RawImage) -> str:
+    """What is suspicious about the fields of a message that can be shown; "" if nothing is."""
+    if not message.step:
+        return f"step is 0 instead of {image.step}; rows are assumed to follow without a gap."
+    size = _whole(image.layout, image.height, image.step)
+    if len(image.data) > size:
+        return (
+            f"data has {len(image.data)} bytes, {len(image.data) - size} more than {image.width} x "
+            f"{image.height} pixels of {image.encoding} take. Check the encoding in the publisher."
+        )
+    return ""
+
+
+def values(image: RawImage) -> NDArray[Any]:
+    """The pixels of an image.
+
+    Returns:
+        (H, W) of one channel, (H, W, 2) of two, else RGB (H, W, 3) without alpha. Numbers are those
+        of the message; YUV becomes RGB, and Bayer mosaics are interpolated. It may be a view.
+    """
+    layout, height, width = image.layout, image.height, image.width
+    if layout.order in ("nv21", "nv24"):
+        first = np.lib.stride_tricks.as_strided(
+            image.data, (height, width), (image.step, 1), writeable=False
+        )
+        rest = image.data[height * image.step :]
+        return planes_to_rgb(first, rest, image.step, layout.order == "nv21")
+    pixels = _grid(image, layout)
+    match layout.order:
+        case "uyvy" | "yuyv":
+            return packed_to_rgb(pixels, layout.order == "uyvy")
+        case "bayer":
+            return demosaic(pixels[..., 0], layout.pattern)
+        case "rgb":
+            return pixels[..., :3]
+        case "bgr":
+            return pixels[..., 2::-1]
+    return pixels[..., 0] if layout.channels == 1 else pixels
+
+
+def _grid(image: RawImage, layout: Layout) -> NDArray[Any]:
+    """The numbers of an image, (H, W, channels), in the byte order of this machine."""
+    size = layout.dtype.itemsize
+    row = image.width * layout.pixel_bytes
+    data = np.ascontiguousarray(image.data)
+    rows = np.lib.stride_tricks.as_strided(
+        data, (image.height, row), (image.step, 1), writeable=False
+    )
+    if size > 1 and (image.step % size or data.ctypes.data % size):
+        rows = np.ascontiguousarray(rows)
+    numbers = rows.view(layout.dtype)
+    if size > 1 and image.is_bigendian != _NATIVE_BIG:
+        numbers = numbers.byteswap()
+    return numbers.reshape(image.height, image.width, layout.channels)
+
+
+def _needed(layout: Layout, width: int, height: int, step: int) -> int:
+    """Bytes that an image has at least; the gap behind the last row may be missing."""
+    last_gap = step - width * layout.pixel_bytes
+    return _whole(layout, height, step) - (0 if layout.order.startswith("nv") else last_gap)
+
+
+def _whole(layout: Layout, height: int, step: int) -> int:
+    match layout.order:
+        case "nv21":  # a colour for each 2 x 2 pixels
+            return step * (height + (height + 1) // 2)
+        case "nv24":  # a colour for each pixel
+            return step * height * 3
+    return step * height

@@ -1,0 +1,114 @@
+"""From values to what a screen can show."""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.images.color_maps import COLOR_MAPS
+from webviz.data.images.encodings import Layout
+
+U8 = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Tone:
+    """How values become colours.
+
+    Args:
+        low, high: the values of the first and the last colour.
+        color_map: one of `COLOR_MAPS`.
+    """
+
+    low: float = 0.0
+    high: float = 1.0
+    color_map: str = "Grey"
+
+
+def value_range(values: NDArray[Any], zero_is_invalid: bool) -> tuple[float, float] | None:
+    """The smallest and the largest valid value, None if none is valid.
+
+    Args:
+        values: of any shape.
+        zero_is_invalid: whether 0 stands for no measurement.
+    """
+    if not zero_is_invalid and (values.dtype.kind != "f" or values.size):
+        with np.errstate(invalid="ignore"):
+            low, high = float(values.min()), float(values.max())
+        if math.isfinite(low) and math.isfinite(high):
+            return low, high
+    valid = values[_validity(values, zero_is_invalid)]
+    return (float(valid.min()), float(valid.max())) if valid.size else None
+
+
+def to_rgb(values: NDArray[Any], layout: Layout, tone: Tone) -> U8:
+    """Pixels for a screen.
+
+    Numbers that are measurements are scaled by the tone; invalid ones are black. Colours of 16 bits
+    keep the upper 8.
+
+    Args:
+        values: as `webviz.data.images.values` returns them.
+        layout: of their encoding.
+        tone: for measurements.
+
+    Returns:
+        (H, W) grey or (H, W, 3) RGB.
+    """
+    if not layout.is_scaled:
+        return values if values.dtype == np.uint8 else (values >> 8).astype(np.uint8)
+    if values.ndim == 3:
+        scaled = _scaled(values, tone, layout.zero_is_invalid)
+        if scaled.shape[2] == 2:
+            scaled = np.concatenate((scaled, np.zeros_like(scaled[..., :1])), axis=2)
+        return scaled
+    scaled = _scaled(values, tone, layout.zero_is_invalid)
+    if tone.color_map == "Grey":
+        return scaled
+    colors = _table(tone.color_map).take(scaled).view(np.uint8).reshape(*scaled.shape, 3)
+    if values.dtype.kind == "f" or layout.zero_is_invalid:
+        colors[~_validity(values, layout.zero_is_invalid)] = 0
+    return colors
+
+
+def _scaled(values: NDArray[Any], tone: Tone, zero_is_invalid: bool) -> U8:
+    half_span = tone.high / 2 - tone.low / 2  # the difference might overflow
+    if not half_span > 0.0:
+        return np.where(_validity(values, zero_is_invalid), np.uint8(127), np.uint8(0))
+    kind = np.float64 if values.dtype.itemsize > 4 or values.dtype == np.int32 else np.float32
+    if kind == np.float32 and max(abs(tone.low), abs(tone.high)) > 1e37:
+        kind = np.float64
+    with np.errstate(over="ignore", invalid="ignore"):
+        where = np.divide(values, 2.0, dtype=kind)
+        where -= kind(tone.low / 2)
+        where *= kind(255.0 / half_span) if half_span > 1e-30 else kind(0.0)
+        np.clip(where, 0.0, 255.0, out=where)
+        np.nan_to_num(where, copy=False)
+    scaled = where.astype(np.uint8)
+    if zero_is_invalid:
+        scaled[values == 0] = 0
+    elif values.dtype.kind == "f":
+        scaled[~np.isfinite(values)] = 0
+    return scaled
+
+
+def _validity(values: NDArray[Any], zero_is_invalid: bool) -> NDArray[np.bool_]:
+    if values.dtype.kind == "f":
+        valid = np.isfinite(values)
+        return valid & (values != 0) if zero_is_invalid else valid
+    return values != 0 if zero_is_invalid else np.ones(values.shape, bool)
+
+
+@functools.cache
+def _table(name: str) -> NDArray[np.void]:
+    """256 colours of three bytes each, as one item."""
+    stops = np.array(COLOR_MAPS[name], np.float64)
+    at, places = np.linspace(0.0, len(stops) - 1, 256), np.arange(len(stops))
+    channels = [np.interp(at, places, stops[:, channel]) for channel in range(3)]
+    table = np.round(np.stack(channels, axis=-1)).astype(np.uint8)
+    return np.ascontiguousarray(table).view("V3")[:, 0]
