@@ -21,8 +21,8 @@ PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 # Neither a browser nor a ROS graph.
-QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,config displays messages pipeline rviz \
-	sources transforms views)
+QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays messages pipeline \
+	rviz sources transforms views)
 # Processes for the others, one more than processors: they wait for browsers and ROS graphs.
 WAITING := 3
 # A long file that comes last would leave one of the processes without work.

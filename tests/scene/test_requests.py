@@ -71,6 +71,34 @@ def test_the_page_cannot_be_embedded_and_sends_no_referrer(ask: Ask) -> None:
     assert b"frame-ancestors 'none'" in head
     assert b"connect-src 'self' ws://localhost wss://localhost data: blob:" in head
     assert b"\r\nReferrer-Policy: no-referrer" in head
+    assert b"\r\nCross-Origin-Opener-Policy: same-origin" in head
+    assert b"\r\nCross-Origin-Resource-Policy: same-origin" in head
+    assert b"camera=(), " in head
+    assert b"gamepad" not in head
+    assert b"Strict-Transport-Security" not in head
+
+
+def test_another_site_cannot_show_the_page_in_a_frame_nor_hold_its_window(
+    browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
+) -> None:
+    url = f"http://127.0.0.1:{server.get_port()}/"
+    tab = browser.new_page()
+    tab.route(
+        "http://trap.example/**",
+        lambda route: route.fulfill(
+            content_type="text/html",
+            body=f"<iframe src={url}></iframe><script>opened = () => open('{url}')</script>",
+        ),
+    )
+    tab.goto("http://trap.example/")
+    (frame,) = tab.main_frame.child_frames
+    assert frame.url == "chrome-error://chromewebdata/"
+    with tab.expect_popup() as popup:
+        tab.evaluate("() => { window.held = opened(); }")
+    popup.value.wait_for_function("window.webviz")
+    assert popup.value.evaluate("() => window.opener === null")
+    assert tab.evaluate("() => held.closed")
+    tab.context.close()
 
 
 def test_a_link_cannot_make_the_page_obey_another_server(

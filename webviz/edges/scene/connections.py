@@ -12,6 +12,7 @@ import websockets.asyncio.server as websocket
 from websockets.frames import Frame, Opcode
 
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
+from webviz.edges.scene.listener import Handshakes
 from webviz.edges.scene.messages import objection
 
 MAX_BROWSERS = 64
@@ -30,9 +31,14 @@ FAREWELL = 1.0
 
 
 class Gate:
-    """Limits the connections of a server: opening ones, those of browsers, and their channels."""
+    """Limits the connections of a server: opening ones, those of browsers, and their channels.
 
-    def __init__(self) -> None:
+    Args:
+        handshakes: with TLS, those that are not complete.
+    """
+
+    def __init__(self, handshakes: Handshakes | None = None) -> None:
+        self._handshakes = handshakes
         descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
         self.limit = max(4, min(MAX_BROWSERS, descriptors // 4))
         """Opening connections and browsers, each."""
@@ -46,6 +52,8 @@ class Gate:
 
     def enter(self, connection: Connection) -> None:
         """Adds an opening connection; if there are too many, the oldest is aborted."""
+        if self._handshakes is not None:
+            self._handshakes.end(connection.transport.get_extra_info("socket").fileno())
         self._opening[connection] = None
         if len(self._opening) > self.limit:
             oldest = next(iter(self._opening))
@@ -68,6 +76,8 @@ class Gate:
 
     def close(self) -> None:
         """Closes all connections, within a second also those that do not respond."""
+        if self._handshakes is not None:
+            self._handshakes.close()
         for connection in (*self._opening, *self._open):
             patience = 0.0 if connection in self._opening else FAREWELL
             connection.loop.call_later(patience, connection.transport.abort)
@@ -104,7 +114,11 @@ class Connection(websocket.ServerConnection):
         self.wants_head = False
         """Whether the request is for the headers only."""
         self.host = ""
-        """The Host header, if it names this server."""
+        """By what name the browser addresses this server, if it is allowed."""
+        self.address = ""
+        """IP address of the browser, as far as it is known."""
+        self.is_secure = False
+        """Whether the browser uses https."""
         self.is_channel = False
         """Whether this is the channel of a page, instead of viser's own connection."""
         self._gate = gate
@@ -145,7 +159,10 @@ class Connection(websocket.ServerConnection):
             if refused[0] == 405:
                 response.headers["Allow"] = "GET, HEAD"
             self.transport.write(response.serialize())
-            self.transport.write_eof()
+            if self.transport.can_write_eof():
+                self.transport.write_eof()
+            else:  # with TLS: closing at once would discard the response
+                self.loop.call_later(FAREWELL, self.transport.close)
             return
         self.wants_head = is_head(head)
         super().data_received(as_get(head))

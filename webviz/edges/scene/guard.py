@@ -11,6 +11,7 @@ import asyncio
 import functools
 import gzip
 import http
+import ssl
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -18,6 +19,7 @@ import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
+from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel, objection
 from webviz.edges.page.modules import CHANNEL, Modules
 from webviz.edges.scene.connections import Connection, Gate
@@ -38,6 +40,8 @@ def guarded_serve(
     listener: Listener,
     gate: Gate,
     hosts: HostList,
+    proxies: Proxies,
+    tls: ssl.SSLContext | None,
     channel: Channel,
     modules: Modules,
 ) -> Callable[..., Any]:
@@ -49,6 +53,8 @@ def guarded_serve(
             another port nor follows its environment variable.
         gate: limits the connections.
         hosts: names by which the server may be addressed.
+        proxies: those whose headers are used.
+        tls: certificate and key; None for plain HTTP.
         channel: to the modules of the page.
         modules: of the page.
     """
@@ -64,10 +70,14 @@ def guarded_serve(
         connection: Connection,
         request: Request,
     ) -> Response | None:
-        reason = hosts.refusal(request.headers)
+        caller = proxies.caller(
+            (connection.remote_address or ("",))[0], request.headers, is_secure=tls is not None
+        )
+        connection.address, connection.is_secure = caller.address, caller.is_secure
+        reason = hosts.refusal(caller.hosts, request.headers.get_all("Origin"))
         if reason is not None:
             return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
-        connection.host = request.headers["Host"].lower()
+        connection.host = caller.hosts[0].lower()
         path = request.path.partition("?")[0]
         if (file := modules.get(path)) is not None:
             response = connection.respond(http.HTTPStatus.OK, "")
@@ -103,7 +113,7 @@ def guarded_serve(
 
     def process_response(connection: Connection, _: Request, response: Response) -> None:
         if response.status_code != http.HTTPStatus.SWITCHING_PROTOCOLS:
-            add_policy(response.headers, connection.host)
+            add_policy(response.headers, connection.host, is_tls=tls is not None)
         if connection.wants_head:
             response.body = b""
 
@@ -135,6 +145,8 @@ def guarded_serve(
             "logger": log,
             "server_header": None,
         }
+        if tls is not None:
+            options["ssl"] = tls
         return serve(functools.partial(welcome, handler), sock=listener, **options)
 
     return guarded

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import ipaddress
 import re
-from collections.abc import Iterable
-
-from websockets.datastructures import Headers
+from collections.abc import Iterable, Sequence
 
 # A name, an IPv4 address, or an IPv6 address in brackets; optionally a port. No user, no path.
 _HOST = re.compile(r"(?:(?P<name>[a-z0-9._-]+)|\[(?P<ipv6>[0-9a-f:.]+)\])(?::[0-9]{1,5})?")
+
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a valid Host header names the machine of the browser."""
+    match = _HOST.fullmatch(host)
+    return match is not None and (match["name"] or match["ipv6"]) in LOOPBACK
 
 
 class HostList:
@@ -26,13 +32,17 @@ class HostList:
     """
 
     def __init__(self, bound: str, names: Iterable[str] = ()) -> None:
-        self._names = {"127.0.0.1", "localhost", "::1"}
+        self._names = set(LOOPBACK)
         self._names |= {name.strip("[]").lower() for name in (bound, *names)}
         self._any_address = bound in ("", "0.0.0.0", "::")
 
-    def refusal(self, headers: Headers) -> str | None:
-        """The reason to refuse a request with these headers, as a sentence, or None."""
-        hosts = headers.get_all("Host")
+    def refusal(self, hosts: Sequence[str], origins: Iterable[str]) -> str | None:
+        """The reason to refuse a request, as a sentence, or None.
+
+        Args:
+            hosts: values of its Host header, of which there should be one.
+            origins: values of its Origin header.
+        """
         host = hosts[0].lower() if len(hosts) == 1 else ""
         match = _HOST.fullmatch(host)
         if match is None:
@@ -41,7 +51,7 @@ class HostList:
         if name not in self._names and not (self._any_address and _is_address(name)):
             return f"The host name {name!r} is not allowed. Start webviz with --allow-host {name}."
         own = (f"http://{host}", f"https://{host}")
-        if any(origin.lower() not in own for origin in headers.get_all("Origin")):
+        if any(origin.lower() not in own for origin in origins):
             return "Requests from pages of other sites are not allowed."
         return None
 

@@ -13,10 +13,30 @@ from websockets.exceptions import SecurityError
 from websockets.http11 import Request
 from websockets.streams import StreamReader
 
+from webviz.edges.scene.hosts import is_loopback
+
 MAX_HEAD_BYTES = 16 << 10
 MAX_PATH_BYTES = 2 << 10
 PAGES = ("/", "/index.html")
 """All paths served by viser, whose page is one file."""
+
+UNUSED_FEATURES = (
+    "accelerometer",
+    "camera",
+    "display-capture",
+    "geolocation",
+    "gyroscope",
+    "hid",
+    "magnetometer",
+    "microphone",
+    "midi",
+    "payment",
+    "serial",
+    "usb",
+)
+"""Of browsers; the page needs gamepads, full screen and the clipboard."""
+HTTPS_ONLY_S = 30 * 86400
+"""How long browsers use https only. It holds for all ports of a host, so it should pass one day."""
 
 Refusal = tuple[http.HTTPStatus, str]
 
@@ -71,7 +91,7 @@ def is_upgrade(request: Request) -> bool:
     return "websocket" in (value.lower() for value in request.headers.get_all("Upgrade"))
 
 
-def add_policy(headers: Headers, host: str) -> None:
+def add_policy(headers: Headers, host: str, *, is_tls: bool = False) -> None:
     """Restricts the page to this server, and forbids to embed it in other pages.
 
     There are three exceptions, since viser's page is one file of inline scripts and styles, decodes
@@ -80,6 +100,7 @@ def add_policy(headers: Headers, host: str) -> None:
     Args:
         headers: of the response.
         host: Host header of the request if it is valid, else "".
+        is_tls: whether the server itself uses TLS.
     """
     websockets = f"ws://{host} wss://{host}" if host else ""
     headers["Content-Security-Policy"] = "; ".join(
@@ -99,6 +120,11 @@ def add_policy(headers: Headers, host: str) -> None:
     headers["X-Frame-Options"] = "DENY"
     headers["X-Content-Type-Options"] = "nosniff"
     headers["Referrer-Policy"] = "no-referrer"
+    headers["Permissions-Policy"] = ", ".join(f"{feature}=()" for feature in UNUSED_FEATURES)
+    headers["Cross-Origin-Opener-Policy"] = "same-origin"
+    headers["Cross-Origin-Resource-Policy"] = "same-origin"
+    if is_tls and host and not is_loopback(host):
+        headers["Strict-Transport-Security"] = f"max-age={HTTPS_ONLY_S}"
 
 
 def _is_readable(head: bytes) -> bool:

@@ -19,6 +19,9 @@ SEND_BUFFER_BYTES = 1 << 19
 UNSENT_BYTES = 1 << 16
 """Data per connection that is ready to be sent."""
 
+MAX_HANDSHAKES = 32
+"""Connections whose TLS handshake is not complete; of more, the oldest is closed."""
+
 _BUSY = "webviz has no file descriptors left for another connection. Try again later.\n"
 
 
@@ -30,6 +33,36 @@ class PortInUse(CannotListen):
     """Another program listens on the port."""
 
 
+class Handshakes:
+    """Limits the TLS handshakes that are not complete, as of strangers who only connect."""
+
+    def __init__(self) -> None:
+        self._sockets: dict[int, socket.socket] = {}
+
+    def begin(self, accepted: socket.socket) -> None:
+        """Adds a connection; if there are too many, the oldest is closed."""
+        self._sockets = {
+            number: other for number, other in self._sockets.items() if other.fileno() == number
+        }
+        self._sockets[accepted.fileno()] = accepted
+        if len(self._sockets) > MAX_HANDSHAKES:
+            self._shut(next(iter(self._sockets)))
+
+    def end(self, number: int) -> None:
+        """Removes a connection, by its file descriptor."""
+        self._sockets.pop(number, None)
+
+    def close(self) -> None:
+        """Closes all."""
+        for number in tuple(self._sockets):
+            self._shut(number)
+
+    def _shut(self, number: int) -> None:
+        # asyncio owns the socket and closes it once it reads the end.
+        with contextlib.suppress(OSError):
+            self._sockets.pop(number).shutdown(socket.SHUT_RDWR)
+
+
 class Listener(socket.socket):
     """A listening socket that refuses connections while the process is out of file descriptors.
 
@@ -39,12 +72,14 @@ class Listener(socket.socket):
 
     _spare: int | None = None
     log: logging.Logger | None = None
+    handshakes: Handshakes | None = None
+    """With TLS, the connections that have not become one of websockets yet."""
 
     def accept(self) -> tuple[socket.socket, object]:
         """Accepts a connection; raises BlockingIOError if there is none, or no descriptor left."""
         self._keep_spare()
         try:
-            return super().accept()
+            accepted = super().accept()
         except OSError as error:
             if error.errno not in (errno.EMFILE, errno.ENFILE) or self._spare is None:
                 raise
@@ -52,6 +87,9 @@ class Listener(socket.socket):
                 self.log.warning("Refused a connection: %s.", error.strerror)
             self._refuse()
             raise BlockingIOError from None
+        if self.handshakes is not None:
+            self.handshakes.begin(accepted[0])
+        return accepted
 
     def close(self) -> None:
         """Closes the socket."""
@@ -64,7 +102,8 @@ class Listener(socket.socket):
             stranger, _ = super().accept()
             with stranger:
                 stranger.setblocking(False)
-                stranger.send(_refusal())
+                if self.handshakes is None:
+                    stranger.send(_refusal())
 
     def _keep_spare(self) -> None:
         if self._spare is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import ssl
 import threading
 from collections.abc import Iterable
 
@@ -11,6 +12,7 @@ import viser
 import websockets.asyncio.server as websocket
 
 from webviz.api.nodes import Rgb
+from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
 from webviz.edges.scene.adapter.greeting import greet
@@ -18,7 +20,7 @@ from webviz.edges.scene.connections import Gate
 from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
 from webviz.edges.scene.hosts import HostList
-from webviz.edges.scene.listener import listen
+from webviz.edges.scene.listener import Handshakes, listen
 from webviz.edges.scene.names import ROOT
 from webviz.edges.scene.quiet_server import Server, replaced
 
@@ -29,7 +31,12 @@ _opening = threading.Lock()
 
 
 def open_server(
-    host: str = "127.0.0.1", port: int = 8080, allowed_hosts: Iterable[str] = ()
+    host: str = "127.0.0.1",
+    port: int = 8080,
+    allowed_hosts: Iterable[str] = (),
+    *,
+    tls: ssl.SSLContext | None = None,
+    trusted_proxies: Iterable[str] = (),
 ) -> Server:
     """Opens a server with an empty, lit scene.
 
@@ -38,6 +45,8 @@ def open_server(
         port: TCP port; 0 picks a free one.
         allowed_hosts: names without port by which browsers may address the server, besides
             loopback and `host`.
+        tls: certificate and key; None for plain HTTP.
+        trusted_proxies: IP addresses or networks of proxies whose forwarded headers are used.
 
     Returns:
         The running server; `stop()` ends its threads and frees the port.
@@ -45,11 +54,16 @@ def open_server(
     Raises:
         PortInUse: another program listens there.
         CannotListen: `host` is not an address of this machine, or the port is not allowed.
+        Error: an address of a proxy is invalid.
     """
+    proxies = Proxies(trusted_proxies)
     listener = listen(host, port)
-    gate, hosts, channel = Gate(), HostList(host, allowed_hosts), Channel()
+    if tls is not None:
+        listener.handshakes = Handshakes()
+    gate = Gate(listener.handshakes)
+    hosts, channel = HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
-    serve = guarded_serve(websocket.serve, listener, gate, hosts, channel, modules)
+    serve = guarded_serve(websocket.serve, listener, gate, hosts, proxies, tls, channel, modules)
     with _opening, replaced(websocket, "serve", serve):
         server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)

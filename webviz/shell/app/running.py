@@ -8,6 +8,7 @@ import itertools
 import logging
 import math
 import os
+import ssl
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -20,6 +21,7 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
+from webviz.edges.access.tls import doubts, server_context
 from webviz.engine import plugins as plugin_files
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
 from webviz.engine.state import State
@@ -69,6 +71,9 @@ class Running:
         autosave: Path | None = None,
         config_folders: Sequence[str | os.PathLike[str]] = (),
         publish: bool = True,
+        certfile: str | os.PathLike[str] | None = None,
+        keyfile: str | os.PathLike[str] | None = None,
+        trust_proxies: Sequence[str] = (),
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -82,12 +87,13 @@ class Running:
             path = Path(config) if config is not None else None
             # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
+            tls = _tls(certfile, keyfile)
             from webviz.edges.page.pages import Pages
             from webviz.edges.scene import ViserScene, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
-            server = open_server(host, port, allow_hosts)
+            server = open_server(host, port, allow_hosts, tls=tls, trusted_proxies=trust_proxies)
             closing.add("The server of the page", server.stop)
             control = None
             if source is None:
@@ -111,6 +117,7 @@ class Running:
                 autosave=autosave,
             )
             self._pages = Pages(server.channel, self._loop.enqueue, self._loop.helms.steer)
+            self._scheme = "http" if tls is None else "https"
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
@@ -152,7 +159,7 @@ class Running:
     def url(self) -> str:
         """Address of the page for browsers on this machine."""
         host = "127.0.0.1" if self._host in ("0.0.0.0", "::") else self._host
-        return f"http://{f'[{host}]' if ':' in host else host}:{self.port}"
+        return f"{self._scheme}://{f'[{host}]' if ':' in host else host}:{self.port}"
 
     @property
     def state(self) -> State:
@@ -283,6 +290,20 @@ class _Closing:
         thread.join(patience_s)
         if thread.is_alive():
             log.warning("%s did not close within %.1f s.", what, patience_s)
+
+
+def _tls(
+    certfile: str | os.PathLike[str] | None, keyfile: str | os.PathLike[str] | None
+) -> ssl.SSLContext | None:
+    """The context of a server with TLS, if there is a certificate; doubts about it are logged."""
+    if certfile is None:
+        if keyfile is not None:
+            raise Error("`keyfile` needs `certfile`.")
+        return None
+    context = server_context(Path(certfile), None if keyfile is None else Path(keyfile))
+    for doubt in doubts(context, Path(certfile)):
+        log.warning("%s", doubt)
+    return context
 
 
 def checked_view(view: View | Mapping[str, Any]) -> View:

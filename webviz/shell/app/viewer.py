@@ -57,10 +57,14 @@ class Viewer(Running):
         config_folders: from which ROS may open configs, besides the folder of `config`.
         publish: whether tools may publish, call services and send goals, as far as the list
             `publish` of the config allows. Configs opened later can only narrow it.
+        certfile: PEM file with a certificate, to serve https.
+        keyfile: PEM file with its private key; None if `certfile` contains it.
+        trust_proxies: IP addresses or networks of proxies whose forwarded headers are used.
         read: reads a config file; called with None for the default config.
 
     Raises:
-        Error: the config or a plug-in cannot be read, ROS is missing, or the port is not available.
+        Error: the config, a plug-in or the certificate cannot be read, ROS is missing, or the port
+            is not available.
     """
 
     def __enter__(self) -> Viewer:

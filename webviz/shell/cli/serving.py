@@ -58,6 +58,9 @@ def serve(
             autosave=_last_session() if options.autosave else None,
             config_folders=options.config_folder,
             publish=not options.no_publish,
+            certfile=options.certfile,
+            keyfile=options.keyfile,
+            trust_proxies=options.trust_proxy,
         ) as viewer:
             stop.then(viewer.stop)
             if options.debug:

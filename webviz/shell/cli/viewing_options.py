@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter, validators
 
-from webviz.shell.cli.options import ConfigOptions, Flag, Repeatable
+from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
 
 LOCAL = "127.0.0.1"
 
@@ -22,6 +22,12 @@ class ViewingOptions(ConfigOptions):
     """Address to listen on. The default allows this machine only; 0.0.0.0 allows any network."""
     allow_host: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
     """Host name that browsers may use with --host (repeatable)."""
+    certfile: File | None = None
+    """Serve https with the certificate in this PEM file, and those that it is signed with."""
+    keyfile: File | None = None
+    """Private key of the certificate (default: in --certfile)."""
+    trust_proxy: Annotated[Repeatable[str], Parameter(metavar="ADDRESS")] = ()
+    """Use the X-Forwarded headers of a proxy at this IP address or network (repeatable)."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     no_publish: Flag = False

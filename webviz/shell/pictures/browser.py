@@ -132,7 +132,12 @@ class Page:
         """Errors of scripts in the page."""
         self._crashed = False
         self._context = self._alive(
-            lambda: browser.new_context(viewport=_size(width, height), device_scale_factor=1)
+            lambda: browser.new_context(
+                viewport=_size(width, height),
+                device_scale_factor=1,
+                # On this machine, while the certificate names the address for others.
+                ignore_https_errors=True,
+            )
         )
         self._context.set_default_timeout(1000.0 * PATIENCE_S)
         self.tab: playwright.Page = self._alive(self._context.new_page)

@@ -1,0 +1,77 @@
+"""Certificates and keys that a server can use, and the reason why not."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+from certificates import certificate
+from cryptography.hazmat.primitives import serialization
+
+from webviz.edges.access.tls import CertificateError, doubts, server_context
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Certificates and keys, good ones and others."""
+    folder = tmp_path_factory.mktemp("tls")
+    good = certificate(folder)
+    key = good.with_suffix(".key").read_bytes()
+    certificate(folder, "other")
+    (folder / "both.pem").write_bytes(key + good.read_bytes())
+    (folder / "damaged.pem").write_bytes(good.read_bytes()[:300] + b"\n-----END CERTIFICATE-----\n")
+    private = serialization.load_pem_private_key(key, None)
+    for name, format_ in (
+        ("encrypted", serialization.PrivateFormat.PKCS8),
+        ("encrypted_traditional", serialization.PrivateFormat.TraditionalOpenSSL),
+    ):
+        secret = serialization.BestAvailableEncryption(b"secret")
+        data = private.private_bytes(serialization.Encoding.PEM, format_, secret)
+        (folder / f"{name}.key").write_bytes(data)
+    return folder
+
+
+def test_a_certificate_with_its_key_is_used_without_doubts(folder: Path) -> None:
+    for file, key in ((folder / "robot.pem", folder / "robot.key"), (folder / "both.pem", None)):
+        assert doubts(server_context(file, key), file) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "key", "expected"),
+    [
+        ("robot.pem", "other.key", "The key in other.key does not belong to the certificate in "),
+        ("none.pem", "robot.key", "Cannot read none.pem: No such file or directory."),
+        ("robot.pem", "", "Cannot read .: Is a directory."),
+        ("robot.pem", None, "robot.pem contains no private key in PEM format."),
+        ("robot.key", None, "robot.key contains no certificate in PEM format."),
+        ("damaged.pem", "robot.key", "The certificate in damaged.pem or the key in robot.key is "),
+        ("robot.pem", "encrypted.key", "The key in encrypted.key is encrypted. Decrypt it with `"),
+        ("robot.pem", "encrypted_traditional.key", "The key in encrypted_traditional.key is encr"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_with_the_reason(
+    folder: Path, file: str, key: str | None, expected: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    with pytest.raises(CertificateError) as error:
+        server_context(Path(file), None if key is None else Path(key))
+    assert str(error.value).startswith(expected)
+    assert str(error.value).endswith(".")
+
+
+def test_a_certificate_out_of_its_time_is_doubted(folder: Path) -> None:
+    file = certificate(folder, "short", ends=datetime(2031, 5, 20, 12))
+    context = server_context(file, file.with_suffix(".key"))
+
+    def at(day: datetime) -> list[str]:
+        return doubts(context, file, day.timestamp())
+
+    assert at(datetime(2031, 5, 1)) == []
+    assert at(datetime(2031, 5, 18)) == [
+        f"The certificate in {file} expires on 2031-05-20. Renew it."
+    ]
+    assert at(datetime(2031, 5, 22)) == [
+        f"The certificate in {file} expired on 2031-05-20. Renew it."
+    ]
+    assert "is not valid before" in at(datetime(1990, 1, 1))[0]
