@@ -93,7 +93,10 @@ def plain(rosbags_store: Any) -> Callable[[Any], Any]:
             type_name, names = type(value).__name__, value.__struct_fields__
         items = {name: convert(getattr(value, name)) for name in names}
         kind = type_name.rpartition("/")[2]
-        if kind == "Time":  # nanoseconds may exceed a second; they are compared in sum
+        if kind in (
+            "Time",
+            "Duration",
+        ):  # nanoseconds may exceed a second; they are compared in sum
             return items["sec"] * 10**9 + items["nanosec"]
         if kind == "TransformStamped":
             parent, stamp = items["header"]["frame_id"], items["header"]["stamp"]

@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz_urdf.glb import glb_with
+from webviz_urdf.glb import MeshPart, Surface, glb_with, write_glb
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
@@ -28,6 +28,7 @@ __all__ = [
     "LoadRequest",
     "Loading",
     "LoadingStopped",
+    "MeshPart",
     "Missing",
     "Progress",
     "ResolveError",
@@ -35,11 +36,13 @@ __all__ = [
     "Robot",
     "RobotDescriptionError",
     "Shape",
+    "Surface",
     "glb_with",
     "inertia_box",
     "load_file",
     "load_robot",
     "mass_sphere",
+    "write_glb",
 ]
 
 

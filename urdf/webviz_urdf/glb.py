@@ -31,10 +31,13 @@ class Surface:
     Args:
         rgba: 0 to 1, sRGB; multiplies texture and vertex colours.
         texture: PNG or JPEG bytes.
+        is_clear: whether texture or vertex colours have an alpha of their own, which is blended;
+            such a part shows both of its sides.
     """
 
     rgba: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     texture: bytes | None = None
+    is_clear: bool = False
 
 
 @dataclass(frozen=True)
@@ -152,8 +155,9 @@ class _Writer:
                 pbr["baseColorTexture"] = {"index": self._texture(surface.texture)}
             is_opaque = surface.rgba[3] >= OPAQUE
             # Transparent shapes show their front only, as in RViz, not their inside.
-            material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": is_opaque}
-            if not is_opaque:
+            is_double_sided = is_opaque or surface.is_clear
+            material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": is_double_sided}
+            if not is_opaque or surface.is_clear:
                 material["alphaMode"] = "BLEND"
             self._materials[surface] = len(self._materials)
             self.json["materials"].append(material)

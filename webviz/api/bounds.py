@@ -20,9 +20,12 @@ from webviz.api.nodes import (
     Labels,
     Lines,
     Mesh,
+    Models,
     Node,
     Points,
     Pose,
+    Shape,
+    Solid,
 )
 from webviz.data.rotations import matrices
 
@@ -78,16 +81,29 @@ def _around(extents: Extents) -> Box | None:
 
 
 def _of_instances(node: Instances) -> Extents:
-    half = np.asarray(node.scales, dtype=np.float64) / 2.0
+    half = np.asarray(node.scales, dtype=np.float64) * _half_size(node.shape)
     if node.wxyzs is not None:  # within its bounding sphere, however it is rotated
         half = np.linalg.norm(half, axis=-1, keepdims=True)
     return node.positions, half
 
 
-def _of_glb(node: Glb) -> Extents:
-    (length,) = struct.unpack_from("<I", node.data, _GLB_HEADER)
+def _half_size(shape: Solid | Shape) -> Any:
+    """How far a shape reaches from its origin along each axis, at scale 1."""
+    if isinstance(shape, str):
+        return 0.5
+    return np.abs(shape.vertices.astype(np.float64)).max(axis=0, initial=0.0)
+
+
+def _of_models(node: Models) -> Extents:
+    points, _ = _of_model(node.data)
+    half = np.abs(points).max(axis=0, initial=0.0) * np.abs(node.scales.astype(np.float64))
+    return node.positions, np.linalg.norm(half, axis=1, keepdims=True)
+
+
+def _of_model(data: bytes) -> Extents:
+    (length,) = struct.unpack_from("<I", data, _GLB_HEADER)
     start = _GLB_HEADER + _CHUNK_HEADER
-    document = msgspec.json.decode(node.data[start : start + length])
+    document = msgspec.json.decode(data[start : start + length])
     scene = document.get("scenes", [{}])[document.get("scene", 0)]
     corners = list(_corners(document, scene.get("nodes", []), np.eye(4), 0))
     return np.concatenate(corners) if corners else np.zeros((0, 3)), 0.0
@@ -125,6 +141,7 @@ _EXTENTS: dict[type, Callable[[Any], Extents]] = {
     Labels: lambda node: (node.positions, node.height),
     Mesh: lambda node: (node.vertices, 0.0),
     Instances: _of_instances,
-    Glb: _of_glb,
+    Models: _of_models,
+    Glb: lambda node: _of_model(node.data),
     Image: lambda node: ([(0.0, 0.0, 0.0), (node.width, node.height, 0.0)], 0.0),
 }

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz.api import nodes
 from webviz.api.frames import Frames, is_placeable
-from webviz.api.nodes import Ids, Node, Pose, Rgb, Solid
+from webviz.api.nodes import Ids, Node, Pose, Rgb, Shape, Solid
 from webviz.api.status import Level, Status
 from webviz.data.transforms.geometry import REACH_M
 
@@ -151,14 +151,15 @@ class Group:
         texts: tuple[str, ...],
         height: float,
         below: bool = False,
+        colors: ArrayLike | Rgb = (255, 255, 255),
     ) -> None:
         """Draw texts; see `webviz.api.nodes.Labels`."""
-        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height, below)
+        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height, below, _colors(colors))
 
     def instances(
         self,
         key: str,
-        shape: Solid,
+        shape: Solid | Shape,
         positions: ArrayLike,
         scales: ArrayLike,
         colors: ArrayLike | Rgb,

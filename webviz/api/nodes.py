@@ -129,19 +129,21 @@ class Axes(_Node):
 
 @dataclass(frozen=True, eq=False)
 class Labels(_Node):
-    """Light texts with a dark outline that face the camera.
+    """Texts that face the camera, with an outline in the contrary brightness.
 
     Args:
         positions: float32 (N, 3), metres.
         texts: one for each position.
         height: of a line, metres; that of capitals is 0.6 of it, as in RViz.
         below: whether texts are below their positions on the screen, instead of centred.
+        colors: uint8 (N, 3), or one colour for all, drawn in 32 steps per channel.
     """
 
     positions: F32
     texts: tuple[str, ...]
     height: float
     below: bool = False
+    colors: U8 | Rgb = (255, 255, 255)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,6 +164,19 @@ class Mesh(_Node):
 
 
 @dataclass(frozen=True, eq=False)
+class Shape:
+    """A triangle mesh that `Instances` repeat; equal only to itself.
+
+    Args:
+        vertices: float32 (N, 3); the scales of instances multiply them.
+        faces: uint32 (M, 3), counter-clockwise seen from outside.
+    """
+
+    vertices: F32
+    faces: NDArray[np.uint32]
+
+
+@dataclass(frozen=True, eq=False)
 class Instances(_Node):
     """Many lit solids, drawn as one.
 
@@ -170,6 +185,7 @@ class Instances(_Node):
     Args:
         positions: float32 (N, 3), centres, metres.
         scales: float32 (N, 3), extents along x, y and z, metres; cylinders and cones are along z.
+            Those of a `Shape` are positive factors.
         colors: uint8 (N, 3), or one colour for all.
         shape: of all solids.
         wxyzs: float32 (N, 4), unit quaternions with w first; None means not rotated.
@@ -181,10 +197,29 @@ class Instances(_Node):
     positions: F32
     scales: F32
     colors: U8 | Rgb
-    shape: Solid = "box"
+    shape: Solid | Shape = "box"
     wxyzs: F32 | None = None
     opacity: float | F32 = 1.0
     is_data: bool = False
+    ids: Ids | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Models(_Node):
+    """Many copies of a glTF model, drawn as one.
+
+    Args:
+        positions: float32 (N, 3), metres.
+        wxyzs: float32 (N, 4), unit quaternions with w first.
+        scales: float32 (N, 3), factors along x, y and z.
+        data: binary glTF with one mesh of one material, whose node has no transform.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
+    """
+
+    positions: F32
+    wxyzs: F32
+    scales: F32
+    data: bytes
     ids: Ids | None = field(default=None, compare=False)
 
 
@@ -219,7 +254,7 @@ class Image(_Node):
         return self.cells if self.palette is None else self.palette[self.cells]
 
 
-Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Glb | Image
+Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image
 
 
 def has_content(node: Node) -> bool:

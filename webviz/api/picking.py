@@ -59,7 +59,7 @@ class Details:
 
 def noun_of(node: Node) -> str:
     """What an item of a node is called."""
-    if isinstance(node, Instances):
+    if isinstance(node, Instances) and isinstance(node.shape, str):
         return node.shape.capitalize()
     return _NOUNS.get(type(node), "Mesh")
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import keyword
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import msgspec
 import numpy as np
 
-from webviz.data.messages import geometry, types
+from webviz.data.messages import geometry, markers, types
 from webviz.data.messages.geometry import zeros
 from webviz.data.messages.typestore import Field, constants, fields, full_name
 
@@ -51,6 +52,9 @@ WRITTEN: dict[str, type] = {
         (types, "rosgraph_msgs", "Clock"),
         (types, "sensor_msgs", "JointState LaserScan PointCloud2 PointField"),
         (types, "std_msgs", "String"),
+        (markers, "sensor_msgs", "CompressedImage"),
+        (markers, "std_msgs", "ColorRGBA"),
+        (markers, "visualization_msgs", "Marker MarkerArray MeshFile"),
     )
     for name in names.split()
 }
@@ -62,12 +66,14 @@ VECTORS = {
     "geometry_msgs/msg/Vector3": ("float64", 3),
     "geometry_msgs/msg/Quaternion": ("float64", 4),
     "std_msgs/msg/ColorRGBA": ("float32", 4),
+    "visualization_msgs/msg/UVCoordinate": ("float32", 2),
 }
 """Messages of k equal numbers: a sequence of N of them is one (N, k) array."""
 
-SEQUENCES: dict[str, type] = {
+SEQUENCES: dict[str, Callable[[], Any]] = {
     "geometry_msgs/msg/Pose": geometry.PoseSequence,
     "geometry_msgs/msg/PoseStamped": geometry.PoseStampedSequence,
+    "visualization_msgs/msg/Marker": lambda: markers.MarkerSequence.of(()),
 }
 """Messages whose sequences have a class of their own."""
 

@@ -1,4 +1,4 @@
-"""Decoders of the sequences that dominate a robot's traffic: transforms and poses."""
+"""Decoders of the sequences that dominate a robot's traffic: transforms, poses and markers."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from webviz.data.messages.geometry import (
     PoseSequence,
     PoseStampedSequence,
 )
+from webviz.data.messages.marker_reader import read_markers
 
 _FLOAT64 = np.dtype(np.float64)
 _POSE_SIZE = 7 * 8
@@ -146,5 +147,6 @@ SEQUENCE_READERS: dict[str, Callable[[Reader], object]] = {
     "geometry_msgs/msg/TransformStamped": read_transforms,
     "geometry_msgs/msg/Pose": read_poses,
     "geometry_msgs/msg/PoseStamped": read_stamped_poses,
+    "visualization_msgs/msg/Marker": read_markers,
 }
 """By the type of their elements."""

@@ -40,7 +40,7 @@ class InstancesDrawn(SingleNode[Instances]):
         positions, scales, wxyzs, colors, opacity = finite(
             node.positions, node.scales, wxyzs, along=(node.colors, node.opacity)
         )
-        solid = SOLIDS[node.shape]
+        solid = SOLIDS[node.shape] if isinstance(node.shape, str) else node.shape
         return (
             {"vertices": solid.vertices, "faces": solid.faces},
             {"material": "toon3" if node.is_data else "standard"},  # see shade.js

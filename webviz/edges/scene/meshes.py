@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.api.nodes import Glb, Mesh
-from webviz.edges.scene.drawn import Props, SingleNode, finite_rows
+from webviz.api.nodes import Glb, Mesh, Models
+from webviz.edges.scene.drawn import Props, SingleNode, finite, finite_rows
 from webviz.edges.scene.glb import matte, pack
 
 
@@ -56,6 +56,33 @@ class GlbDrawn(SingleNode[Glb]):
             ValueError: `node.data` is not a binary glTF 2.0.
         """
         return ({"glb_data": matte(node.data)},)
+
+
+class ModelsDrawn(SingleNode[Models]):
+    """Copies of a glTF model in one draw call: viser's batched models."""
+
+    def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
+        """No copies."""
+        return scene.add_batched_glb(
+            name,
+            _NOTHING,
+            np.zeros((0, 4), np.float32),
+            np.zeros((0, 3), np.float32),
+            batched_scales=np.zeros((0, 3), np.float32),
+            lod="off",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+    def props(self, node: Models) -> tuple[Props, ...]:
+        """The model, then its copies; those that are not finite are dropped.
+
+        Raises:
+            ValueError: `node.data` is not a binary glTF 2.0.
+        """
+        positions, wxyzs, scales = finite(node.positions, node.wxyzs, node.scales)
+        copies = {"batched_positions": positions, "batched_wxyzs": wxyzs, "batched_scales": scales}
+        return {"glb_data": matte(node.data)}, copies
 
 
 _NOTHING = pack({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]})

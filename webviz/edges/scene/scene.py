@@ -18,6 +18,7 @@ from webviz.api.nodes import (
     Labels,
     Lines,
     Mesh,
+    Models,
     Node,
     Points,
     Pose,
@@ -31,7 +32,7 @@ from webviz.edges.scene.images import ImageDrawn
 from webviz.edges.scene.instances import InstancesDrawn
 from webviz.edges.scene.labels import LabelsDrawn
 from webviz.edges.scene.lines import ArrowsDrawn, LinesDrawn
-from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn
+from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn, ModelsDrawn
 from webviz.edges.scene.names import ROOT, node_path
 from webviz.edges.scene.points import PointsDrawn, keep_shaders
 from webviz.edges.scene.server import set_background
@@ -44,6 +45,7 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Labels: LabelsDrawn,
     Mesh: MeshDrawn,
     Instances: InstancesDrawn,
+    Models: ModelsDrawn,
     Glb: GlbDrawn,
     Image: ImageDrawn,
 }

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from webviz.api.context import Group
 from webviz.api.frames import compose
-from webviz.api.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Node, Points, Pose
+from webviz.api.nodes import F32, Arrows, Axes, Instances, Labels, Lines, Models, Node, Points, Pose
 from webviz.data.rotations import matrices, multiply_many
 
 Position = tuple[float, float, float]
@@ -38,7 +38,7 @@ def origin_near(position: Position, former: Position) -> Position:
 
 def can_bake(node: Node) -> bool:
     """Whether the coordinates of a node can be transformed one by one."""
-    return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances)
+    return isinstance(node, Points | Lines | Arrows | Axes | Labels | Instances | Models)
 
 
 def bake(group: Group, former: Position) -> Position:
@@ -88,7 +88,7 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
             return replace(node, segments=move(node.segments))
         case Labels():
             return replace(node, positions=move(node.positions))
-        case Axes():
+        case Axes() | Models():
             return replace(node, positions=move(node.positions), wxyzs=turn(node.wxyzs))
         case Instances():
             unturned = np.tile(_UNTURNED, (len(node.positions), 1))

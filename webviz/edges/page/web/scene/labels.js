@@ -1,8 +1,9 @@
 // How texts look.
 //
 // viser draws black letters on white boxes, from distance fields. Here the boxes are hidden, and the
-// letters are white with a dark outline that the same fields give: legible on any ground, and
-// covering no more of the scene than they need. The render orders are those of viser's
+// letters have a colour and an outline that the same fields give, dark around light letters and light
+// around dark ones: legible on any ground, and covering no more of the scene than they need. The
+// colour is in the last bits of the height, see scene/labels.py. The render orders are those of viser's
 // renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's.
 
 import * as viser from "../viser_page.js";
@@ -12,11 +13,13 @@ const LETTERS = 10002;
 
 // Each letter is drawn in a quad without room for an outline; the atlas has it.
 const widened = (source) =>
-  "uniform float uSdfRadius;" +
+  "uniform float uSdfRadius; varying vec3 vColor;" +
   source.replace(
     "vec2 corner = position.xy;",
     `vec2 room = 0.5 * uSdfRadius / aRect.zw;
-     vec2 corner = position.xy * (1.0 + 2.0 * room) - room;`,
+     vec2 corner = position.xy * (1.0 + 2.0 * room) - room;
+     uint bits = floatBitsToUint(aParams.y);
+     vColor = vec3((bits >> 10) & 31u, (bits >> 5) & 31u, bits & 31u) / 31.0;`,
   );
 
 // The outline is about a pixel wide; that of letters that are large is wider.
@@ -26,6 +29,7 @@ const OUTLINED = `
   uniform float uSdfRadius;
   varying vec2 vUv;
   varying float vAlpha;
+  varying vec3 vColor;
 
   void main() {
     float inside = (texture2D(uAtlas, vUv).r - 0.5) * 2.0 * uSdfRadius;
@@ -34,7 +38,9 @@ const OUTLINED = `
     float outline = clamp(pixel, 0.15 * uSdfRadius, 0.9 * uSdfRadius - soft);
     float alpha = vAlpha * smoothstep(-soft, soft, inside + outline);
     if (alpha < 0.004) discard;
-    gl_FragColor = vec4(vec3(smoothstep(-soft, soft, inside)), alpha);
+    float light = dot(vColor, vec3(0.299, 0.587, 0.114));
+    vec3 around = vec3(light < 0.25 ? 0.75 : 0.0);
+    gl_FragColor = vec4(mix(around, vColor, smoothstep(-soft, soft, inside)), alpha);
   }`;
 
 export function install() {

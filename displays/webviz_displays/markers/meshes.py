@@ -1,0 +1,181 @@
+"""Markers of type MESH_RESOURCE, once their meshes are loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from webviz import Models, Node, Shape
+from webviz_displays.markers.batch import F32, Batch, opacities, rgb
+from webviz_displays.markers.solids import Solids
+from webviz_urdf import MeshPart, Surface, write_glb
+
+Tint = tuple[float, float, float, float]
+"""RGBA that the materials of a mesh are multiplied by."""
+NO_TINT: Tint = (1.0, 1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedMesh:
+    """A mesh file that was read.
+
+    Args:
+        name: unique among the meshes.
+        parts: at least one.
+    """
+
+    name: str
+    parts: tuple[MeshPart, ...]
+
+    @cached_property
+    def whole(self) -> Piece:
+        """All parts, without their materials."""
+        return Piece(self.name, *_joined(self.parts))
+
+    @cached_property
+    def pieces(self) -> tuple[tuple[Piece, Surface], ...]:
+        """The parts that have one colour each, with the surface that the file gives them."""
+        alike: dict[Surface, list[MeshPart]] = {}
+        for part in self.parts:
+            if not is_colorful(part):
+                alike.setdefault(part.surface or _NO_SURFACE, []).append(part)
+        return tuple(
+            (Piece(f"{self.name} {i}", *_joined(parts)), surface)
+            for i, (surface, parts) in enumerate(alike.items())
+        )
+
+    @cached_property
+    def colorful(self) -> tuple[MeshPart, ...]:
+        """The parts with a texture or vertex colours."""
+        return tuple(filter(is_colorful, self.parts))
+
+
+_NO_SURFACE = Surface()
+
+
+class Piece:
+    """A part of a mesh that has one colour.
+
+    Args:
+        name: unique among the pieces.
+        vertices, faces: see `Shape`.
+    """
+
+    def __init__(self, name: str, vertices: F32, faces: np.ndarray) -> None:
+        self.name = name
+        self.shape = Shape(vertices, faces)
+
+    @cached_property
+    def mirrored(self) -> Shape:
+        """The shape with its x axis reversed, for scales with a negative product."""
+        flip = np.array((-1.0, 1.0, 1.0), np.float32)
+        return Shape(self.shape.vertices * flip, np.ascontiguousarray(self.shape.faces[:, ::-1]))
+
+    def solids(self, some: Batch, colors: F32) -> Iterator[Solids]:
+        """One for each marker of a batch, in a colour each."""
+        is_mirrored = np.prod(np.sign(some.scales), axis=1) < 0.0
+        for chosen, name, sign in (
+            (~is_mirrored, self.name, 1.0),
+            (is_mirrored, f"-{self.name}", -1.0),
+        ):
+            if chosen.any():
+                shape = self.shape if sign > 0.0 else self.mirrored
+                scales = some.scales[chosen] * (sign, 1.0, 1.0)
+                where = some.positions[chosen], some.wxyzs[chosen]
+                yield Solids(
+                    shape, *where, scales, colors[chosen], some.ids[chosen], mesh=f"mesh {name}"
+                )
+
+
+Meshes = Mapping[int, LoadedMesh]
+"""By the row of the marker in its batch."""
+
+
+def mesh_solids(batch: Batch, meshes: Meshes) -> Iterator[Solids]:
+    """What has one colour; that of one file is drawn together."""
+    for mesh, rows in _by_mesh(meshes).items():
+        own = batch.own_materials[rows]
+        plain = batch.only(rows[~own])
+        if len(plain):
+            yield from mesh.whole.solids(plain, plain.colors)
+        with_own = batch.only(rows[own])
+        for piece, surface in mesh.pieces if len(with_own) else ():
+            base = with_own.colors if surface is _NO_SURFACE else np.array(surface.rgba, np.float32)
+            tints = np.array([tint_of(color) for color in with_own.colors], np.float32)
+            colors = base if surface is _NO_SURFACE else base * tints
+            yield from piece.solids(with_own, colors)
+
+
+def models_of(
+    batch: Batch, meshes: Meshes, cache: dict[tuple[int, Tint], bytes]
+) -> dict[str, Node]:
+    """What has a texture or vertex colours.
+
+    Args:
+        batch: the markers.
+        meshes: those that are loaded.
+        cache: of models, by the id of their part, which must stay alive, and their tint.
+    """
+    nodes: dict[str, Node] = {}
+    for mesh, rows in _by_mesh(meshes).items():
+        with_own = rows[batch.own_materials[rows]]
+        if not mesh.colorful or not len(with_own):
+            continue
+        by_tint: dict[Tint, list[int]] = {}
+        for row in with_own.tolist():
+            by_tint.setdefault(tint_of(batch.colors[row]), []).append(row)
+        for tint, some in by_tint.items():
+            chosen = batch.only(np.array(some))
+            for number, part in enumerate(mesh.colorful if tint[3] > 0.0 else ()):
+                key = f"model {mesh.name} {number} {tint}"
+                data = cache.get((id(part), tint)) or write_glb([_tinted(part, tint)])
+                cache[id(part), tint] = data
+                nodes[key] = Models(
+                    chosen.positions.astype(np.float32),
+                    chosen.wxyzs.astype(np.float32),
+                    chosen.scales.astype(np.float32),
+                    data,
+                    chosen.ids,
+                )
+    return nodes
+
+
+def tint_of(color: F32) -> Tint:
+    """What a colour (4,) does to the materials of a file: multiplies them.
+
+    All zeros, the default, and black leave them as they are; RViz mixes the colour in by half, so
+    that white, which most programs send, would wash them out.
+    """
+    red, green, blue = (rgb(color) / 255.0).tolist()
+    alpha = float(opacities(color[3]))
+    if not (red or green or blue):
+        return (1.0, 1.0, 1.0, alpha or 1.0)
+    return red, green, blue, alpha
+
+
+def is_colorful(part: MeshPart) -> bool:
+    """Whether a part has more than one colour."""
+    return part.colors is not None or bool(part.surface and part.surface.texture)
+
+
+def _by_mesh(meshes: Meshes) -> dict[LoadedMesh, np.ndarray]:
+    by_mesh: dict[LoadedMesh, list[int]] = {}
+    for row, mesh in meshes.items():
+        by_mesh.setdefault(mesh, []).append(row)
+    return {mesh: np.array(rows) for mesh, rows in by_mesh.items()}
+
+
+def _tinted(part: MeshPart, tint: Tint) -> MeshPart:
+    surface = part.surface or _NO_SURFACE
+    red, green, blue, alpha = (a * b for a, b in zip(surface.rgba, tint, strict=True))
+    return replace(part, surface=replace(surface, rgba=(red, green, blue, alpha)))
+
+
+def _joined(parts: Sequence[MeshPart]) -> tuple[F32, np.ndarray]:
+    """Vertices and faces of several parts as one mesh."""
+    first = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])
+    faces = [part.faces + np.uint32(n) for part, n in zip(parts, first, strict=True)]
+    return np.concatenate([part.vertices for part in parts]), np.concatenate(faces)
