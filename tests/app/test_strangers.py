@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import msgspec
 import pytest
-import websockets.sync.client
 
 import webviz
-from tests.scene.conftest import Peer
-from webviz.edges.page.acts import ALLOWED
+from tests.support.guest import Guest
+from webviz.edges.access.rules import COMMANDS
 from webviz.edges.page.content.forms import MAX_TEXT
 
 LONG = "x" * 40_000
@@ -33,55 +31,18 @@ ARGUMENTS: list[dict[str, Any]] = [
 ]
 
 
-class Stranger:
-    """A program that talks to a viewer as a page does."""
-
-    def __init__(self, viewer: webviz.Viewer) -> None:
-        server = viewer._scene.link.server
-        self.channel = server.channel
-        self._viser = Peer(server)
-        self._viser.look()
-        for message in self._viser.replay():
-            if message["type"] == "RunJavascriptMessage":
-                source = message["source"].partition("(")[2].removesuffix(");")
-                self.page = msgspec.json.decode(source)
-        url = f"{viewer.url.replace('http', 'ws')}/webviz/channel"
-        self._socket = websockets.sync.client.connect(url, compression=None, close_timeout=0.1)
-        self.send("Hello", key=self.page["key"])
-
-    def send(self, type_: str, **fields: Any) -> None:
-        """Send a message."""
-        self._socket.send(msgspec.json.encode({"type": type_, **fields}).decode())
-
-    def receive(self, type_: str) -> dict[str, Any]:
-        """The next message of a type."""
-        while (message := msgspec.json.decode(self._socket.recv(60)))["type"] != type_:
-            pass
-        return message
-
-    def do(self, command: str, **arguments: Any) -> str:
-        """The answer to a command."""
-        self.send("Do", number=1, command=command, arguments=arguments)
-        return self.receive("Done")["text"]
-
-    def close(self) -> None:
-        """End the connections."""
-        self._socket.close()
-        self._viser.close()
-
-
 @pytest.fixture
-def stranger(viewer: webviz.Viewer) -> Iterator[Stranger]:
+def stranger(viewer: webviz.Viewer) -> Iterator[Guest]:
     viewer.config = {"displays": [{"type": "Grid"}]}
-    stranger = Stranger(viewer)
+    stranger = Guest(viewer._scene.link.server)
     yield stranger
     stranger.close()
 
 
 def test_commands_that_make_no_sense_are_refused_in_one_short_sentence(
-    stranger: Stranger, caplog: pytest.LogCaptureFixture
+    stranger: Guest, caplog: pytest.LogCaptureFixture
 ) -> None:
-    for class_ in ALLOWED:
+    for class_ in COMMANDS:
         for arguments in ARGUMENTS:
             answer = stranger.do(class_.__name__, **arguments)
             assert len(answer) <= 1000, class_
@@ -91,7 +52,7 @@ def test_commands_that_make_no_sense_are_refused_in_one_short_sentence(
     assert caplog.messages == []
 
 
-def test_a_text_of_a_page_has_a_limit(stranger: Stranger, viewer: webviz.Viewer) -> None:
+def test_a_text_of_a_page_has_a_limit(stranger: Guest, viewer: webviz.Viewer) -> None:
     (grid,) = ids(stranger)
     answer = stranger.do("SetProperty", display=grid, path="name", value="x" * (MAX_TEXT + 1))
     assert answer == f"Not done: expected at most {MAX_TEXT} characters."
@@ -105,7 +66,7 @@ def test_a_text_of_a_page_has_a_limit(stranger: Stranger, viewer: webviz.Viewer)
 
 
 def test_numbers_that_json_cannot_hold_reach_no_page(
-    stranger: Stranger, viewer: webviz.Viewer, caplog: pytest.LogCaptureFixture
+    stranger: Guest, viewer: webviz.Viewer, caplog: pytest.LogCaptureFixture
 ) -> None:
     stranger.send("Do", number=2**70, command="Undo", arguments={})  # it could not be answered
     stranger.do("AddDisplay", type="LaserScan", values={"topic": {"name": "/a", "depth": 2**64}})
@@ -116,14 +77,14 @@ def test_numbers_that_json_cannot_hold_reach_no_page(
     assert [m for m in caplog.messages if "ignored" not in m] == []
 
 
-def test_the_view_of_another_browser_is_not_sent(stranger: Stranger) -> None:
+def test_the_view_of_another_browser_is_not_sent(stranger: Guest) -> None:
     own = stranger.page["browser"]
     for store in (f"view:{own + 1}", f"view_type:{own + 1}", "view:", f"view_type:{own}"):
         stranger.send("Watch", store=store)
     assert stranger.receive("Values")["store"] == f"view_type:{own}"
 
 
-def test_a_page_watches_so_many_stores_and_not_more(stranger: Stranger) -> None:
+def test_a_page_watches_so_many_stores_and_not_more(stranger: Guest) -> None:
     for number in range(500):
         stranger.send("Watch", store=f"properties:{number}")
     stranger.send("Watch", store="x" * 100_000)
@@ -133,7 +94,7 @@ def test_a_page_watches_so_many_stores_and_not_more(stranger: Stranger) -> None:
     assert len(stranger.channel.watched()) == 64
 
 
-def ids(stranger: Stranger) -> list[str]:
+def ids(stranger: Guest) -> list[str]:
     """The displays of the viewer."""
     stranger.send("Watch", store="displays")
     order = stranger.receive("Values")["set"]["order"]

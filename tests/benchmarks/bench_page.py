@@ -32,6 +32,7 @@ from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Status
 from webviz.api.vehicle import Velocity
+from webviz.edges.access.access import EVERYBODY
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Hello, Watch
 from webviz.edges.page.pages import Pages
@@ -94,6 +95,9 @@ class Reader:
     def __init__(self, key: str) -> None:
         self.logger = logging.getLogger(__name__)
         self.transport = self
+        self.latency = 0.0
+        self.grant = EVERYBODY
+        self.address = ""
         said = (Hello(key), *(Watch(store) for store in sorted(STORES)))
         self._said = [msgspec.json.encode(message).decode() for message in said]
 

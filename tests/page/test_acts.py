@@ -8,7 +8,8 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz import commands
-from webviz.edges.page.acts import ALLOWED, command_of
+from webviz.edges.access.rules import COMMANDS
+from webviz.edges.page.acts import command_of
 
 
 def test_a_command_has_the_types_of_its_fields() -> None:
@@ -35,7 +36,7 @@ def test_what_does_not_fit_is_refused(name: str, arguments: dict[str, Any], reas
 
 
 def test_no_page_may_load_code() -> None:
-    assert commands.ReloadPlugin not in ALLOWED
+    assert commands.ReloadPlugin not in COMMANDS
 
 
 def test_the_page_that_asks_gets_the_answer(tab: Tab) -> None:

@@ -158,6 +158,11 @@ class Peer:
             messages += self.receive()
         return messages
 
+    def drain(self) -> None:
+        """Receives until the connection ends."""
+        while True:
+            self._socket.recv(60)
+
     def close(self) -> None:
         self._socket.close()
 

@@ -7,7 +7,7 @@ import contextlib
 import http.client
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 import playwright.sync_api as playwright
@@ -16,7 +16,9 @@ import websockets.exceptions
 import websockets.sync.client
 from websockets.sync.connection import Connection
 
-from webviz.edges.page.channel import MAX_CHARACTERS, MAX_WAITING
+from webviz.edges.access import rules
+from webviz.edges.access.roles import LIMITS, Role
+from webviz.edges.page.channel import MAX_WAITING
 from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.quiet_server import Server
@@ -37,7 +39,8 @@ class Weather(ToPage, frozen=True):
 
 
 @pytest.fixture
-def server() -> Iterator[Server]:
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    monkeypatch.setitem(cast(dict[str, Role], rules.MESSAGES), "Wish", Role.WATCHER)
     server = open_server(port=0)
     yield server
     server.stop()
@@ -146,7 +149,7 @@ def test_a_channel_from_another_site_is_refused(server: Server) -> None:
         '{"type":"Wish","text":"a","more":1}',
         '{"type":"None"}',
         '{"type":"News","text":"a"}',
-        f'{{"type":"Wish","text":"{"a" * MAX_CHARACTERS}"}}',
+        f'{{"type":"Wish","text":"{"a" * LIMITS[Role.OWNER].max_characters}"}}',
         b'{"type":"Wish","text":"a"}',
     ],
 )

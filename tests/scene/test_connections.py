@@ -97,7 +97,7 @@ def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     wait_until: Callable[[Callable[[], bool]], None],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(connections, "Allowance", lambda: Allowance(rate=1e-9, burst=3.5))
+    monkeypatch.setattr(connections, "Allowance", lambda *_: Allowance(rate=1e-9, burst=3.5))
     eager, other = call(), call()
     for number in range(1, 6):
         eager.look(float(number))

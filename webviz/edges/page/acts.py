@@ -10,50 +10,13 @@ from typing import Any, get_type_hints
 
 import msgspec
 
+from webviz.edges.access.rules import COMMANDS, UNKNOWN
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content.forms import MAX_TEXT, brief
 from webviz.edges.page.messages import Do, Done, Download
-from webviz.engine import commands
 from webviz.engine.commands import Command, Sender
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 
-ALLOWED = (
-    commands.AddDisplay,
-    commands.DuplicateDisplay,
-    commands.MoveDisplay,
-    commands.RemoveDisplay,
-    commands.ResetDisplay,
-    commands.SetProperty,
-    commands.SetToolProperty,
-    commands.SetPanelProperty,
-    commands.CancelGoal,
-    commands.DismissGoal,
-    commands.SetBackground,
-    commands.SetFixedFrame,
-    commands.SetFrameRate,
-    commands.ChangeView,
-    commands.FocusDisplay,
-    commands.FocusFrame,
-    commands.Identify,
-    commands.RemoveView,
-    commands.RenameView,
-    commands.ResetView,
-    commands.SaveImage,
-    commands.SaveView,
-    commands.Select,
-    commands.ShowView,
-    commands.StartWithView,
-    commands.Export,
-    commands.WriteDisplays,
-    commands.Load,
-    commands.Open,
-    commands.Save,
-    commands.Pause,
-    commands.Reset,
-    commands.Undo,
-    commands.Redo,
-)
-"""What pages may ask for."""
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
@@ -113,7 +76,7 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> Command:
     """
     class_, form = _forms().get(name, (None, None))
     if class_ is None:
-        raise ValueError("Not done: this page does not fit the viewer. Reload the page.")
+        raise ValueError(UNKNOWN)
     _refuse_endless({key: value for key, value in arguments.items() if key != "text"})
     try:
         values = msgspec.structs.asdict(msgspec.convert(arguments, form))
@@ -147,7 +110,7 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
 @functools.cache
 def _forms() -> dict[str, tuple[type[Any], Any]]:
     """By name the commands of pages, each with a struct of the fields that a page may fill in."""
-    return {class_.__name__: (class_, _form(class_)) for class_ in ALLOWED}
+    return {class_.__name__: (class_, _form(class_)) for class_ in COMMANDS}
 
 
 def _form(class_: type[Any]) -> Any:

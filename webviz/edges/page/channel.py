@@ -8,6 +8,7 @@ import itertools
 import logging
 import secrets
 import threading
+import time
 from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import or_
@@ -16,15 +17,18 @@ from typing import Any, Protocol, TypeVar
 import msgspec
 from websockets.exceptions import ConnectionClosed
 
-from webviz.edges.page.messages import FromPage, Hello, ToPage, Unwatch, Watch
+from webviz.edges.access import rules
+from webviz.edges.access.access import Grant
+from webviz.edges.access.roles import LIMITS, Role
+from webviz.edges.access.visitors import Visitor
+from webviz.edges.page.messages import Do, FromPage, Hello, ToPage, Unwatch, Watch, You
+from webviz.edges.page.refusals import answer
 from webviz.edges.page.stores import Stores, Watched
 
 MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
 MAX_WAITING_BYTES = 32 << 20
 """Of these messages together; the largest are configs to download."""
-MAX_CHARACTERS = 3 << 20
-"""Of a message of a page; the longest is a config."""
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
 HELLO_S = 10.0
@@ -39,6 +43,18 @@ class Connection(Protocol):
 
     logger: Any
     transport: Any
+    latency: float
+    """Of the last ping in seconds, 0 before the first."""
+
+    @property
+    def grant(self) -> Grant:
+        """What it may do."""
+        ...
+
+    @property
+    def address(self) -> str:
+        """The network address of the browser."""
+        ...
 
     async def recv(self) -> Any:
         """The next message."""
@@ -68,6 +84,7 @@ class Channel:
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._outboxes: dict[int, _Outbox] = {}
+        self._visitors: dict[int, tuple[Visitor, Connection]] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
         self._stores = Stores()
         self.may_watch: Callable[[int, str], bool] = lambda browser, store: True
@@ -110,6 +127,15 @@ class Channel:
             self._stores.forget(watched)
         return watched
 
+    def visitors(self) -> dict[int, Visitor]:
+        """Who is connected, by viser's id of the browser; from any thread."""
+        with self._lock:
+            known = list(self._visitors.items())
+        return {
+            browser: msgspec.structs.replace(visitor, latency_s=connection.latency or None)
+            for browser, (visitor, connection) in known
+        }
+
     def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:
         """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
 
@@ -136,6 +162,7 @@ class Channel:
         """Forgets a browser that is gone."""
         with self._lock:
             self._outboxes.pop(browser, None)
+            self._visitors.pop(browser, None)
 
     async def serve(
         self, connection: Connection, inside: Callable[[], contextlib.AbstractContextManager[None]]
@@ -152,14 +179,21 @@ class Channel:
             await connection.close(1008, "This is no page of webviz")
             return
         outbox.abort = connection.transport.abort
+        grant = connection.grant
+        visitor = Visitor(grant.name, grant.role, connection.address, time.time())
+        with self._lock:
+            self._visitors[browser] = visitor, connection
+            outbox.put_first(You(grant.role.label, grant.name))
         writer = asyncio.create_task(self._write(connection, outbox))
         self._wake()
         try:
             with inside(), contextlib.suppress(ConnectionClosed):
                 while True:
-                    self._hear(browser, await connection.recv(), connection.logger)
+                    self._hear(browser, await connection.recv(), connection)
         finally:
             writer.cancel()
+            with self._lock:
+                self._visitors.pop(browser, None)
             self.on_lost(browser)
 
     async def _introduce(self, connection: Connection) -> tuple[int, _Outbox]:
@@ -185,17 +219,32 @@ class Channel:
                 return msgspec.json.encode(values)
             return outbox.waiting.pop(next(iter(outbox.waiting))) if outbox.waiting else None
 
-    def _hear(self, browser: int, text: str, log: logging.Logger) -> None:
+    def _hear(self, browser: int, text: str, connection: Connection) -> None:
+        log = connection.logger
         try:
             message = self._decoder.decode(text)
         except (msgspec.MsgspecError, RecursionError) as error:
             # It may quote what the page sent, control characters included.
             log.warning("A message of a page was ignored: %s.", ascii(str(error))[1:MAX_QUOTED])
             return
+        if refusal := self._refusal(connection.grant.role, message):
+            log.warning("Refused a message of %s.", connection.grant.role.phrase)
+            if (refused := answer(message, refusal)) is not None:
+                self.send(refused, browser)
+            return
         if isinstance(message, Watch | Unwatch):
             self._watch(browser, message, log)
         for listener in self._listeners.get(type(message), ()):
             listener(browser, message)
+
+    @staticmethod
+    def _refusal(role: Role, message: FromPage) -> str:
+        return rules.refusal(
+            role,
+            type(message).__name__,
+            command=message.command if isinstance(message, Do) else "",
+            store=message.store if isinstance(message, Watch) else "",
+        )
 
     def _watch(self, browser: int, message: Watch | Unwatch, log: logging.Logger) -> None:
         with self._lock:
@@ -239,6 +288,10 @@ class _Outbox:
         self.filled = asyncio.Event()
         self._numbers = itertools.count()
 
+    def put_first(self, message: ToPage) -> None:
+        """Send a message before all that waits."""
+        self.waiting = {type(message): msgspec.json.encode(message), **self.waiting}
+
     def put(self, message: ToPage) -> None:
         key = type(message) if message.kept else next(self._numbers)
         self.waiting.pop(key, None)
@@ -251,8 +304,8 @@ class _Outbox:
             self.is_full = True
 
 
-def objection(data: str | bytes) -> str | None:
-    """What is wrong with a message before it is read, or None."""
+def objection(data: str | bytes, role: Role) -> str | None:
+    """What is wrong with a message of somebody with this role before it is read, or None."""
     if not isinstance(data, str):
         return "bytes instead of text"
-    return f"{len(data)} characters" if len(data) > MAX_CHARACTERS else None
+    return f"{len(data)} characters" if len(data) > LIMITS[role].max_characters else None

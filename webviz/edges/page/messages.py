@@ -32,6 +32,20 @@ class Hello(FromPage, frozen=True):
     key: str
 
 
+class You(ToPage, frozen=True):
+    """The first message to a page: what it may do.
+
+    Args:
+        role: "watcher", "operator" or "owner"; see `webviz.edges.access.rules`.
+        name: of the token of its browser, "" if none is asked for.
+    """
+
+    kept = True
+
+    role: str
+    name: str
+
+
 class Ask(ToPage, frozen=True):
     """Asks for an `Answer` after everything that was sent before."""
 

@@ -11,19 +11,21 @@ from typing import Any
 import websockets.asyncio.server as websocket
 from websockets.frames import Frame, Opcode
 
+from webviz.edges.access.access import EVERYBODY, Grant
+from webviz.edges.access.roles import LIMITS, Role
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.edges.scene.listener import Handshakes
 from webviz.edges.scene.messages import objection
 
 MAX_BROWSERS = 64
 
-MESSAGES_PER_SECOND = 200.0
-"""Four times what a page sends while the user drags something."""
-BURST = 400.0
+BURST_S = 2.0
+"""Seconds of the allowed rate that may come at once."""
 BYTES_PER_MESSAGE = 32 << 10
 """Each further multiple of this size counts as one more message."""
 MAX_WAIT = 5.0
 """Seconds by which a connection may exceed the rate with frames that cannot wait, such as pings."""
+CLOSE_ONE = "Close another page of webviz."
 WHOLE = (Opcode.BINARY, Opcode.TEXT)
 """Frames that carry a whole message if they are final."""
 FAREWELL = 1.0
@@ -45,10 +47,21 @@ class Gate:
         self._opening: dict[Connection, None] = {}
         self._open: set[Connection] = set()
 
-    @property
-    def is_full(self) -> bool:
-        """Whether there are as many browsers as allowed."""
-        return sum(not connection.is_channel for connection in self._open) >= self.limit
+    def refusal(self, newcomer: Connection) -> str:
+        """Why one more browser may not connect: a sentence, "" if it may."""
+        role = newcomer.grant.role
+        limits = LIMITS[role]
+        browsers = [connection for connection in self._open if not connection.is_channel]
+        limit = int(self.limit * limits.share)
+        if sum(connection.grant.role <= role for connection in browsers) >= limit:
+            reserved = "" if limit == self.limit else f" for {role.label}s"
+            return f"{limit} browsers are connected, which is the limit{reserved}. {CLOSE_ONE}"
+        if len(browsers) >= self.limit:
+            return f"{self.limit} browsers are connected, which is the limit. {CLOSE_ONE}"
+        near = sum(connection.address == newcomer.address for connection in browsers)
+        if near >= limits.per_address:
+            return f"{near} browsers of your address are connected, which is the limit. {CLOSE_ONE}"
+        return ""
 
     def enter(self, connection: Connection) -> None:
         """Adds an opening connection; if there are too many, the oldest is aborted."""
@@ -74,6 +87,12 @@ class Gate:
         finally:
             self._open.discard(connection)
 
+    def expel(self, is_over: Callable[[Connection], bool]) -> None:
+        """Ends open connections at once, and ignores what they have sent."""
+        for connection in filter(is_over, tuple(self._open)):
+            connection.is_expelled = True
+            connection.transport.abort()
+
     def close(self) -> None:
         """Closes all connections, within a second also those that do not respond."""
         if self._handshakes is not None:
@@ -91,7 +110,7 @@ class Allowance:
         burst: messages at once.
     """
 
-    def __init__(self, rate: float = MESSAGES_PER_SECOND, burst: float = BURST) -> None:
+    def __init__(self, rate: float, burst: float) -> None:
         self._rate = rate
         self._credit = burst / rate
         self._paid_until = -float("inf")
@@ -122,11 +141,24 @@ class Connection(websocket.ServerConnection):
         self.is_channel = False
         """Whether this is the channel of a page, instead of viser's own connection."""
         self._gate = gate
-        self.objection: Callable[[str | bytes], str | None] = objection
+        self.objection: Callable[[str | bytes, Role], str | None] = objection
         """The reason to ignore a message, or None."""
-        self._allowance = Allowance()
+        self.is_expelled = False
+        """Whether nothing that it sends counts any more."""
+        self.grant = EVERYBODY
         self._head: bytearray | None = bytearray()
         self._is_refused = False
+
+    @property
+    def grant(self) -> Grant:
+        """What it may do."""
+        return self._grant
+
+    @grant.setter
+    def grant(self, grant: Grant) -> None:
+        self._grant = grant
+        rate = LIMITS[grant.role].messages_per_second
+        self._allowance = Allowance(rate, BURST_S * rate)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Adds the connection to the gate."""
@@ -184,7 +216,9 @@ class Connection(websocket.ServerConnection):
             cost = 1.0 + len(data) / BYTES_PER_MESSAGE
             # Also with a delay of 0: otherwise received messages would keep other tasks waiting.
             await asyncio.sleep(self._allowance.spend(cost, self.loop.time()))
-            objection = self.objection(data)
+            if self.is_expelled:
+                continue
+            objection = self.objection(data, self.grant.role)
             if objection is None:
                 return data
             self.logger.warning("Ignored a message of a browser: %s.", objection)

@@ -8,6 +8,7 @@ before viser sees them, and messages before viser handles them.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import functools
 import gzip
 import http
@@ -19,6 +20,9 @@ import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
+from webviz.data.disk import in_thread
+from webviz.edges.access import login
+from webviz.edges.access.access import CHECK_S, Access
 from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel, objection
 from webviz.edges.page.modules import CHANNEL, Modules
@@ -44,6 +48,7 @@ def guarded_serve(
     tls: ssl.SSLContext | None,
     channel: Channel,
     modules: Modules,
+    access: Access,
 ) -> Callable[..., Any]:
     """Wraps `websockets.asyncio.server.serve` as viser calls it.
 
@@ -57,7 +62,9 @@ def guarded_serve(
         tls: certificate and key; None for plain HTTP.
         channel: to the modules of the page.
         modules: of the page.
+        access: knows who may connect.
     """
+    port = listener.getsockname()[1]
     log = listener.log = sparing_log("webviz.server")
 
     @functools.lru_cache(maxsize=2)
@@ -79,6 +86,12 @@ def guarded_serve(
             return connection.respond(http.HTTPStatus.FORBIDDEN, reason + "\n")
         connection.host = caller.hosts[0].lower()
         path = request.path.partition("?")[0]
+        grant = login.grant_of(access, request.headers, port)
+        if path in PAGES and login.token_in(request.path) and access.asks:
+            return welcomed(connection, request)
+        if grant is None:
+            return turned_away(connection, login.NO_LINK)
+        connection.grant = grant
         if (file := modules.get(path)) is not None:
             response = connection.respond(http.HTTPStatus.OK, "")
             fill(response, *file)
@@ -88,12 +101,8 @@ def guarded_serve(
             connection.is_channel = True
             connection.objection = objection
             return None
-        if gate.is_full:
-            return connection.respond(
-                http.HTTPStatus.SERVICE_UNAVAILABLE,
-                f"{gate.limit} browsers are connected, which is the limit. Close another page of "
-                "webviz.\n",
-            )
+        if full := gate.refusal(connection):
+            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, full + "\n")
         if is_upgrade(request):
             return None
         if path not in PAGES:
@@ -110,6 +119,37 @@ def guarded_serve(
             if is_packed:
                 response.headers["Content-Encoding"] = "gzip"
         return response
+
+    def welcomed(connection: Connection, request: Request) -> Response:
+        welcome = login.welcome(access, request.path, request.headers, port, connection.is_secure)
+        if welcome is None:
+            return turned_away(connection, login.INVALID_LINK)
+        response = connection.respond(welcome.status, "")
+        for name, value in welcome.headers.items():
+            response.headers[name] = value
+        return response
+
+    def turned_away(connection: Connection, reason: str) -> Response:
+        response = connection.respond(http.HTTPStatus.FORBIDDEN, "")
+        fill(response, login.page(reason), "text/html; charset=utf-8")
+        response.headers["Cache-Control"] = "no-store"
+        return response
+
+    def watch_tokens(loop: asyncio.AbstractEventLoop) -> None:
+        """Ends connections whose token was revoked or has expired, again and again."""
+
+        def expel() -> None:
+            gate.expel(lambda connection: not access.holds(connection.grant))
+            loop.call_later(CHECK_S, look)
+
+        def look() -> None:
+            in_thread(access.refresh).add_done_callback(lambda _: tell())
+
+        def tell() -> None:
+            with contextlib.suppress(RuntimeError):  # the server has stopped
+                loop.call_soon_threadsafe(expel)
+
+        look()
 
     def process_response(connection: Connection, _: Request, response: Response) -> None:
         if response.status_code != http.HTTPStatus.SWITCHING_PROTOCOLS:
@@ -136,6 +176,8 @@ def guarded_serve(
                 str(context["message"]).partition(":")[0], exc_info=context.get("exception")
             )
         )
+        if access.asks:
+            watch_tokens(asyncio.get_running_loop())
         options |= {
             "process_request": functools.partial(process_request, options["process_request"]),
             "process_response": process_response,

@@ -7,6 +7,8 @@ from dataclasses import fields
 
 import msgspec
 
+from webviz.edges.access import rules
+from webviz.edges.access.roles import Role
 from webviz.edges.scene.adapter.wire import message_type
 
 MAX_BYTES = 4 << 20
@@ -15,25 +17,13 @@ MAX_BYTES = 4 << 20
 MAX_VISER_BYTES = 4 << 10
 """Maximum size of a message to viser."""
 
-# Messages that viser's page sends of its own accord. Deliberately missing are those of viser's
-# widgets, of which pages show none, and ShareUrlRequest, which opens a public tunnel.
-KINDS = (
-    "SceneNodeClickMessage",
-    "SceneNodeDragMessage",
-    "ScenePointerMessage",
-    "TransformControlsDragEndMessage",
-    "TransformControlsDragStartMessage",
-    "TransformControlsUpdateMessage",
-    "ViewerCameraMessage",
-)
-
 _fields_of = msgspec.msgpack.Decoder(dict[str, msgspec.Raw])
-_decoders = {kind: msgspec.msgpack.Decoder(message_type(kind)) for kind in KINDS}
-_names = {kind: {"type", *(f.name for f in fields(message_type(kind)))} for kind in KINDS}
+_decoders = {kind: msgspec.msgpack.Decoder(message_type(kind)) for kind in rules.SCENE}
+_names = {kind: {"type", *(f.name for f in fields(message_type(kind)))} for kind in rules.SCENE}
 
 
-def objection(data: str | bytes) -> str | None:
-    """The reason to keep a message of a browser from viser, or None."""
+def objection(data: str | bytes, role: Role) -> str | None:
+    """The reason to keep a message of a browser with this role from viser, or None."""
     if not isinstance(data, bytes):
         return "text instead of bytes"
     if len(data) > MAX_VISER_BYTES:
@@ -41,7 +31,7 @@ def objection(data: str | bytes) -> str | None:
     try:
         raw = _fields_of.decode(data)
         kind = msgspec.msgpack.decode(raw.get("type", b"\xc0"), type=str)
-        if kind not in KINDS:
+        if kind not in rules.SCENE:
             return "unknown kind"
         if not raw.keys() <= _names[kind]:
             return f"a {kind} with unknown fields"
@@ -50,7 +40,7 @@ def objection(data: str | bytes) -> str | None:
         return str(error)
     if not all(map(_is_finite, values.values())):
         return f"a {kind} with a number that is not finite"
-    return None
+    return rules.refusal(role, kind) or None
 
 
 def _is_finite(value: object) -> bool:

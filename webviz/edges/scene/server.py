@@ -12,6 +12,7 @@ import viser
 import websockets.asyncio.server as websocket
 
 from webviz.api.nodes import Rgb
+from webviz.edges.access.access import Access
 from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
@@ -37,6 +38,7 @@ def open_server(
     *,
     tls: ssl.SSLContext | None = None,
     trusted_proxies: Iterable[str] = (),
+    access: Access | None = None,
 ) -> Server:
     """Opens a server with an empty, lit scene.
 
@@ -47,6 +49,7 @@ def open_server(
             loopback and `host`.
         tls: certificate and key; None for plain HTTP.
         trusted_proxies: IP addresses or networks of proxies whose forwarded headers are used.
+        access: knows who may connect; None for everybody.
 
     Returns:
         The running server; `stop()` ends its threads and frees the port.
@@ -63,7 +66,9 @@ def open_server(
     gate = Gate(listener.handshakes)
     hosts, channel = HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
-    serve = guarded_serve(websocket.serve, listener, gate, hosts, proxies, tls, channel, modules)
+    serve = guarded_serve(
+        websocket.serve, listener, gate, hosts, proxies, tls, channel, modules, access or Access()
+    )
     with _opening, replaced(websocket, "serve", serve):
         server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)
     greet(server, channel, modules)

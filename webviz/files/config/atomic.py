@@ -46,6 +46,21 @@ def write_text(text: str, path: Path) -> None:
         raise ConfigError(f"Cannot write {path}: it contains non-text data.") from error
 
 
+def write_private(text: str, path: Path) -> None:
+    """Write a file that only its owner can read, atomically; no previous version is kept.
+
+    Raises:
+        OSError: it cannot be written, and the file is unchanged.
+    """
+    target = Path(os.path.realpath(path))
+    with _spare(target.parent) as spare:
+        with os.fdopen(os.open(spare, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        spare.replace(target)
+
+
 def _write(data: bytes, path: Path) -> None:
     if path.exists() and not path.is_file():  # such as /dev/stdout
         # Opening a FIFO would wait for a reader.
@@ -71,7 +86,7 @@ def _replace(data: bytes, target: Path) -> None:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        with _alone_in(target.parent) as folder:
+        with alone_in(target.parent) as folder:
             if target.exists():
                 _keep(target)
             spare.replace(target)
@@ -103,7 +118,7 @@ def _spare(folder: Path) -> Iterator[Path]:
 
 
 @contextlib.contextmanager
-def _alone_in(folder: Path) -> Iterator[int]:
+def alone_in(folder: Path) -> Iterator[int]:
     """A folder's file descriptor, locked against other programs that save in it."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:

@@ -21,6 +21,7 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
+from webviz.edges.access.login import cookie_name
 from webviz.edges.access.tls import doubts, server_context
 from webviz.engine import plugins as plugin_files
 from webviz.engine.commands import Command, Refresh, ShowView, StartWithView
@@ -74,6 +75,7 @@ class Running:
         certfile: str | os.PathLike[str] | None = None,
         keyfile: str | os.PathLike[str] | None = None,
         trust_proxies: Sequence[str] = (),
+        token: bool = False,
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -88,13 +90,25 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
             tls = _tls(certfile, keyfile)
+            from webviz.edges.access.starting import access_to, make_missing
             from webviz.edges.page.pages import Pages
             from webviz.edges.scene import ViserScene, open_server
             from webviz.engine.loop import FrameLoop
             from webviz.shell.pictures.snapshots import Snapshots
 
-            server = open_server(host, port, allow_hosts, tls=tls, trusted_proxies=trust_proxies)
+            # A proxy on this machine brings others.
+            self.access = access_to(host, token or bool(trust_proxies))
+            """Who may connect."""
+            server = open_server(
+                host,
+                port,
+                allow_hosts,
+                tls=tls,
+                trusted_proxies=trust_proxies,
+                access=self.access,
+            )
             closing.add("The server of the page", server.stop)
+            make_missing(self.access)  # until then, nobody can connect
             control = None
             if source is None:
                 source = ros_source(ros_args)
@@ -125,7 +139,7 @@ class Running:
             closing.add("The frame loop", thread.join)
             stack.callback(self._loop.stop)
             scene.link.late.wake = source.inbox.arrived.set
-            self._snapshots = Snapshots(scene, self._drawn, self._look)
+            self._snapshots = Snapshots(scene, self._drawn, self._look, self._cookie())
             closing.add("The browser of pictures", self._snapshots.close)
             watcher.start(self._loop.enqueue)
             closing.add("The plug-in watcher", watcher.stop)
@@ -246,6 +260,10 @@ class Running:
             path = folder / f"{stem}_{number}.png"
         self.screenshot(path)
         return path
+
+    def _cookie(self) -> tuple[str, str] | None:
+        """The cookie of the browser that takes pictures, None if none is asked for."""
+        return (cookie_name(self.port), self.access.own.cookie) if self.access.asks else None
 
     def _drawn(self) -> State:
         self.do(Refresh())

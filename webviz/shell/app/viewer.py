@@ -47,7 +47,7 @@ class Viewer(Running):
         config: a YAML or .rviz file; None for the file in the ROS parameter `config_file`, or else
             the default displays.
         port: of the page; 0 picks a free one.
-        host: address to listen on; 0.0.0.0 lets anyone on the network watch and control the viewer.
+        host: address to listen on. Others than loopback ask browsers for a token; see `token`.
         allow_hosts: host names that browsers may use with `host`.
         fixed_frame: overrides that of the config.
         source: of messages, closed with the viewer; None for the ROS graph.
@@ -60,6 +60,8 @@ class Viewer(Running):
         certfile: PEM file with a certificate, to serve https.
         keyfile: PEM file with its private key; None if `certfile` contains it.
         trust_proxies: IP addresses or networks of proxies whose forwarded headers are used.
+        token: whether browsers of this machine need a link with a token, too. Without tokens in the
+            file of this user or in the environment, one of each role is made: `webviz token`.
         read: reads a config file; called with None for the default config.
 
     Raises:

@@ -13,7 +13,8 @@ from webviz.data.messages import type_exists
 from webviz.files.config import Config
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
-from webviz.shell.cli.viewing_options import LOCAL, ViewingOptions
+from webviz.shell.cli.links import show_links
+from webviz.shell.cli.viewing_options import ViewingOptions
 
 DEMO = Path(__file__).parent / "demo.yaml"
 
@@ -61,6 +62,7 @@ def serve(
             certfile=options.certfile,
             keyfile=options.keyfile,
             trust_proxies=options.trust_proxy,
+            token=options.token,
         ) as viewer:
             stop.then(viewer.stop)
             if options.debug:
@@ -89,12 +91,8 @@ def _import_slow_parts() -> None:
 
 def _announce(options: ViewingOptions, viewer: Viewer) -> None:
     print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
-    if options.host not in (LOCAL, "localhost", "::1"):
-        names = ", ".join(options.allow_host) or "the address given with --host"
-        print(
-            f"webviz: anyone who can reach {options.host}:{viewer.port} can watch and control "
-            f"this viewer. Browsers must address it by {names}."
-        )
+    if viewer.access.asks:
+        show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)
     sys.stdout.flush()
 
 

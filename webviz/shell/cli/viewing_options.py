@@ -19,7 +19,7 @@ class ViewingOptions(ConfigOptions):
     port: Annotated[int, Parameter(validator=validators.Number(gte=0, lte=65535))] = 8080
     """Port of the page; 0 picks a free one."""
     host: Annotated[str, Parameter(metavar="ADDRESS")] = LOCAL
-    """Address to listen on. The default allows this machine only; 0.0.0.0 allows any network."""
+    """Address to listen on; 0.0.0.0 is all networks. Others than the default ask for tokens."""
     allow_host: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
     """Host name that browsers may use with --host (repeatable)."""
     certfile: File | None = None
@@ -28,6 +28,8 @@ class ViewingOptions(ConfigOptions):
     """Private key of the certificate (default: in --certfile)."""
     trust_proxy: Annotated[Repeatable[str], Parameter(metavar="ADDRESS")] = ()
     """Use the X-Forwarded headers of a proxy at this IP address or network (repeatable)."""
+    token: Flag = False
+    """Also ask browsers on this machine for a link with a token, see `webviz token`."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     no_publish: Flag = False

@@ -125,9 +125,17 @@ class Page:
         browser: in which to open it.
         url: of the viewer.
         width, height: of the whole page in pixels.
+        cookie: name and value of the one that lets the browser in, None if none is needed.
     """
 
-    def __init__(self, browser: playwright.Browser, url: str, width: int, height: int) -> None:
+    def __init__(
+        self,
+        browser: playwright.Browser,
+        url: str,
+        width: int,
+        height: int,
+        cookie: tuple[str, str] | None = None,
+    ) -> None:
         self.errors: list[str] = []
         """Errors of scripts in the page."""
         self._crashed = False
@@ -140,6 +148,11 @@ class Page:
             )
         )
         self._context.set_default_timeout(1000.0 * PATIENCE_S)
+        if cookie is not None:
+            name, value = cookie
+            self._alive(
+                lambda: self._context.add_cookies([{"name": name, "value": value, "url": url}])
+            )
         self.tab: playwright.Page = self._alive(self._context.new_page)
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.on("crash", lambda _: setattr(self, "_crashed", True))

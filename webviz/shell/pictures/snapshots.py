@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
 from webviz.api.views import View
@@ -12,6 +13,9 @@ from webviz.edges.scene import ViserScene
 from webviz.engine.state import State
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import LOADING
+
+if TYPE_CHECKING:
+    import playwright.sync_api as playwright
 
 PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
@@ -24,14 +28,20 @@ class Snapshots:
         scene: of the viewer.
         draw: updates the scene and returns the state; thread-safe.
         look: shows a view in a browser; thread-safe.
+        cookie: name and value of the one that lets the browser in, None if none is needed.
     """
 
     def __init__(
-        self, scene: ViserScene, draw: Callable[[], State], look: Callable[[View, int], None]
+        self,
+        scene: ViserScene,
+        draw: Callable[[], State],
+        look: Callable[[View, int], None],
+        cookie: tuple[str, str] | None,
     ) -> None:
         self._scene = scene
         self._draw = draw
         self._look = look
+        self._cookie = cookie
         # playwright needs a thread without an event loop, unlike that of a notebook.
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-snapshot")
 
@@ -58,7 +68,7 @@ class Snapshots:
     def _take(self, url: str, size: tuple[int, int], view: View | None) -> Pixels:
         check_size(size)
         try:
-            with launched() as browser, contextlib.closing(Page(browser, url, *size)) as page:
+            with launched() as browser, self._open(browser, url, size) as page:
                 page.resize_picture(*size)
                 page.pixels()  # the first picture of a tab is smoothed differently
                 client = page.evaluate("() => window.webviz.browser")
@@ -70,6 +80,11 @@ class Snapshots:
                 return page.pixels()
         except TimeoutError as error:
             raise Error(str(error)) from error
+
+    def _open(
+        self, browser: playwright.Browser, url: str, size: tuple[int, int]
+    ) -> contextlib.closing[Page]:
+        return contextlib.closing(Page(browser, url, *size, cookie=self._cookie))
 
     def _is_loaded(self) -> bool:
         """Whether no display is loading; meshes are only read once a browser is connected."""

@@ -1,0 +1,377 @@
+"""Who gets in, as what, and what happens to those who may not or may no longer."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import http.client
+import logging
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import get_origin, get_type_hints
+
+import msgspec
+import pytest
+import websockets.exceptions
+import websockets.sync.client
+
+from tests.scene.conftest import Peer
+from tests.support.guest import Guest
+from webviz.api.vehicle import Velocity
+from webviz.edges.access import roles, rules, token_file
+from webviz.edges.access.access import CHECK_S, Access
+from webviz.edges.access.roles import LIMITS, LINKS, Limits, Role
+from webviz.edges.access.tokens import Token, make
+from webviz.edges.page.acts import NOT_OF_PAGES
+from webviz.edges.page.pages import Pages
+from webviz.edges.scene import open_server
+from webviz.edges.scene.quiet_server import Server
+from webviz.engine.commands import Command, Sender
+from webviz.engine.driving import Answer
+
+PATIENCE_S = 30.0
+PARAMETERS = {role: name for name, role in LINKS.items()}
+
+
+@dataclass
+class House:
+    """A server that asks for tokens, and what reaches the viewer behind it.
+
+    Args:
+        server: of the pages.
+        tokens: one of each role.
+        path: of the file with them.
+    """
+
+    server: Server
+    tokens: dict[Role, Token]
+    path: Path
+
+    def __post_init__(self) -> None:
+        self.reached: list[str] = []
+        self.guests: list[Guest] = []
+        Pages(self.server.channel, self._enqueue, self._steer)
+        self.reached.clear()
+
+    def cookie(self, role: Role) -> str:
+        return f"webviz_{self.server.get_port()}={self.tokens[role].cookie}"
+
+    def enter(self, role: Role) -> Guest:
+        self.guests.append(Guest(self.server, Cookie=self.cookie(role)))
+        return self.guests[-1]
+
+    def ask(self, path: str = "/", method: str = "GET", **headers: str) -> http.client.HTTPResponse:
+        port = self.server.get_port()
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+        connection.request(
+            method, path, headers={k.replace("_", "-"): v for k, v in headers.items()}
+        )
+        response = connection.getresponse()
+        self.body = response.read()
+        connection.close()
+        return response
+
+    def revoke(self, role: Role) -> None:
+        name = self.tokens[role].name
+        token_file.modify(self.path, lambda tokens: [t for t in tokens if t.name != name])
+
+    def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
+        if type(command).__name__ != "Refresh":
+            self.reached.append(type(command).__name__)
+        done: Future[str] = Future()
+        done.set_result("")
+        return done
+
+    def _steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+        self.reached.append("Drive")
+        return Answer()
+
+
+@pytest.fixture
+def house(tmp_path: Path) -> Iterator[House]:
+    path = tmp_path / "tokens.json"
+    now = datetime.now(UTC)
+    tokens = {role: make(f"some {role.label}", role, now) for role in Role}
+    token_file.modify(path, lambda _: list(tokens.values()))
+    server = open_server(port=0, access=Access(True, path))
+    house = House(server, tokens, path)
+    yield house
+    for guest in house.guests:
+        guest.close()
+    server.stop()
+
+
+def wait_until(condition: Callable[[], object]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize(
+    "path", ["/", "/index.html", "/webviz/main.js", "/webviz/constants.js", "/x"]
+)
+@pytest.mark.parametrize("method", ["GET", "HEAD"])
+def test_without_a_cookie_there_is_nothing_but_a_sentence(
+    house: House, path: str, method: str
+) -> None:
+    for cookie in ("", "webviz_1=x", f"webviz_{house.server.get_port()}={'x' * 64}"):
+        response = house.ask(path, method, Cookie=cookie)
+        assert response.status == 403
+        assert b"viser" not in house.body
+        assert (b"asks for a link" in house.body) == (method == "GET")
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_a_link_lets_in_and_is_gone_from_the_address(house: House, role: Role) -> None:
+    secret = house.tokens[role].secret
+    response = house.ask(f"/?{PARAMETERS[role]}={secret}&fixedDpr=1")
+    assert (response.status, response.headers["Location"]) == (303, "./?fixedDpr=1")
+    assert response.headers["Referrer-Policy"] == "no-referrer"
+    assert response.headers["Cache-Control"] == "no-store"
+    cookie = response.headers["Set-Cookie"]
+    assert "HttpOnly; SameSite=Strict" in cookie
+    assert secret not in f"{response.headers}{house.body}"
+    given = cookie.partition(";")[0]
+    assert house.ask("/", Cookie=given).status == 200
+    assert secret.encode() not in house.body
+    assert house.tokens[role].cookie.encode() not in house.body
+
+
+def test_a_link_of_another_site_lets_in_although_the_cookie_is_strict(house: House) -> None:
+    path = f"/?watch={house.tokens[Role.WATCHER].secret}"
+    response = house.ask(path, Sec_Fetch_Site="cross-site")
+    assert (response.status, response.headers["Refresh"]) == (200, "0; url=./")
+    assert "Location" not in response.headers
+
+
+@pytest.mark.parametrize("query", ["watch=", "own=SECRET", "watch=SECRET&own=SECRET", "watch=x"])
+def test_a_wrong_link_is_refused_also_with_a_valid_cookie(house: House, query: str) -> None:
+    path = "/?" + query.replace("SECRET", house.tokens[Role.WATCHER].secret)
+    response = house.ask(path, Cookie=house.cookie(Role.OWNER))
+    assert response.status == 403
+    assert "Set-Cookie" not in response.headers
+    assert b"This link is not valid" in house.body
+
+
+def test_a_link_to_a_file_lets_nobody_in(house: House) -> None:
+    response = house.ask(f"/webviz/main.js?watch={house.tokens[Role.WATCHER].secret}")
+    assert response.status == 403
+
+
+def test_another_site_or_name_gets_no_cookie(house: House) -> None:
+    path = f"/?own={house.tokens[Role.OWNER].secret}"
+    for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}):
+        response = house.ask(path, **headers)
+        assert response.status == 403
+        assert "Set-Cookie" not in response.headers
+        assert house.ask("/", Cookie=house.cookie(Role.OWNER), **headers).status == 403
+
+
+def test_large_cookies_are_refused_and_the_server_goes_on(house: House) -> None:
+    with pytest.raises((ConnectionError, AssertionError)):
+        assert house.ask("/", Cookie="a=" + "x" * (1 << 20)).status == 200
+    for cookie in ("; ".join(["a=b"] * 2000), "\xff\xfe=\xff", f"{house.cookie(Role.OWNER)}\x7f"):
+        assert house.ask("/", Cookie=cookie).status in (400, 403)
+    assert house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 200
+
+
+@pytest.mark.parametrize("path", ["/", "/webviz/channel", "/?own=SECRET"])
+def test_a_websocket_needs_a_cookie(house: House, path: str) -> None:
+    url = f"ws://127.0.0.1:{house.server.get_port()}{path}"
+    url = url.replace("SECRET", house.tokens[Role.OWNER].secret)
+    with pytest.raises(websockets.exceptions.InvalidStatus) as caught:
+        websockets.sync.client.connect(url, additional_headers={"Cookie": "webviz_1=x"})
+    assert caught.value.response.status_code in (303, 403)
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_everything_that_a_page_sends_is_held_against_its_role(
+    house: House, role: Role, caplog: pytest.LogCaptureFixture
+) -> None:
+    guest = house.enter(role)
+    assert guest.receive("You") == {"type": "You", "role": role.label, "name": f"some {role.label}"}
+    for command, required in rules.COMMANDS.items():
+        answer = guest.do(command.__name__, **some_fields(command))
+        assert answer.startswith("Not allowed: ") == (role < required), (command, answer)
+    guest.send("StrokeDone", tool="t", points=[[0, 0, 0]], yaw=0, keys=[], number=5)
+    guest.send("Use", number=6, panel="p", widget="w")
+    guest.send("Drive", tool="t", beat=0, linear=1, lateral=0, angular=0)
+    problem = guest.receive("Helm")["problem"]
+    assert problem.startswith("Not allowed: ") == (role is Role.WATCHER)
+    allowed = {c.__name__ for c, required in rules.COMMANDS.items() if role >= required}
+    acted = {"UseTool", "Drive"} if role > Role.WATCHER else set()
+    internal = {"InspectTopics", "InspectSelections", "InspectTransforms"}
+    assert {*house.reached} - internal == allowed | acted
+
+
+FIELDS: dict[str, dict[str, object]] = {
+    "Identify": {"picks": {"group": "g", "key": "k", "items": []}},
+    "SetBackground": {"color": [1, 2, 3]},
+}
+"""Of commands with fields that are no plain values."""
+
+
+def some_fields(command: type[Command]) -> dict[str, object]:
+    """Values for the fields that a command needs."""
+    plain: dict[object, object] = {float: 1.0, int: 1, bool: True, tuple: []}
+    hints = get_type_hints(command)
+    needed = [
+        field.name
+        for field in dataclasses.fields(command)  # pyright: ignore[reportArgumentType]
+        if field.default is field.default_factory is dataclasses.MISSING
+        and field.name not in NOT_OF_PAGES
+    ]
+    kinds = {name: get_origin(hints[name]) or hints[name] for name in needed}
+    return FIELDS.get(command.__name__) or {n: plain.get(k, "a") for n, k in kinds.items()}
+
+
+def test_what_reaches_viser_is_held_against_the_role(house: House) -> None:
+    guest = house.enter(Role.WATCHER)
+    control = house.server.scene.add_transform_controls("/handle")
+    own = {"type": "TransformControlsUpdateMessage", "name": "/handle", "wxyz": [1, 0, 0, 0]}
+    guest.viser.send({**own, "position": [9, 9, 9]})
+    guest.viser.look(3.0)
+    clients = house.server.get_clients
+    wait_until(lambda: [c.camera.position[0] for c in clients().values()] == [3.0])
+    assert control.position.tolist() == [0, 0, 0]
+    owner = house.enter(Role.OWNER)
+    owner.viser.send({**own, "position": [9, 9, 9]})
+    wait_until(lambda: control.position.tolist() == [9, 9, 9])
+
+
+def test_two_roles_at_once_are_not_mixed_up(house: House) -> None:
+    watcher, owner = house.enter(Role.WATCHER), house.enter(Role.OWNER)
+    for _ in range(20):
+        assert watcher.do("SetFrameRate", hz=1).startswith("Not allowed")
+        assert owner.do("SetFrameRate", hz=1) == ""
+    assert [v.role for v in house.server.channel.visitors().values()] == [Role.WATCHER, Role.OWNER]
+
+
+def test_the_key_of_a_page_gives_no_role(house: House) -> None:
+    owner = Peer(house.server, Cookie=house.cookie(Role.OWNER))
+    key = key_in(owner)
+    url = f"ws://127.0.0.1:{house.server.get_port()}/webviz/channel"
+    cookie = {"Cookie": house.cookie(Role.WATCHER)}
+    with websockets.sync.client.connect(url, additional_headers=cookie) as thief:
+        thief.send(msgspec.json.encode({"type": "Hello", "key": key}).decode())
+        assert msgspec.json.decode(thief.recv(60))["role"] == "watcher"
+    owner.close()
+
+
+def key_in(peer: Peer) -> str:
+    """The key with which a page opens its channel."""
+    (source,) = (m["source"] for m in peer.replay() if m["type"] == "RunJavascriptMessage")
+    return msgspec.json.decode(source.partition("(")[2].removesuffix(");"))["key"]
+
+
+def test_a_revoked_token_closes_its_pages_and_no_others(house: House) -> None:
+    operator, owner = house.enter(Role.OPERATOR), house.enter(Role.OWNER)
+    operator.receive("You")
+    house.revoke(Role.OPERATOR)
+    with pytest.raises(websockets.exceptions.ConnectionClosed):
+        operator.receive("None")
+    with pytest.raises(websockets.exceptions.ConnectionClosed):
+        operator.viser.drain()
+    assert owner.do("Pause") == ""
+    cookie = house.cookie(Role.OPERATOR)
+    assert house.ask("/", Cookie=cookie).status == 403
+    secret = house.tokens[Role.OPERATOR].secret
+    assert house.ask(f"/?operate={secret}", Cookie=cookie).status == 403
+    with pytest.raises(websockets.exceptions.InvalidStatus):
+        house.enter(Role.OPERATOR)
+    assert [v.role for v in house.server.channel.visitors().values()] == [Role.OWNER]
+
+
+def test_what_was_sent_before_a_token_was_revoked_counts_no_more(house: House) -> None:
+    operator = house.enter(Role.OPERATOR)
+    operator.do("Pause")
+    house.reached.clear()
+    house.revoke(Role.OPERATOR)
+    with contextlib.suppress(websockets.exceptions.ConnectionClosed):
+        while True:  # far more than is read in the time that is left
+            operator.send("Do", number=1, command="Reset", arguments={})
+    seen = len(house.reached)
+    time.sleep(0.2)
+    assert len(house.reached) == seen
+
+
+def test_an_expired_token_closes_its_pages(tmp_path: Path) -> None:
+    now = datetime.now(UTC)
+    clock = [now]
+    token = make("a", Role.WATCHER, now, days=1.0)
+    access = Access(True, others=(token,), now=lambda: clock[0])
+    server = open_server(port=0, access=access)
+    guest = Guest(server, Cookie=f"webviz_{server.get_port()}={token.cookie}")
+    try:
+        guest.receive("You")
+        clock[0] = now + timedelta(days=1.0)
+        with pytest.raises(websockets.exceptions.ConnectionClosed):
+            guest.receive("None")
+    finally:
+        guest.close()
+        server.stop()
+
+
+def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    few = {
+        Role.WATCHER: Limits(0.5, 64, 100.0, 1000),
+        Role.OPERATOR: Limits(0.75, 64, 100.0, 1000),
+        Role.OWNER: Limits(1.0, 64, 100.0, 1000),
+    }
+    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", few)
+    monkeypatch.setattr("webviz.edges.scene.connections.MAX_BROWSERS", 4)
+    server = open_server(port=0, access=Access(True, house.path))
+    small = House(server, house.tokens, house.path)
+    try:
+        for role, count in ((Role.WATCHER, 2), (Role.OPERATOR, 1), (Role.OWNER, 1)):
+            for _ in range(count):
+                small.enter(role).receive("You")
+            assert small.ask("/", Cookie=small.cookie(role)).status == 503
+            assert b"which is the limit" in small.body
+    finally:
+        for guest in small.guests:
+            guest.close()
+        server.stop()
+
+
+def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000)}
+    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", one)
+    house.enter(Role.WATCHER).receive("You")
+    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
+    assert b"1 browsers of your address" in house.body
+    assert house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 200
+
+
+def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:
+    guest = house.enter(Role.WATCHER)
+    name = "x" * roles.LIMITS[Role.WATCHER].max_characters
+    guest.send("Do", number=1, command="FocusFrame", arguments={"frame": name})
+    guest.send("Do", number=2, command="Export", arguments={})
+    assert guest.receive("Done")["number"] == 2
+
+
+def test_no_secret_reaches_the_log(house: House, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG)
+    secret = house.tokens[Role.OWNER].secret
+    house.ask(f"/?own={secret}")
+    house.ask(f"/?watch={secret}")
+    house.ask(f"/webviz/channel?own={secret}")
+    guest = house.enter(Role.WATCHER)
+    guest.do("Save")
+    house.revoke(Role.OWNER)
+    time.sleep(CHECK_S)
+    said = [r.getMessage() for r in caplog.records if r.name != "websockets.client"]
+    for token in house.tokens.values():
+        assert token.secret not in f"{said}"
+        assert token.cookie not in f"{said}"
+
+
+def test_a_stopped_server_leaves_no_task(house: House, capfd: pytest.CaptureFixture[str]) -> None:
+    house.server.stop()
+    assert capfd.readouterr().err == ""

@@ -1,0 +1,132 @@
+"""The rules name every message, command and store, and no role may do more than they say."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import pytest
+
+from webviz import commands
+from webviz.edges.access import rules
+from webviz.edges.access.roles import LIMITS, LINKS, Role
+from webviz.edges.page import messages
+from webviz.edges.page.content import MAKERS
+from webviz.edges.page.messages import FromPage
+from webviz.edges.page.refusals import answer
+from webviz.edges.scene.adapter.wire import message_type
+from webviz.engine.commands import Command
+
+NOT_OF_PAGES = {
+    "Command": "base class",
+    "FileCommand": "base class",
+    "ViewCommand": "base class",
+    "InspectSelections": "follows from the stores that pages watch",
+    "InspectTopic": "of programs",
+    "InspectTopics": "follows from the stores that pages watch",
+    "InspectTransforms": "follows from the stores that pages watch",
+    "Refresh": "of programs; watching a store sends it",
+    "ReloadPlugin": "runs code of a file",
+    "TraceDisplay": "of programs",
+    "UseTool": "a page sends a StrokeDone",
+}
+"""Commands that no page may send, and why."""
+
+WATCHING = {
+    "ChangeView",
+    "Export",
+    "FocusDisplay",
+    "FocusFrame",
+    "Identify",
+    "ResetView",
+    "SaveImage",
+    "Select",
+    "ShowView",
+    "WriteDisplays",
+}
+OWNING = {"Load", "Open", "Save"}
+
+
+def every_command() -> set[str]:
+    public = [getattr(commands, name) for name in commands.__all__]
+    return {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
+
+
+def every_message() -> set[str]:
+    found = [value for value in vars(messages).values() if isinstance(value, type)]
+    return {c.__name__ for c in found if issubclass(c, FromPage) and c is not FromPage}
+
+
+def test_every_command_has_a_role_or_a_reason_why_no_page_may_send_it() -> None:
+    allowed = {command.__name__ for command in rules.COMMANDS}
+    assert not allowed & NOT_OF_PAGES.keys()
+    assert allowed | NOT_OF_PAGES.keys() == every_command()
+
+
+def test_every_message_of_pages_has_a_role() -> None:
+    assert rules.MESSAGES.keys() == every_message()
+
+
+def test_every_message_to_viser_is_one_that_viser_knows() -> None:
+    assert all(message_type(kind) for kind in rules.SCENE)
+    assert rules.MESSAGES.keys().isdisjoint(rules.SCENE)
+
+
+def test_stores_with_a_role_of_their_own_exist() -> None:
+    assert rules.STORES.keys() <= MAKERS.keys() | {"people", "journal"}
+
+
+@pytest.mark.parametrize("command", sorted(every_command()))
+def test_what_a_role_may_command_every_higher_role_may_too(command: str) -> None:
+    may = [not rules.refusal(role, "Do", command) for role in Role]
+    assert may == sorted(may)
+    if command in NOT_OF_PAGES:
+        assert may == [False, False, False]
+    elif command in WATCHING:
+        assert may == [True, True, True]
+    else:
+        assert may == [False, command not in OWNING, True]
+
+
+@pytest.mark.parametrize("kind", sorted({*rules.MESSAGES, *rules.SCENE} - {"Do"}))
+def test_a_watcher_sends_nothing_that_others_notice(kind: str) -> None:
+    harmless = {"Answer", "Hello", "Ping", "Unwatch", "ViewReport", "ViewerCameraMessage", "Watch"}
+    assert (rules.refusal(Role.WATCHER, kind) == "") == (kind in harmless)
+    assert rules.refusal(Role.OWNER, kind) == ""
+
+
+@pytest.mark.parametrize(
+    "kind", ["", "None", "You", "Shell", "GuiUpdateMessage", "ShareUrlRequest"]
+)
+def test_what_is_not_listed_is_refused_to_everybody(kind: str) -> None:
+    assert all(rules.refusal(role, kind) for role in Role)
+
+
+def test_a_refusal_is_one_sentence_with_a_remedy() -> None:
+    assert rules.refusal(Role.WATCHER, "Drive") == (
+        "Not allowed: this needs an operator, and you are a watcher. Ask the owner of this viewer "
+        "for another link."
+    )
+
+
+def test_a_store_of_owners_is_for_owners(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(cast(dict[str, Role], rules.STORES), "secret", Role.OWNER)
+    assert rules.refusal(Role.OPERATOR, "Watch", store="secret:1")
+    assert not rules.refusal(Role.OWNER, "Watch", store="secret")
+    assert not rules.refusal(Role.WATCHER, "Watch", store="secrets")
+
+
+def test_what_is_answered_is_refused_in_words() -> None:
+    drive = messages.Drive("tool", 1, 0.0, 0.0, 0.0)
+    assert answer(drive, "No.") == messages.Helm("tool", 0, None, "No.")
+    stroke = messages.StrokeDone("tool", (), 0.0, (), number=3)
+    assert answer(stroke, "No.") == messages.Result(3, "error", "No.")
+    for asked in (messages.Do(7, "Save", {}), messages.Use(7, "panel", "button")):
+        assert answer(asked, "No.") == messages.Done(7, "error", "No.", "")
+    assert answer(messages.Ping(), "No.") is None
+
+
+def test_every_role_has_limits_and_a_link() -> None:
+    assert {*LIMITS} == {*LINKS.values()} == {*Role}
+    shares = [LIMITS[role].share for role in Role]
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0

@@ -1,0 +1,331 @@
+"""Tokens: what they are made of, where they are kept, and until when they count."""
+
+from __future__ import annotations
+
+import os
+import threading
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from websockets.datastructures import Headers
+
+from webviz.edges.access import login, token_file
+from webviz.edges.access.access import EVERYBODY, Access
+from webviz.edges.access.roles import Role
+from webviz.edges.access.starting import access_to, is_local, link, make_missing
+from webviz.edges.access.tokens import MAX_TOKENS, Token, TokenError, make
+
+NOW = datetime(2030, 1, 1, tzinfo=UTC)
+SECRET = "A" * 32
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "webviz" / "tokens.json"
+
+
+def token(name: str = "Ada", role: Role = Role.OPERATOR, days: float | None = None) -> Token:
+    return make(name, role, NOW, days)
+
+
+def access(*tokens: Token, now: datetime = NOW) -> Access:
+    return Access(True, others=tokens, now=lambda: now)
+
+
+def test_secrets_are_random_and_long() -> None:
+    secrets = {token().secret for _ in range(100)}
+    assert len(secrets) == 100
+    assert {len(secret) for secret in secrets} == {32}
+
+
+def test_a_secret_is_not_shown_by_accident() -> None:
+    made = token()
+    assert made.secret not in f"{made!r} {made} {[made]}"
+    assert made.cookie not in f"{made!r}"
+
+
+def test_a_cookie_is_not_the_secret_of_the_link() -> None:
+    made = token()
+    assert made.secret not in made.cookie
+    assert access(made).by_secret(made.cookie, Role.OPERATOR) is None
+    assert access(made).by_cookie(made.secret) is None
+
+
+@pytest.mark.parametrize(
+    "name", ["", " ", "a\nb", "a\x1b[2J", "a" * 41, "../a", "a'", "a ", "a\u202eb", "\ud800", "a\n"]
+)
+def test_a_name_that_could_deceive_in_a_log_is_refused(name: str) -> None:
+    with pytest.raises(TokenError, match=r"^A name has 1 to 40 letters"):
+        token(name)
+
+
+@pytest.mark.parametrize("days", [0.0, -1.0, float("nan"), 1e308, 1e-12])
+def test_a_time_that_makes_no_sense_is_refused(days: float) -> None:
+    with pytest.raises(TokenError, match="is not a valid number of days"):
+        token(days=days)
+
+
+def test_a_link_gives_the_role_that_it_names_and_no_other() -> None:
+    made = token()
+    known = access(made)
+    for role in Role:
+        assert (known.by_secret(made.secret, role) is not None) == (role is Role.OPERATOR)
+    assert link("http://robot:8080", made) == f"http://robot:8080/?operate={made.secret}"
+
+
+@pytest.mark.parametrize(
+    "given", ["", "é" * 32, "\ud800", "A" * (1 << 20), SECRET[:-1], SECRET + "A"]
+)
+def test_a_wrong_secret_or_cookie_gives_nothing(given: str) -> None:
+    known = access(Token("a", "owner", SECRET, NOW))
+    assert known.by_secret(given, Role.OWNER) is None
+    assert known.by_cookie(given) is None
+
+
+def test_an_expired_token_counts_no_more() -> None:
+    made = token(days=1.0)
+    grant = access(made).by_secret(made.secret, Role.OPERATOR)
+    assert grant is not None
+    for hours, is_valid in ((23, True), (24, False), (25, False)):
+        later = access(made, now=NOW + timedelta(hours=hours))
+        assert (later.by_secret(made.secret, Role.OPERATOR) is not None) == is_valid
+        assert (later.by_cookie(made.cookie) is not None) == later.holds(grant) == is_valid
+
+
+def test_without_tokens_everybody_is_an_owner() -> None:
+    assert Access().by_cookie("") is EVERYBODY
+    assert EVERYBODY.role is Role.OWNER
+
+
+def test_the_program_itself_is_a_watcher_that_nobody_sees() -> None:
+    known = access()
+    grant = known.by_cookie(known.own.cookie)
+    assert grant is not None
+    assert grant.role is Role.WATCHER
+    assert known.tokens == ()
+
+
+def test_the_file_is_private_and_comes_back(path: Path) -> None:
+    made = [token("a"), token("b", days=3.0)]
+    old = os.umask(0)
+    try:
+        token_file.modify(path, lambda _: made)
+    finally:
+        os.umask(old)
+    assert path.stat().st_mode & 0o777 == 0o600
+    assert path.parent.stat().st_mode & 0o777 == 0o700
+    assert token_file.read(path) == tuple(made)
+    assert [each.name for each in path.parent.iterdir()] == ["tokens.json"]
+
+
+def test_no_file_is_no_token(path: Path) -> None:
+    assert token_file.read(path) == ()
+
+
+@pytest.mark.parametrize("mode", [0o640, 0o604, 0o620, 0o660, 0o644, 0o601])
+def test_a_file_that_others_may_read_is_refused_with_the_remedy(path: Path, mode: int) -> None:
+    token_file.modify(path, lambda _: [token()])
+    path.chmod(mode)
+    with pytest.raises(TokenError, match=rf"mode {mode:04o}.*Run `chmod 600 {path}`"):
+        token_file.read(path)
+    with pytest.raises(TokenError, match="chmod 600"):
+        access_to("127.0.0.1", True, path, {})
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{",
+        "[]",
+        "[" * 100_000,
+        '{"tokens": [{"name": "a", "role": "king", "secret": "SECRET", "made": "2030-01-01T00:00Z"}'
+        "]}",
+        '{"tokens": [{"name": "a", "role": "owner", "secret": "SECRET"}]}',
+        '{"tokens": [{"name": "a", "role": "owner", "secret": "a", "made": "2030-01-01T00:00:00Z"}'
+        "]}",
+        '{"tokens": [], "more": "SECRET"}',
+        "\x00",
+    ],
+)
+def test_an_invalid_file_is_an_error_that_quotes_no_secret(path: Path, text: str) -> None:
+    path.parent.mkdir()
+    path.write_text(text.replace("SECRET", SECRET))
+    path.chmod(0o600)
+    with pytest.raises(TokenError, match="is not a valid file of tokens") as caught:
+        token_file.read(path)
+    assert SECRET not in str(caught.value)
+    assert caught.value.__cause__ is None
+
+
+def test_what_is_no_file_is_an_error_at_once(path: Path) -> None:
+    path.parent.mkdir()
+    os.mkfifo(path, 0o600)
+    with pytest.raises(TokenError, match="is not a file"):
+        token_file.read(path)
+
+
+def test_two_tokens_of_one_name_are_refused(path: Path) -> None:
+    token_file.modify(path, lambda _: [token("a"), token("a")])
+    with pytest.raises(TokenError, match="two tokens of one name"):
+        token_file.read(path)
+
+
+def test_there_are_not_too_many_tokens(path: Path) -> None:
+    with pytest.raises(TokenError, match=f"There are {MAX_TOKENS} tokens, which is the limit"):
+        token_file.modify(path, lambda _: [token(str(n)) for n in range(MAX_TOKENS + 1)])
+    assert not path.exists()
+
+
+def test_programs_that_change_the_file_at_once_lose_nothing(path: Path) -> None:
+    def add(number: int) -> None:
+        token_file.modify(path, lambda tokens: [*tokens, token(str(number))])
+
+    threads = [threading.Thread(target=add, args=(number,)) for number in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert {each.name for each in token_file.read(path)} == {str(number) for number in range(8)}
+
+
+def test_a_token_that_is_revoked_in_the_file_counts_no_more(path: Path) -> None:
+    kept, revoked = token("kept"), token("revoked")
+    token_file.modify(path, lambda _: [kept, revoked])
+    known = Access(True, path, now=lambda: NOW)
+    grant = known.by_cookie(revoked.cookie)
+    assert grant is not None
+    token_file.modify(path, lambda tokens: [t for t in tokens if t.name != "revoked"])
+    known.refresh()
+    assert not known.holds(grant)
+    assert known.by_cookie(revoked.cookie) is None
+    assert known.by_cookie(kept.cookie) is not None
+
+
+def test_no_token_of_a_file_counts_that_others_may_read_meanwhile(
+    path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    made = token()
+    token_file.modify(path, lambda _: [made])
+    known = Access(True, path, now=lambda: NOW)
+    path.chmod(0o644)
+    known.refresh()
+    assert known.by_cookie(made.cookie) is None
+    assert "chmod 600" in caplog.text
+    path.chmod(0o600)
+    known.refresh()
+    assert known.by_cookie(made.cookie) is not None
+
+
+def test_tokens_of_the_environment_are_taken_out_of_it() -> None:
+    environment = {"WEBVIZ_TOKEN_OPERATE": SECRET, "HOME": "/"}
+    known = access_to("127.0.0.1", environment=environment)
+    assert known.asks
+    assert known.by_secret(SECRET, Role.OPERATOR) is not None
+    assert environment == {"HOME": "/"}
+
+
+@pytest.mark.parametrize("secret", ["short", "a b" * 20, "ü" * 30, "x" * 201, "a" * 30 + "\n"])
+def test_a_weak_token_of_the_environment_is_refused_and_not_quoted(secret: str) -> None:
+    with pytest.raises(TokenError, match=r"^WEBVIZ_TOKEN_OWN must have 22 to 200") as caught:
+        access_to("127.0.0.1", environment={"WEBVIZ_TOKEN_OWN": secret})
+    assert secret not in str(caught.value)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "::1", "127.3.2.1"])
+def test_this_machine_alone_needs_no_token_unless_asked(host: str, path: Path) -> None:
+    assert is_local(host)
+    assert not access_to(host, path=path, environment={}).asks
+    assert access_to(host, True, path, {}).asks
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "", "192.0.2.1", "2001:db8::1"])
+def test_others_need_a_token(host: str, path: Path) -> None:
+    assert not is_local(host)
+    known = access_to(host, path=path, environment={})
+    assert known.asks
+    assert known.by_cookie("") is None
+    assert not path.exists()
+    make_missing(known)
+    assert [each.role for each in known.tokens] == ["watcher", "operator", "owner"]
+    before = path.read_bytes()
+    make_missing(access_to(host, path=path, environment={}))
+    assert path.read_bytes() == before
+
+
+def test_a_viewer_that_nobody_could_enter_does_not_start(path: Path) -> None:
+    old = Token("a", "owner", SECRET, NOW, datetime(2000, 1, 1, tzinfo=UTC))
+    token_file.modify(path, lambda _: [old])
+    with pytest.raises(TokenError, match=r"has expired\. Run `webviz token make`"):
+        make_missing(access_to("0.0.0.0", path=path, environment={}))
+
+
+def headers(*cookies: str, **more: str) -> Headers:
+    return Headers([*(("Cookie", cookie) for cookie in cookies), *more.items()])
+
+
+def test_a_cookie_is_that_of_the_port() -> None:
+    made = token()
+    known = access(made)
+    assert login.grant_of(known, headers(f"webviz_80={made.cookie}"), 80)
+    assert login.grant_of(known, headers(f"a=b; webviz_80 = {made.cookie} ;c"), 80)
+    for wrong in (
+        f"webviz_81={made.cookie}",
+        f"Webviz_80={made.cookie}",
+        f"webviz_80={made.cookie}x",
+        f"webviz_80={made.cookie.upper()}",
+        f"webviz_80={made.secret}",
+        "webviz_80=",
+        "webviz_80",
+        "",
+        ";" * 10_000 + f"webviz_80={made.cookie}",
+    ):
+        assert login.grant_of(known, headers(wrong), 80) is None
+
+
+def test_a_cookie_that_another_service_of_the_host_sets_shadows_none() -> None:
+    made = token()
+    tossed = f"webviz_80=other; webviz_80={made.cookie}"
+    assert login.grant_of(access(made), headers(tossed), 80)
+    assert login.grant_of(access(made), headers("webviz_80=other", f"webviz_80={made.cookie}"), 80)
+
+
+def test_a_link_leads_to_an_address_without_the_token() -> None:
+    made = token(days=1.0)
+    answer = login.welcome(
+        access(made), f"/?fixedDpr=1&operate={made.secret}", headers(), 80, is_secure=False
+    )
+    assert answer is not None
+    assert (answer.status, answer.headers["Location"]) == (303, "./?fixedDpr=1")
+    assert answer.headers["Set-Cookie"] == (
+        f"webviz_80={made.cookie}; Max-Age=86400; HttpOnly; SameSite=Strict"
+    )
+    assert made.secret not in str(answer)
+
+
+def test_with_tls_the_cookie_is_sent_by_tls_only() -> None:
+    made = token()
+    answer = login.welcome(access(made), f"/?operate={made.secret}", headers(), 80, is_secure=True)
+    assert answer is not None
+    assert answer.headers["Set-Cookie"].endswith("; SameSite=Strict; Secure")
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "",
+        "operate=",
+        "own=SECRET",
+        "operate=SECRET&operate=SECRET",
+        "operate=SECRET&watch=SECRET",
+        "operate=%00SECRET",
+        "operate=SECRET%00",
+        "OPERATE=SECRET",
+        "&".join(["a=b"] * 30) + "&operate=SECRET",
+    ],
+)
+def test_a_link_that_is_not_exactly_right_is_refused(query: str) -> None:
+    made = token()
+    path = "/?" + query.replace("SECRET", made.secret)
+    assert login.welcome(access(made), path, headers(), 80, is_secure=False) is None

@@ -1,0 +1,54 @@
+"""A program that talks to a server as a page does, over both of its websockets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+import websockets.sync.client
+
+from tests.scene.conftest import Peer
+from webviz.edges.scene.quiet_server import Server
+
+
+class Guest:
+    """Joins as a page does.
+
+    Args:
+        server: of the pages.
+        headers: of its requests, such as a cookie.
+    """
+
+    def __init__(self, server: Server, **headers: str) -> None:
+        self.channel = server.channel
+        self.viser = Peer(server, **headers)
+        self.viser.look()
+        for message in self.viser.replay():
+            if message["type"] == "RunJavascriptMessage":
+                source = message["source"].partition("(")[2].removesuffix(");")
+                self.page = msgspec.json.decode(source)
+        url = f"ws://127.0.0.1:{server.get_port()}/webviz/channel"
+        self._socket = websockets.sync.client.connect(
+            url, compression=None, close_timeout=0.1, additional_headers=headers
+        )
+        self.send("Hello", key=self.page["key"])
+
+    def send(self, type_: str, **fields: Any) -> None:
+        """Send a message."""
+        self._socket.send(msgspec.json.encode({"type": type_, **fields}).decode())
+
+    def receive(self, type_: str) -> dict[str, Any]:
+        """The next message of a type."""
+        while (message := msgspec.json.decode(self._socket.recv(60)))["type"] != type_:
+            pass
+        return message
+
+    def do(self, command: str, **arguments: Any) -> str:
+        """The answer to a command."""
+        self.send("Do", number=1, command=command, arguments=arguments)
+        return self.receive("Done")["text"]
+
+    def close(self) -> None:
+        """End the connections."""
+        self._socket.close()
+        self.viser.close()

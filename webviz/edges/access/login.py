@@ -1,0 +1,126 @@
+"""Who sends an HTTP request: by the cookie of the browser, or by a link with a token."""
+
+from __future__ import annotations
+
+import html
+import http
+from collections.abc import Iterator
+from dataclasses import dataclass
+from urllib.parse import parse_qsl, urlencode
+
+from websockets.datastructures import Headers
+
+from webviz.edges.access.access import Access, Grant
+from webviz.edges.access.roles import LINKS
+
+MAX_FIELDS = 20
+"""Parameters of an address; viser's page has two."""
+MAX_COOKIES = 50
+MAX_AGE_S = 30 * 24 * 3600
+"""For a browser to remember a token that does not expire earlier."""
+
+NO_LINK = (
+    "This viewer asks for a link. Ask its owner for one, or run `webviz token make` on the machine "
+    "that runs webviz."
+)
+INVALID_LINK = (
+    "This link is not valid: it was revoked, has expired, or is incomplete. Ask the owner of this "
+    "viewer for another one."
+)
+
+
+@dataclass(frozen=True)
+class Welcome:
+    """The response to a valid link.
+
+    Args:
+        status: of the response.
+        headers: of the response.
+    """
+
+    status: http.HTTPStatus
+    headers: dict[str, str]
+
+
+def cookie_name(port: int) -> str:
+    """The name of the cookie, which all ports of a host share."""
+    return f"webviz_{port}"
+
+
+def grant_of(access: Access, headers: Headers, port: int) -> Grant | None:
+    """What a request may do by its cookie, None for nothing."""
+    if not access.asks:
+        return access.by_cookie("")
+    grants = (access.by_cookie(value) for value in _cookies(headers, cookie_name(port)))
+    return max(filter(None, grants), key=lambda grant: grant.role, default=None)
+
+
+def token_in(path: str) -> bool:
+    """Whether the address of a request carries a token, valid or not."""
+    return any(name in LINKS for name, _ in _fields(path) or ())
+
+
+def welcome(
+    access: Access, path: str, headers: Headers, port: int, is_secure: bool
+) -> Welcome | None:
+    """The response to a link with a token: a cookie, and the address without it.
+
+    Args:
+        access: knows the tokens.
+        path: of the request, with its parameters.
+        headers: of the request.
+        port: of the server.
+        is_secure: whether browsers reach the server by TLS.
+
+    Returns:
+        None if the link is not valid.
+    """
+    fields = _fields(path) or []
+    given = [(LINKS[name], value) for name, value in fields if name in LINKS]
+    if len(given) != 1 or (grant := access.by_secret(given[0][1], given[0][0])) is None:
+        return None
+    rest = urlencode([(name, value) for name, value in fields if name not in LINKS])
+    # Relative, so that it is right behind a proxy; without a path the cookie is that of the folder.
+    address = f"./?{rest}" if rest else "./"
+    age = min(MAX_AGE_S, access.seconds_left(grant))
+    cookie = f"{cookie_name(port)}={grant.cookie}; Max-Age={age:.0f}; HttpOnly; SameSite=Strict"
+    answer = {
+        "Set-Cookie": f"{cookie}; Secure" if is_secure else cookie,
+        "Cache-Control": "no-store",
+    }
+    if headers.get("Sec-Fetch-Site", "none") == "cross-site":
+        # Browsers would not send the cookie after a redirect that began at another site.
+        return Welcome(http.HTTPStatus.OK, {**answer, "Refresh": f"0; url={address}"})
+    return Welcome(http.HTTPStatus.SEE_OTHER, {**answer, "Location": address})
+
+
+def page(sentence: str) -> bytes:
+    """A page for people who may not see the viewer."""
+    text = "".join(
+        f"<code>{part}</code>" if number % 2 else part
+        for number, part in enumerate(html.escape(sentence).split("`"))
+    )
+    return (
+        "<!doctype html><html lang=en><meta charset=utf-8><title>webviz</title>"
+        "<meta name=viewport content='width=device-width'>"
+        "<style>body{font:16px/1.5 system-ui,sans-serif;max-width:32em;margin:20vh auto;"
+        "padding:0 1em;background:#1e1e1e;color:#ddd}</style>"
+        f"<h1>webviz</h1><p>{text}</p></html>\n"
+    ).encode()
+
+
+def _fields(path: str) -> list[tuple[str, str]] | None:
+    """The parameters of an address, None if there are too many."""
+    try:
+        return parse_qsl(path.partition("?")[2], keep_blank_values=True, max_num_fields=MAX_FIELDS)
+    except ValueError:
+        return None
+
+
+def _cookies(headers: Headers, name: str) -> Iterator[str]:
+    """The values of a cookie, of which other sites of the same host may have set more."""
+    pairs = "; ".join(headers.get_all("Cookie")).split(";", MAX_COOKIES)[:MAX_COOKIES]
+    for pair in pairs:
+        key, _, value = pair.partition("=")
+        if key.strip() == name:
+            yield value.strip()

@@ -1,0 +1,57 @@
+"""The roles of those who open the page."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+
+class Role(enum.IntEnum):
+    """What somebody may do; each role includes those before it."""
+
+    WATCHER = 1
+    """Looks: has a camera, a view and a selection of their own, and reads the panels."""
+    OPERATOR = 2
+    """Also changes displays and views, uses tools and drives."""
+    OWNER = 3
+    """Also opens, saves and uploads configs, and invites others."""
+
+    @property
+    def label(self) -> str:
+        """Its name in texts, such as "watcher"."""
+        return self.name.lower()
+
+    @property
+    def phrase(self) -> str:
+        """Its name with an article."""
+        return f"an {self.label}" if self.label[0] in "aeiou" else f"a {self.label}"
+
+
+LINKS = {"watch": Role.WATCHER, "operate": Role.OPERATOR, "own": Role.OWNER}
+"""The parameter of a link that carries a token, by which people see what the link is for."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one connection may use.
+
+    Args:
+        share: of all connections that there may be, as far as connections of this role and of those
+            below it together may fill them: many watchers cannot keep the owner out.
+        per_address: browsers from one network address.
+        messages_per_second: received from it on average; a page sends 50 while the user drags
+            something.
+        max_characters: of one message; the longest of an owner is a config.
+    """
+
+    share: float
+    per_address: int
+    messages_per_second: float
+    max_characters: int
+
+
+LIMITS = {
+    Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 20),
+    Role.OPERATOR: Limits(0.9, 32, 200.0, 3 << 20),
+    Role.OWNER: Limits(1.0, 64, 200.0, 3 << 20),
+}

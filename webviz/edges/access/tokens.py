@@ -1,0 +1,121 @@
+"""Tokens: secrets that make whoever knows one a watcher, an operator or an owner."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import re
+import secrets
+from collections.abc import Iterable
+from datetime import datetime, timedelta
+from typing import Annotated, Literal
+
+import msgspec
+
+from webviz.api.errors import Error
+from webviz.edges.access.roles import Role
+
+SECRET_BYTES = 24
+"""192 bits, which make 32 characters of a link."""
+MIN_CHARACTERS, MAX_CHARACTERS = 22, 200
+"""Of a secret that was not made here; 22 of 64 different characters hold 128 bits."""
+MAX_TOKENS = 100
+MAX_NAME = 40
+SECRET = re.compile(rf"[A-Za-z0-9_-]{{{MIN_CHARACTERS},{MAX_CHARACTERS}}}")
+NAME = rf"^[\w.@+-](?:[\w .@+-]{{0,{MAX_NAME - 2}}}[\w.@+-])?\Z"
+"""Letters, digits and some signs; no control characters, since logs show it."""
+
+_PURPOSE = b"webviz cookie"
+
+
+class TokenError(Error):
+    """Tokens cannot be read, written or made; the message says why."""
+
+
+class Token(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A secret and what it is for.
+
+    Args:
+        name: of the person or group that has it.
+        role: that it gives.
+        secret: part of the link.
+        made: when it was made.
+        expires: from when on it is not valid any more, None for never.
+    """
+
+    name: Annotated[str, msgspec.Meta(pattern=NAME)]
+    role: Literal["watcher", "operator", "owner"]
+    secret: Annotated[str, msgspec.Meta(pattern=rf"^{SECRET.pattern}\Z")]
+    made: Annotated[datetime, msgspec.Meta(tz=True)]
+    expires: Annotated[datetime, msgspec.Meta(tz=True)] | None = None
+
+    def __repr__(self) -> str:
+        return f"<token {self.name} of {Role[self.role.upper()].phrase}>"
+
+    @property
+    def cookie(self) -> str:
+        """The value of the cookie of browsers with this token, from which it cannot be derived."""
+        return hmac.new(self.secret.encode(), _PURPOSE, hashlib.sha256).hexdigest()
+
+    def is_valid(self, now: datetime) -> bool:
+        """Whether it has not expired."""
+        return self.expires is None or now < self.expires
+
+
+def make(name: str, role: Role, now: datetime, days: float | None = None) -> Token:
+    """A new token with a random secret.
+
+    Args:
+        name: of the person or group that gets it.
+        role: that it gives.
+        now: the time.
+        days: until it expires, None for never.
+
+    Raises:
+        TokenError: the name or the time is not allowed.
+    """
+    if not re.match(NAME, name):
+        raise TokenError(
+            f"A name has 1 to {MAX_NAME} letters, digits, spaces and . @ + - _, unlike {name!r}."
+        )
+    try:
+        expires = None if days is None else now + timedelta(days=days)
+    except (OverflowError, ValueError):
+        expires = now
+    if expires is not None and expires <= now:
+        raise TokenError(f"{days:g} is not a valid number of days. Use one above 0, such as 7.")
+    return Token(name, role_name(role), secrets.token_urlsafe(SECRET_BYTES), now, expires)
+
+
+def role_name(role: Role) -> Literal["watcher", "operator", "owner"]:
+    """The role as tokens have it."""
+    names: dict[Role, Literal["watcher", "operator", "owner"]] = {
+        Role.WATCHER: "watcher",
+        Role.OPERATOR: "operator",
+        Role.OWNER: "owner",
+    }
+    return names[role]
+
+
+def role_of(token: Token) -> Role:
+    """The role that a token gives."""
+    return Role[token.role.upper()]
+
+
+def by_secret(tokens: Iterable[Token], secret: str) -> Token | None:
+    """The token with a secret; the time it takes says nothing about it."""
+    return _find(((token, token.secret) for token in tokens), secret)
+
+
+def by_cookie(tokens: Iterable[Token], cookie: str) -> Token | None:
+    """The token with a cookie; the time it takes says nothing about it."""
+    return _find(((token, token.cookie) for token in tokens), cookie)
+
+
+def _find(known: Iterable[tuple[Token, str]], given: str) -> Token | None:
+    found = None
+    data = given.encode(errors="replace")
+    for token, text in known:
+        if hmac.compare_digest(text.encode(), data):
+            found = token
+    return found
