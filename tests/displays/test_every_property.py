@@ -137,6 +137,8 @@ ROBOT = """
 def robots(bench: Any) -> None:
     bench.transform("map", "base", (1.0, 0.0, 0.0))
     bench.send("std_msgs/msg/String", {"data": ROBOT}, topic="/robot_description")
+    state = {"name": ["slide"], "position": [1.5]}
+    bench.send("sensor_msgs/msg/JointState", state, topic="/joint_states")
     for place in (1.0, 2.0):
         bench.transform("base", "rider", (place, 0.0, 0.0), stamp_ns=bench.now_ns)
         settle(bench)

@@ -5,12 +5,14 @@ from typing import TYPE_CHECKING
 
 from webviz_urdf.glb import MeshPart, Surface, glb_with, write_glb
 from webviz_urdf.inertia import inertia_box, mass_sphere
+from webviz_urdf.kinematics import Kinematics
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import (
     Inertial,
     Joint,
     Link,
+    Mimic,
     Missing,
     Progress,
     Robot,
@@ -24,11 +26,13 @@ if TYPE_CHECKING:
 __all__ = [
     "Inertial",
     "Joint",
+    "Kinematics",
     "Link",
     "LoadRequest",
     "Loading",
     "LoadingStopped",
     "MeshPart",
+    "Mimic",
     "Missing",
     "Progress",
     "ResolveError",

@@ -13,7 +13,7 @@ from trimesh.transformations import quaternion_from_matrix
 from webviz.api.nodes import Pose
 from webviz.data.words import listed
 from webviz_urdf.document import parse_document
-from webviz_urdf.robot import JOINT_TYPES, Joint, Missing, RobotDescriptionError
+from webviz_urdf.robot import JOINT_TYPES, Joint, Mimic, Missing, RobotDescriptionError
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,14 @@ def _joint(joint: yourdfpy.Joint) -> Joint:
         axis=(x / length, y / length, z / length),
         # As in urdfdom a missing bound is 0.
         limits=limit and (limit.lower or 0.0, limit.upper or 0.0),
+        mimic=joint.mimic and _mimic(joint.mimic),
     )
+
+
+def _mimic(mimic: yourdfpy.Mimic) -> Mimic:
+    # As in urdfdom a missing multiplier is 1, and a missing offset 0.
+    multiplier = 1.0 if mimic.multiplier is None else float(mimic.multiplier)
+    return Mimic(mimic.joint, multiplier, float(mimic.offset or 0.0))
 
 
 def _root(links: set[str], joints: dict[str, Joint]) -> str:

@@ -63,6 +63,21 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Mimic:
+    """A joint that moves with another: its position is `multiplier` times the other's + `offset`.
+
+    Args:
+        joint: name of the other joint.
+        multiplier: without unit.
+        offset: rad or m.
+    """
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
 class Joint:
     """How a child link moves relative to its parent.
 
@@ -73,6 +88,7 @@ class Joint:
         origin: pose of the joint's frame, the child's at position 0, in the parent's frame.
         axis: unit vector in the joint's frame; zero if the description gives no direction.
         limits: lower and upper position in rad or m; None without limits.
+        mimic: the joint that it moves with, if any.
     """
 
     name: str
@@ -82,6 +98,7 @@ class Joint:
     origin: Pose
     axis: tuple[float, float, float]
     limits: tuple[float, float] | None
+    mimic: Mimic | None = None
 
 
 @dataclass(frozen=True)

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from webviz import Details, Frames
+from webviz import Details, Frames, Pose
 from webviz_urdf import Link, Robot, Shape
 
 TRAIL = " trail"
 """Ends the key of a trail, after the name of its link."""
 
 
-def link_details(robot: Robot, name: str, frame: str, frames: Frames) -> Details:
-    """A link: where it is, its mass, and what it looks like."""
+def link_details(robot: Robot, name: str, pose: Pose | None, frame: str, frames: Frames) -> Details:
+    """A link: where it is, its mass, and what it looks like.
+
+    Args:
+        robot: that it belongs to.
+        name: of the link.
+        pose: in the fixed frame, None if it is unknown.
+        frame: that places the link.
+        frames: of this turn.
+    """
     link = robot.links[name]
     values: dict[str, object] = {}
     if inertial := link.inertial:
         values["Mass"] = f"{inertial.mass:g} kg"
-    if pose := frames.latest(frame):
+    if pose:
         values[f"Pose in {frames.fixed_frame}"] = pose
     if parent := frames.link(frame):
         values["Parent frame"] = parent.parent

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Annotated, Literal
 
 import msgspec
 
-from webviz import Context, Details, Display, Frames, Hit, Input, Prop, Sample, Topic
-from webviz.data.transforms import distinct
+from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.robot_model.details import TRAIL, link_details
-from webviz_displays.robot_model.loading import Loadings, Written, last_written, load, progress
-from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, Paint, parts_of
+from webviz_displays.robot_model.joint_states import Received
+from webviz_displays.robot_model.loading import last_written, load, progress
+from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, parts_of
+from webviz_displays.robot_model.placing import ByJoints, ByTransforms, JointPlacer, Placing
+from webviz_displays.robot_model.state import Model, State
 from webviz_displays.robot_model.statuses import (
     NAMED,
     report_joint,
+    report_joints,
     report_link,
     report_places,
     report_robot,
     report_strangers,
-    why_lost,
 )
 from webviz_displays.shared.trails import Trails
 from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
@@ -35,59 +37,6 @@ class MassProperties(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_f
     inertia: Annotated[
         bool, Prop(help="Show each link's inertia as a box with the same moments.")
     ] = False
-
-
-@dataclass(frozen=True, eq=False)
-class _Model:
-    """A loaded robot.
-
-    Args:
-        robot: without collision shapes.
-        full: with them; None if they are switched off or still loading.
-        prefix: of frame ids.
-        shown: links that are switched on.
-    """
-
-    robot: Robot
-    full: Robot | None
-    prefix: str
-    shown: tuple[str, ...]
-
-    def frame(self, link: str) -> str:
-        """The frame id of a link."""
-        return self.prefix + link
-
-    def lost(self, frames: Frames) -> list[str]:
-        """Enabled links without a transform."""
-        latest, prefix = frames.latest, self.prefix
-        return [link for link in self.shown if latest(prefix + link) is None]
-
-
-@dataclass
-class _State:
-    """The robot that is shown, and what follows from it.
-
-    Args:
-        loading: what is being loaded.
-        written: when the description file was.
-        model: the robot, None until one is loaded.
-        grey: links that were drawn without a transform, None before anything was drawn.
-        paint: the colours of parts.
-        reasons: why links are lost.
-        reasons_of: which links, and at which second that was asked.
-        trails: of links, in `trails_frame`.
-        trails_frame: fixed frame.
-    """
-
-    loading: Loadings = field(default_factory=dict)
-    written: Written = field(default_factory=Written)
-    model: _Model | None = None
-    grey: set[str] | None = None
-    paint: Paint = field(default_factory=Paint)
-    reasons: dict[str, str] = field(default_factory=dict)
-    reasons_of: tuple[list[str], int] | None = None
-    trails: Trails = field(default_factory=Trails)
-    trails_frame: str = ""
 
 
 class RobotModel(Display):
@@ -117,6 +66,18 @@ class RobotModel(Display):
             "AMENT_PREFIX_PATH. Files outside packages need --mesh-root."
         ),
     ] = msgspec.field(default_factory=list)
+    joint_source: Annotated[
+        Literal["Transforms", "Joint states"],
+        Prop(
+            help="Place links by the transforms of robot_state_publisher, or compute their poses "
+            "from joint states, which needs only the transform of the root link."
+        ),
+    ] = "Transforms"
+    joint_states_topic: Annotated[
+        Topic,
+        Input("sensor_msgs/msg/JointState", optional=True),
+        Prop(when=("joint_source", "Joint states"), help="Topic of the positions of the joints."),
+    ] = Topic("/joint_states")
     visual_enabled: Annotated[bool, Prop(help="Draw the links' visual shapes.")] = True
     collision_enabled: Annotated[bool, Prop(help="Draw the links' collision shapes.")] = False
     mass_properties: Annotated[
@@ -144,30 +105,44 @@ class RobotModel(Display):
         msgspec.field(default_factory=dict)
     )
 
-    def new_state(self) -> _State:
+    def new_state(self) -> State:
         """No robot."""
-        return _State()
+        return State()
 
     def listens(self, name: str) -> bool:
-        """A description from a file needs no topic."""
+        """A description from a file needs no topic, nor do transforms need joint states."""
+        if name == "joint_states_topic":
+            return self.joint_source == "Joint states"
         return self.description_source == "Topic"
+
+    def waits(self, name: str) -> bool:
+        """Positions of joints need no transform."""
+        return False
+
+    def fold(self, name: str, sample: Sample, state: Received | None) -> Received:
+        """Remember the description, and of each joint its newest position."""
+        return (state or Received()).with_sample(name, sample)
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, and which links lack a transform; those turn grey.
 
         Links lost when it was drawn count too: a robot just loaded has no earlier state.
         """
-        state: _State = ctx.state
+        state: State = ctx.state
         loading = [progress(loading) for loading in state.loading.values()]
-        return loading, state.model.lost(ctx.frames) if state.model else [], state.grey
+        lost = state.model.lost(ctx.frames) if state.model else []
+        return loading, lost, state.grey, self._round(ctx)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the current robot; each link moves with its frame."""
-        state: _State = ctx.state
+        state: State = ctx.state
         model = state.model = self._model(samples, ctx)
         if model is None:
             return
         report_robot(model.robot, model.full, ctx)
+        if isinstance(model.placing, ByJoints):
+            placing = model.placing
+            report_joints(placing.missing, placing.total, placing.fault, ctx)
         if not (self.visual_enabled or self.collision_enabled):
             ctx.warn(
                 "Shapes", "Neither visual nor collision shapes are switched on. Enable one of them."
@@ -178,54 +153,53 @@ class RobotModel(Display):
             report_joint(model.robot.joints[name], ctx)
         paint = state.paint
         paint.begin()
+        state.owners.clear()
         lost = state.grey = set(model.lost(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
-            group = ctx.follow(
-                model.frame(part.link), keep_last=True, interval_s=self.update_interval
-            )
+            group = model.placing.group(part.link, ctx, self.update_interval)
             group.add(part.key, paint(part.node, grey=part.link in lost), part.pose)
+            state.owners[part.key] = part.link
 
     def tick(self, ctx: Context) -> None:
         """Report where links are, and draw their trails."""
-        model: _Model | None = ctx.state.model
+        model: Model | None = ctx.state.model
         if model is None:
             return
         lost = model.lost(ctx.frames)
-        report_places(len(model.shown), lost, self._reasons(model, lost, ctx), ctx)
+        placing = model.placing
+        reasons = self._reasons(model, lost, ctx)
+        report_places(len(model.shown), lost, reasons, placing.source, placing.lacks, ctx)
         chosen = {link: self.links[link] for link in model.shown if link in self.links}
         for link in [link for link, chosen in chosen.items() if chosen.show_axes][:NAMED]:
-            if pose := ctx.frames.latest(model.frame(link)):
+            if pose := model.placing.pose(link, ctx.frames):
                 report_link(link, pose, ctx)
         self._draw_trails(model, [link for link, c in chosen.items() if c.show_trail], ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A link, by one of its shapes, its trail or a joint on it."""
-        model: _Model | None = ctx.state.model
+        model: Model | None = ctx.state.model
         if model is None:
             return None
-        link = hit.frame.removeprefix(model.prefix) or hit.key.removesuffix(TRAIL)
+        link = ctx.state.owners.get(hit.key) or hit.key.removesuffix(TRAIL)
         if link not in model.robot.links:
             return None
-        return link_details(model.full or model.robot, link, model.frame(link), ctx.frames)
+        pose, frame = model.placing.pose(link, ctx.frames), model.placing.frame(link)
+        return link_details(model.full or model.robot, link, pose, frame, ctx.frames)
 
-    def _reasons(self, model: _Model, lost: list[str], ctx: Context) -> dict[str, str]:
+    def _reasons(self, model: Model, lost: list[str], ctx: Context) -> dict[str, str]:
         """Why the first links are lost; the texts contain times and are renewed every second."""
-        state: _State = ctx.state
+        state: State = ctx.state
         moment = (lost, ctx.frames.now_ns // SECOND)
         if state.reasons_of != moment:
             state.reasons_of = moment
-            state.reasons = distinct(
-                lost,
-                lambda link: why_lost(model.robot, link, ctx.frames.explain(model.frame(link))),
-                NAMED,
-            )
+            state.reasons = model.placing.reasons(model.robot, lost, ctx.frames)
         return state.reasons
 
-    def _draw_trails(self, model: _Model, links: list[str], ctx: Context) -> None:
-        state: _State = ctx.state
+    def _draw_trails(self, model: Model, links: list[str], ctx: Context) -> None:
+        state: State = ctx.state
         if state.trails_frame != ctx.frames.fixed_frame:
             state.trails, state.trails_frame = Trails(), ctx.frames.fixed_frame
-        poses = {link: ctx.frames.latest(model.frame(link)) for link in links}
+        poses = {link: model.placing.pose(link, ctx.frames) for link in links}
         state.trails.update({link: pose and pose.position for link, pose in poses.items()})
         state.trails.draw(ctx)
 
@@ -241,9 +215,9 @@ class RobotModel(Display):
             self.all_links_enabled,
         )
 
-    def _model(self, samples: Sequence[Sample], ctx: Context) -> _Model | None:
+    def _model(self, samples: Sequence[Sample], ctx: Context) -> Model | None:
         """The described robot; the previous one until it is loaded."""
-        state: _State = ctx.state
+        state: State = ctx.state
         before, state.loading = state.loading, {}
         request = self._request(samples, ctx)
         if request is None:
@@ -260,17 +234,32 @@ class RobotModel(Display):
             if state.model is None:
                 return None
             robot, full = state.model.robot, state.model.full
-        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
         choices = self._choices()
         shown = tuple(link for link in robot.links if choices.of(link).enabled)
-        return _Model(robot, full, prefix, shown)
+        return Model(robot, full, self._placing(robot, samples, ctx), shown)
+
+    def _placing(self, robot: Robot, samples: Sequence[Sample], ctx: Context) -> Placing:
+        state: State = ctx.state
+        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
+        if self.joint_source == "Transforms":
+            return ByTransforms(prefix)
+        if state.placer is None or state.placer.robot is not robot:
+            state.placer = JointPlacer(robot)
+        received = samples[-1].message if samples else Received()
+        return state.placer.place(prefix + robot.root, received, self._round(ctx))
+
+    def _round(self, ctx: Context) -> int | None:
+        """Changes when links that joint states place may move again."""
+        if self.joint_source == "Transforms" or not self.update_interval:
+            return None
+        return ctx.frames.now_ns // max(round(self.update_interval * SECOND), 1)
 
     def _request(self, samples: Sequence[Sample], ctx: Context) -> LoadRequest | None:
         paths = tuple(self.package_paths)
         if self.description_source == "File":
             return self._request_file(self.description_file, ctx)
-        if samples:
-            return LoadRequest(text=samples[-1].message.data, package_paths=paths)
+        if samples and (text := samples[-1].message.description) is not None:
+            return LoadRequest(text=text, package_paths=paths)
         ctx.warn(
             "URDF",
             f"No robot description received on {self.description_topic.name}. "

@@ -66,26 +66,55 @@ def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
 
 
 def report_places(
-    total: int, lost: Sequence[str], reasons: Mapping[str, str], ctx: Context
+    total: int,
+    lost: Sequence[str],
+    reasons: Mapping[str, str],
+    source: str,
+    lacks: str,
+    ctx: Context,
 ) -> None:
-    """Report which links have no transform.
+    """Report which links have no pose.
 
     Args:
         total: links that should be drawn.
-        lost: names of the links without a transform.
+        lost: names of the links without a pose.
         reasons: by the first link that has each reason.
+        source: of the poses.
+        lacks: what the lost links have not.
         ctx: receives the statuses.
     """
     if not lost:
-        ctx.ok("Links", f"{counted(total, 'link')} placed by transforms.")
+        ctx.ok("Links", f"{counted(total, 'link')} placed by {source}.")
         return
     ctx.error(
         "Links",
-        f"{len(lost)} of {counted(total, 'link')} without a transform: {listed(lost, NAMED)}. "
+        f"{len(lost)} of {counted(total, 'link')} without {lacks}: {listed(lost, NAMED)}. "
         "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():
         ctx.error(f"Link {link}", reason)
+
+
+def report_joints(missing: Sequence[str], total: int, fault: str, ctx: Context) -> None:
+    """Report which joints have no position.
+
+    Args:
+        missing: their names.
+        total: joints that need one.
+        fault: why the newest joint state is invalid, or "".
+        ctx: receives the statuses.
+    """
+    if fault:
+        ctx.error("Joint states", fault)
+    if missing:
+        ctx.error(
+            "Joints",
+            f"{len(missing)} of {counted(total, 'joint')} without a position: "
+            f"{listed(missing, NAMED)}. The links that they move are grey. Start the driver or "
+            "joint_state_publisher that reports these joints.",
+        )
+    else:
+        ctx.ok("Joints", f"The positions of {counted(total, 'joint')} are known.")
 
 
 def report_link(link: str, pose: Pose, ctx: Context) -> None:
