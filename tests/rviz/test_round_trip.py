@@ -146,8 +146,8 @@ def test_every_display_type_goes_to_rviz_and_back() -> None:
         plain = {"reliability": "auto", "durability": "auto"}
         for display in (before, after):
             assert not isinstance(display, config_file.Unreadable | Branch)
-            for name in ("topic", "update_topic"):
-                if hasattr(display, name):
+            for name in display.__struct_fields__:
+                if isinstance(getattr(display, name), Topic):
                     for key, value in plain.items():
                         set_property(display, f"{name}.{key}", value)
         assert dump(Config(displays=[after])) == dump(Config(displays=[before]))
