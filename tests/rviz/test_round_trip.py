@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rviz_trees import loaded, lost, texts
 
-from webviz.api.declared import make, set_property
+from webviz.api.declared import Topic, make, set_property
 from webviz.api.registry import display_types
 from webviz.api.views import Orbit
 from webviz.files import config as config_file
