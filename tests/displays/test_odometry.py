@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
 from webviz_displays.odometry import Odometry
-from webviz_displays.odometry.display import MOST_COVARIANCES
+from webviz_displays.odometry.covariance_marks import MOST_COVARIANCES
 from webviz_displays.shared.pose_properties import (
     Covariance,
     OrientationCovariance,

@@ -2,29 +2,88 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Group, Mesh
+from webviz import Context, Group, Mesh
 from webviz.data.rotations import from_matrices
 from webviz_displays.odometry.covariance import (
+    LARGEST,
     WEDGE,
     Covariances,
     Placed,
     ellipses,
     ellipsoids,
+    has_negative_variance,
+    read,
     tip_discs,
     wedges,
 )
-from webviz_displays.shared.pose_properties import OrientationCovariance, PositionCovariance
+from webviz_displays.shared.pose_history import Trail
+from webviz_displays.shared.pose_properties import (
+    Covariance,
+    OrientationCovariance,
+    PositionCovariance,
+)
 
 F64 = NDArray[np.float64]
 Ids = NDArray[np.intp]
+
+MOST_COVARIANCES = 100
+"""RViz's default Keep. Each covariance is several transparent solids, which browsers sort."""
 
 THICKNESS = 1e-3
 """Of ellipses and discs, metres, as in RViz."""
 
 _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+
+
+def draw_covariances(
+    look: Covariance,
+    newest: Sequence[F64],
+    poses: Trail,
+    group: Group,
+    ctx: Context,
+    ids: Ids,
+) -> None:
+    """Draw the covariances of the newest poses, if they are switched on, and report invalid ones.
+
+    Args:
+        look: properties.
+        newest: those of the last poses (36,) as messages have them, at most `MOST_COVARIANCES`.
+        poses: N poses in the coordinates of the group, oldest first.
+        group: where to draw.
+        ctx: collects statuses.
+        ids: (N,), of the poses.
+    """
+    if not look.value:
+        return
+    rows, total = np.array(newest), len(poses.positions)
+    given, ok = read(rows)
+    negative = has_negative_variance(rows)
+    if not ok.all():
+        ctx.warn(
+            "Covariance",
+            f"{(~ok).sum()} of {len(ok)} covariances are invalid and not drawn: not finite, "
+            f"larger than {LARGEST:g}, or with a negative eigenvalue. Fix the publisher.",
+        )
+    elif negative.any():
+        ctx.warn(
+            "Covariance",
+            f"{negative.sum()} of {len(ok)} covariances have a negative variance of z, roll "
+            "or pitch, which counts as 0. Publish 0 if the robot moves in a plane.",
+        )
+    elif total > len(newest):
+        ctx.ok("Covariance", f"Showing the newest {len(newest)} of {total} covariances.")
+    given = Covariances(given.matrices[ok], given.is_planar[ok])
+    shown, ids = poses[-len(newest) :][ok], ids[-len(newest) :][ok]
+    if look.position.value:
+        add_positions(group, look.position, given, shown.positions, shown.frames, ids)
+    if look.orientation.value:
+        axes = shown.rotations if look.orientation.frame == "Local" else shown.frames
+        add_orientations(group, look.orientation, given, shown.positions, axes, ids)
 
 
 def add_positions(

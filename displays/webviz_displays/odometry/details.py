@@ -26,11 +26,18 @@ def details(sample: Sample) -> Details:
             "Turn rate": f"{_vector(twist.angular)} rad/s",
             f"Pose in {sample.frame}": Pose((p.x, p.y, p.z), tuple(wxyz.tolist())),
             "Child frame": message.child_frame_id,
-            "Standard deviations": _deviations(message.pose.covariance),
-            "Covariance of the pose": _rows(message.pose.covariance),
+            **covariance_details(message.pose.covariance),
             "Covariance of the twist": _rows(message.twist.covariance),
         },
     )
+
+
+def covariance_details(covariance: Any) -> dict[str, object]:
+    """What is known of the covariance (36,) of a pose."""
+    return {
+        "Standard deviations": _deviations(covariance),
+        "Covariance of the pose": _rows(covariance),
+    }
 
 
 def _vector(v: messages.Vector3) -> str:

@@ -35,6 +35,7 @@ class Cloud:
 
     Attributes:
         count: of points.
+        width: points per row.
         names: of the fields, in the order of the message.
         remark: a sentence about inconsistent sizes, "" if they agree.
 
@@ -43,6 +44,7 @@ class Cloud:
     """
 
     def __init__(self, message: messages.PointCloud2) -> None:
+        self.width = message.width
         self.count = message.width * message.height
         self.names = [field.name for field in message.fields]
         self._message = message

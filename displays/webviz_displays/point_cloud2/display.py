@@ -1,4 +1,4 @@
-"""The PointCloud2 display."""
+"""The PointCloud2 display, and what it shares with that of older clouds."""
 
 from __future__ import annotations
 
@@ -42,15 +42,11 @@ class _State:
     shares: int = 1
 
 
-class PointCloud2(PointsDisplay):
-    """Points of a 3D sensor or of a map."""
+class CloudDisplay(PointsDisplay):
+    """Base of displays of point clouds."""
 
-    rviz = "rviz_default_plugins/PointCloud2"
     is_threaded = True
 
-    topic: Annotated[
-        Topic, Input("sensor_msgs/msg/PointCloud2"), Prop(help="Topic of the clouds.")
-    ] = Topic("/points")
     color_transformer: Annotated[
         Literal["Auto", "Intensity", "AxisColor", "FlatColor", "RGB8", "RGBF32"],
         Prop(
@@ -72,6 +68,14 @@ class PointCloud2(PointsDisplay):
     voxel_size: Annotated[
         float, Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all.")
     ] = 0.0
+
+    def cloud_of(self, message: Any) -> Cloud:
+        """The points of a message.
+
+        Raises:
+            CloudError: they cannot be read.
+        """
+        raise NotImplementedError
 
     def new_state(self) -> _State:
         """No clouds."""
@@ -95,7 +99,7 @@ class PointCloud2(PointsDisplay):
         """One cloud, in the frame of the sensor at the stamp."""
         ctx.state.clouds[sample.number] = sample.received_ns
         try:
-            cloud = Cloud(sample.message)
+            cloud = self.cloud_of(sample.message)
             xyz, origin = cloud.positions()
         except CloudError as error:
             ctx.error("Points", str(error))
@@ -128,15 +132,13 @@ class PointCloud2(PointsDisplay):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """All fields of a point."""
-        message = hit.sample.message
-        fields = Cloud(message).point(hit.id)
+        cloud = self.cloud_of(hit.sample.message)
+        fields = cloud.point(hit.id)
         position = {name: fields.pop(name) for name in "xyz" if name in fields}
         values = fields | {f"Position in {hit.sample.frame}": position}
-        if message.height > 1:
-            values |= {"Row": hit.id // message.width, "Column": hit.id % message.width}
-        return Details(
-            f"Point {hit.id}", values | {"Points in the cloud": message.width * message.height}
-        )
+        if cloud.width < cloud.count:
+            values |= {"Row": hit.id // cloud.width, "Column": hit.id % cloud.width}
+        return Details(f"Point {hit.id}", values | {"Points in the cloud": cloud.count})
 
     def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
         """The rows of the points to show, None for all, and a sentence about them.
@@ -206,6 +208,20 @@ class PointCloud2(PointsDisplay):
         if name == "intensity" and name not in cloud.names and "intensities" in cloud.names:
             name = "intensities"
         return cloud.values(name)
+
+
+class PointCloud2(CloudDisplay):
+    """Points of a 3D sensor or of a map."""
+
+    rviz = "rviz_default_plugins/PointCloud2"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/PointCloud2"), Prop(help="Topic of the clouds.")
+    ] = Topic("/points")
+
+    def cloud_of(self, message: Any) -> Cloud:
+        """The message as it is."""
+        return Cloud(message)
 
 
 def spaced(count: int) -> str:

@@ -24,6 +24,7 @@ from webviz_displays.robot_model.statuses import (
     report_robot,
     report_strangers,
 )
+from webviz_displays.shared.frame_names import prefixed
 from webviz_displays.shared.trails import Trails
 from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
 
@@ -240,7 +241,7 @@ class RobotModel(Display):
 
     def _placing(self, robot: Robot, samples: Sequence[Sample], ctx: Context) -> Placing:
         state: State = ctx.state
-        prefix = f"{self.tf_prefix.strip('/')}/" if self.tf_prefix.strip("/") else ""
+        prefix = prefixed(self.tf_prefix, "")
         if self.joint_source == "Transforms":
             return ByTransforms(prefix)
         if state.placer is None or state.placer.robot is not robot:

@@ -34,13 +34,13 @@ def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
     return np.all(np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST, axis=-1)
 
 
-def along_x(positions: F64, rotations: F64, length: float) -> F64:
+def along_x(positions: F64, rotations: F64, length: float | F64) -> F64:
     """Arrows as RViz draws poses: tails and tips (N, 2, 3).
 
     Args:
         positions: (N, 3), metres.
         rotations: (N, 3, 3); the arrows point along their x axes.
-        length: of shaft and head together, metres.
+        length: of shaft and head together, metres; (N, 1) or one for all.
     """
     return np.stack((positions, positions + length * rotations[..., 0]), axis=1)
 

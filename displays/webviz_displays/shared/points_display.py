@@ -46,8 +46,8 @@ class ValueBounds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     ] = 10.0
 
 
-class PointsDisplay(Display):
-    """Base of displays that draw points and colour them by a value."""
+class PointStyle(Display):
+    """Base of displays that draw points."""
 
     topic: Annotated[Topic, Prop(help="Topic of the points.")] = Topic()
     style: Annotated[
@@ -80,86 +80,10 @@ class PointsDisplay(Display):
     decay_time: Annotated[
         float, Prop(ge=0, unit="s", help="How long to keep messages; 0 shows only the newest.")
     ] = 0.0
-    # Each display has its own choices of these two.
-    color_transformer: Any = "Intensity"
-    channel_name: Any = "intensity"
-    use_rainbow: Annotated[
-        bool,
-        Prop(
-            rviz="Use rainbow",
-            when=BY_INTENSITY,
-            help="Colour from red (low) to magenta (high) instead of between two colours.",
-        ),
-    ] = True
-    invert_rainbow: Annotated[
-        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
-    ] = False
-    min_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
-    ] = (0, 0, 0)
-    max_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
-    ] = (255, 255, 255)
-    autocompute_intensity_bounds: Annotated[
-        bool,
-        Prop(when=BY_INTENSITY, help="Compute the lowest and highest value from each message."),
-    ] = True
-    min_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."
-        ),
-    ] = 0.0
-    max_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."
-        ),
-    ] = 4096.0
-    color: Annotated[
-        Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
-    ] = (255, 255, 255)
-    axis: Annotated[
-        Literal["X", "Y", "Z"], Prop(when=BY_AXIS, help="Coordinate that determines the colour.")
-    ] = "Z"
-    autocompute_value_bounds: Annotated[
-        ValueBounds, Prop(when=BY_AXIS, help="Bounds of the coordinate.")
-    ] = ValueBounds()
-    use_fixed_frame: Annotated[
-        bool, Prop(when=BY_AXIS, help="Use coordinates in the fixed frame instead of the sensor's.")
-    ] = True
 
     def history(self) -> Keep:
         """The messages within the decay time, or the newest."""
         return Keep(count=0, seconds=self.decay_time) if self.decay_time else Keep()
-
-    def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose, ctx: Context) -> U8:
-        """Colours (N, 3) of AxisColor.
-
-        Args:
-            xyz: points (N, 3).
-            own: of their coordinates in the frame of the sensor.
-            fixed: of their coordinates in the fixed frame.
-            ctx: gets the colour scale.
-        """
-        pose = fixed if self.use_fixed_frame else own
-        values = coordinate(pose, xyz, _AXES.index(self.axis))
-        limits = self.autocompute_value_bounds
-        low, high = limits.min_value, limits.max_value
-        if limits.value:
-            low, high = bounds(values, _LEAST_SPAN)
-        ctx.color_scale = ColorScale(f"{self.axis.lower()} (m)", low, high, RAINBOW)
-        return ramp(values, low, high)
-
-    def intensity_colors(self, values: ArrayLike, ctx: Context) -> U8:
-        """Colours (N, 3) of Intensity for values (N,)."""
-        low, high = self.min_intensity, self.max_intensity
-        if self.autocompute_intensity_bounds:
-            low, high = bounds(values)
-        rainbow = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
-        stops = rainbow if self.use_rainbow else (self.min_color, self.max_color)
-        ctx.color_scale = ColorScale(str(self.channel_name), low, high, stops)
-        return ramp(values, low, high, stops)
 
     def draw_points(
         self,
@@ -211,3 +135,84 @@ class PointsDisplay(Display):
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
         group.points("points", xyz, colors, self.size, outline, ids)
+
+
+class PointsDisplay(PointStyle):
+    """Base of displays that colour points by a value."""
+
+    # Each display has its own choices of these two.
+    color_transformer: Any = "Intensity"
+    channel_name: Any = "intensity"
+    use_rainbow: Annotated[
+        bool,
+        Prop(
+            rviz="Use rainbow",
+            when=BY_INTENSITY,
+            help="Colour from red (low) to magenta (high) instead of between two colours.",
+        ),
+    ] = True
+    invert_rainbow: Annotated[
+        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
+    ] = False
+    min_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
+    ] = (0, 0, 0)
+    max_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
+    ] = (255, 255, 255)
+    autocompute_intensity_bounds: Annotated[
+        bool,
+        Prop(when=BY_INTENSITY, help="Compute the lowest and highest value from each message."),
+    ] = True
+    min_intensity: Annotated[
+        float,
+        Prop(
+            when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."
+        ),
+    ] = 0.0
+    max_intensity: Annotated[
+        float,
+        Prop(
+            when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."
+        ),
+    ] = 4096.0
+    color: Annotated[
+        Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
+    ] = (255, 255, 255)
+    axis: Annotated[
+        Literal["X", "Y", "Z"], Prop(when=BY_AXIS, help="Coordinate that determines the colour.")
+    ] = "Z"
+    autocompute_value_bounds: Annotated[
+        ValueBounds, Prop(when=BY_AXIS, help="Bounds of the coordinate.")
+    ] = ValueBounds()
+    use_fixed_frame: Annotated[
+        bool, Prop(when=BY_AXIS, help="Use coordinates in the fixed frame instead of the sensor's.")
+    ] = True
+
+    def axis_colors(self, xyz: NDArray[Any], own: Pose, fixed: Pose, ctx: Context) -> U8:
+        """Colours (N, 3) of AxisColor.
+
+        Args:
+            xyz: points (N, 3).
+            own: of their coordinates in the frame of the sensor.
+            fixed: of their coordinates in the fixed frame.
+            ctx: gets the colour scale.
+        """
+        pose = fixed if self.use_fixed_frame else own
+        values = coordinate(pose, xyz, _AXES.index(self.axis))
+        limits = self.autocompute_value_bounds
+        low, high = limits.min_value, limits.max_value
+        if limits.value:
+            low, high = bounds(values, _LEAST_SPAN)
+        ctx.color_scale = ColorScale(f"{self.axis.lower()} (m)", low, high, RAINBOW)
+        return ramp(values, low, high)
+
+    def intensity_colors(self, values: ArrayLike, ctx: Context) -> U8:
+        """Colours (N, 3) of Intensity for values (N,)."""
+        low, high = self.min_intensity, self.max_intensity
+        if self.autocompute_intensity_bounds:
+            low, high = bounds(values)
+        rainbow = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
+        stops = rainbow if self.use_rainbow else (self.min_color, self.max_color)
+        ctx.color_scale = ColorScale(str(self.channel_name), low, high, stops)
+        return ramp(values, low, high, stops)

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Group, Rgb
+from webviz import Group, Rgb, Solid
+from webviz.api.nodes import Ids
 
 F64 = NDArray[np.float64]
 
@@ -42,29 +43,37 @@ def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
     return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)
 
 
-def add_transparent_arrows(
+def add_solid_arrows(
     group: Group,
     segments: F64,
-    color: Rgb,
-    shaft_radius: float,
-    head_radius: float,
-    head_length: float,
-    opacity: float,
+    color: Rgb | NDArray[np.uint8],
+    shaft_radius: ArrayLike,
+    head_radius: ArrayLike,
+    head_length: ArrayLike,
+    opacity: float = 1.0,
+    ids: Ids | None = None,
+    key: str = "",
 ) -> None:
-    """Draw arrows as solids: those of `Group.arrows` are opaque.
+    """Draw arrows as solids: those of `Group.arrows` are opaque and of one thickness.
 
     Args:
         group: where to draw.
         segments: (N, 2, 3), tails and tips, metres.
-        color, opacity: of all.
-        shaft_radius, head_radius, head_length: metres.
+        color: (N, 3) or one for all.
+        shaft_radius, head_radius, head_length: metres; (N,) or one for all.
+        opacity: of all.
+        ids: (N,), of the arrows.
+        key: distinguishes several kinds of arrows in one group.
     """
     tails, tips = segments[:, 0], segments[:, 1]
     ways = tips - tails
     lengths = np.maximum(np.linalg.norm(ways, axis=1), _LEAST_LENGTH)
     necks = tips - np.minimum(head_length / lengths, 1.0)[:, None] * ways
-    shafts, heads = rods(tails, necks, 2 * shaft_radius), rods(necks, tips, 2 * head_radius)
-    group.instances(
-        "shafts", "cylinder", shafts.positions, shafts.scales, color, shafts.wxyzs, opacity
+    kinds: tuple[tuple[str, Solid, Rods], ...] = (
+        ("shafts", "cylinder", rods(tails, necks, 2 * np.asarray(shaft_radius))),
+        ("heads", "cone", rods(necks, tips, 2 * np.asarray(head_radius))),
     )
-    group.instances("heads", "cone", heads.positions, heads.scales, color, heads.wxyzs, opacity)
+    for name, shape, solids in kinds:
+        group.instances(
+            f"{key} {name}".lstrip(), shape, *solids[:2], color, solids.wxyzs, opacity, ids=ids
+        )
