@@ -42,4 +42,4 @@ def test_every_property_is_documented(cls: type[Display]) -> None:
 
     check(cls)
     assert cls.__doc__
-    assert cls.rviz.startswith("rviz_default_plugins/")
+    assert not cls.rviz or cls.rviz.endswith(f"/{cls.__name__}")

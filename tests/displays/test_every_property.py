@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import trimesh
 from clouds import CLOUD, xyz_cloud
+from plain_scenes import PLAIN_SCENES
 
 import webviz_displays
 from webviz import Display, Topic
@@ -155,16 +156,17 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "PointCloud2": clouds,
     "RobotModel": robots,
     "TF": frames,
+    **PLAIN_SCENES,
 }
 
-# What these say shows with what comes next, not with what is drawn already.
+# What these say, as decay_time and history_length do, shows with what comes next, not with what is
+# drawn already.
 OF_THE_FUTURE = {
-    ("LaserScan", "decay_time"),
     ("Odometry", "angle_tolerance"),
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
     ("Path", "buffer_length"),
-    ("PointCloud2", "decay_time"),
+    ("Range", "buffer_length"),
     ("RobotModel", "update_interval"),
     ("TF", "update_interval"),
 }
@@ -184,13 +186,21 @@ ENTRIES: dict[type, list[Any]] = {
     ],
 }
 
+WRENCH_PROPERTIES = (
+    *("alpha", "arrow_width", "force_color", "force_arrow_scale"),
+    *("history_length", "torque_color", "torque_arrow_scale"),
+)
+
 # What must be set besides what `when` tells.
 BESIDES: dict[tuple[str, str], dict[str, Any]] = {
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
     ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
     # Of four points.
+    ("PointCloud", "max_points"): {"max_points": 3},
     ("PointCloud2", "max_points"): {"max_points": 3},
+    # Values that are not finite are not drawn otherwise.
+    **{("Wrench", path): {"accept_nan_values": True} for path in WRENCH_PROPERTIES},
 }
 
 
@@ -302,7 +312,9 @@ def test_every_property_changes_what_is_drawn_or_said(
             continue  # out of bounds
         tried += 1
         former = picture(at_work)
-        if (cls.__name__, path) in OF_THE_FUTURE or "show_trail=True" in str(value):
+        is_of_the_future = path in ("decay_time", "history_length")
+        is_of_the_future |= (cls.__name__, path) in OF_THE_FUTURE
+        if is_of_the_future or "show_trail=True" in str(value):
             for other, wanted in condition.items():
                 set_property(changed, other, wanted)
             again = bench(changed)

@@ -22,14 +22,24 @@ from webviz.data.messages.classes import DTYPES
 from webviz.data.messages.typestore import Field, fields
 from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
+from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
+from webviz_displays.poses import (
+    ParticleCloud,
+    PointStamped,
+    Pose,
+    PoseArray,
+    PoseWithCovariance,
+)
 from webviz_displays.robot_model import RobotModel
+from webviz_displays.sensors import FluidPressure, PointCloud, Range, Temperature
 from webviz_displays.shared.geometry import FARTHEST
 from webviz_displays.shared.pose_properties import PoseShape
+from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
 
 Benches = Callable[..., Any]
 Values = dict[str, Any]
@@ -37,6 +47,8 @@ Case = tuple[tuple[str | int, ...], Any]
 """Where in a message, and the value that is put there."""
 
 UNTURNED = {"w": 1.0}
+POSE = {"position": {"x": 1.0}, "orientation": UNTURNED}
+LINEAR_AND_ANGULAR = {"linear": {"x": 1.0}, "angular": {"z": 2.0}}
 GRID = {
     "info": {"width": 3, "height": 2, "resolution": 0.5, "origin": {"orientation": UNTURNED}},
     "data": [0, 30, 60, 98, 100, -1],
@@ -65,7 +77,40 @@ MESSAGES: dict[str, Values] = {
     CLOUD: xyz_cloud([(1, 0, 0), (2, 0, 1), (3, 1, 2)], {"intensity": [1, 2, 3]}),
     "std_msgs/msg/String": {
         "data": "<robot name='r'><link name='sensor'><visual><geometry><sphere radius='1'/>"
-        "</geometry></visual></link></robot>"
+        "</geometry></visual></link><link name='arm'/><joint name='elbow' type='continuous'>"
+        "<parent link='arm'/><child link='sensor'/></joint></robot>"
+    },
+    "geometry_msgs/msg/PoseStamped": {"pose": POSE},
+    "geometry_msgs/msg/PoseWithCovarianceStamped": {
+        "pose": {"pose": POSE, "covariance": np.eye(6).ravel()}
+    },
+    "geometry_msgs/msg/PoseArray": {"poses": [POSE, {"orientation": UNTURNED}]},
+    "nav2_msgs/msg/ParticleCloud": {
+        "particles": [{"pose": POSE, "weight": weight} for weight in (0.25, 0.75)]
+    },
+    "geometry_msgs/msg/PointStamped": {"point": {"x": 1.0}},
+    "geometry_msgs/msg/PolygonStamped": {"polygon": {"points": [{"x": 1.0}, {"y": 1.0}]}},
+    "nav_msgs/msg/GridCells": {
+        "cell_width": 0.5,
+        "cell_height": 0.25,
+        "cells": [{"x": 1.0}, {"x": 2.0}],
+    },
+    "geometry_msgs/msg/WrenchStamped": {"wrench": {"force": {"x": 1.0}, "torque": {"z": 2.0}}},
+    "geometry_msgs/msg/TwistStamped": {"twist": LINEAR_AND_ANGULAR},
+    "geometry_msgs/msg/AccelStamped": {"accel": LINEAR_AND_ANGULAR},
+    "geometry_msgs/msg/Twist": LINEAR_AND_ANGULAR,
+    "sensor_msgs/msg/JointState": {"name": ["elbow"], "effort": [1.0]},
+    "sensor_msgs/msg/Range": {
+        "field_of_view": 0.5,
+        "min_range": 0.1,
+        "max_range": 4.0,
+        "range": 2.0,
+    },
+    "sensor_msgs/msg/Temperature": {"temperature": 20.0, "variance": 0.25},
+    "sensor_msgs/msg/FluidPressure": {"fluid_pressure": 1e5},
+    "sensor_msgs/msg/PointCloud": {
+        "points": [{"x": 1.0}, {"x": 2.0}],
+        "channels": [{"name": "intensity", "values": [1.0, 2.0]}],
     },
 }
 """A message of each type that draws something."""
@@ -84,6 +129,26 @@ DISPLAYS: list[Callable[[], Display]] = [
     lambda: PointCloud2(color_transformer="RGB8", style="Points", decay_time=1.0),
     lambda: PointCloud2(color_transformer="AxisColor", style="Boxes", voxel_size=0.1),
     RobotModel,
+    Pose,
+    lambda: Pose(shape="Axes", history_length=3),
+    PoseWithCovariance,
+    PoseArray,
+    lambda: PoseArray(shape="Arrow (3D)", history_length=3),
+    lambda: ParticleCloud(shape="Axes"),
+    ParticleCloud,
+    PointStamped,
+    Polygon,
+    GridCells,
+    Wrench,
+    lambda: Wrench(accept_nan_values=True, history_length=3),
+    TwistStamped,
+    AccelStamped,
+    lambda: Twist(reference_frame="sensor"),
+    Effort,
+    Range,
+    Temperature,
+    FluidPressure,
+    lambda: PointCloud(style="Boxes"),
 ]
 
 LAST = "\x7f"
@@ -93,7 +158,8 @@ LAST = "\x7f"
 def extremes(field: Field) -> list[Any]:
     """Values for a field that is not a message itself."""
     if field.base == "string":
-        return ["", "/", LAST, "x" * 70_000, "no such frame", "\N{SNOWMAN}\n\t%s{}<b>"]
+        texts = ["", "/", LAST, "x" * 70_000, "no such frame", "\N{SNOWMAN}\n\t%s{}<b>"]
+        return texts if field.size is None else [[], *([text] for text in texts), texts]
     dtype = DTYPES[field.base]
     if dtype.kind == "b":
         values = [False, True]
@@ -171,6 +237,8 @@ def faults(at: Any) -> list[str]:
 def infinite(node: Node) -> Iterator[str]:
     for field in dataclass_fields(node):
         value = getattr(node, field.name)
+        if field.name == "ids":
+            continue  # names, or numbers of items
         if isinstance(value, float | np.ndarray) and not np.isfinite(value).all():
             yield field.name
 
@@ -178,8 +246,9 @@ def infinite(node: Node) -> Iterator[str]:
 def at_work(bench: Benches, make: Callable[[], Display], name: str) -> Any:
     at = bench(make())
     at.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
-    if name != next(iter(inputs_of(type(at.display)))):
-        send(at, "topic", copy.deepcopy(GRID))
+    for number, (other, spec) in enumerate(inputs_of(type(at.display)).items()):
+        if other != name and (number == 0 or spec.latched):
+            send(at, other, copy.deepcopy(MESSAGES[spec.type]))
     return at
 
 

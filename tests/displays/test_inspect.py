@@ -16,6 +16,7 @@ from webviz import Context, Details, Display, Frames
 from webviz.api.nodes import Lines, Points
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.details import details_tree
+from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
@@ -23,8 +24,17 @@ from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
+from webviz_displays.poses import (
+    ParticleCloud,
+    PointStamped,
+    Pose,
+    PoseArray,
+    PoseWithCovariance,
+)
 from webviz_displays.robot_model import RobotModel
+from webviz_displays.sensors import PointCloud, Range, Temperature
 from webviz_displays.tf import TF
+from webviz_displays.vectors import Effort, Wrench
 
 NAN = math.nan
 Benches = Callable[..., Any]
@@ -166,6 +176,106 @@ def odometry_with_covariance(bench: Benches) -> Details:
     return pick(at, "poses", 1)
 
 
+def one_of(
+    bench: Benches,
+    display: Display,
+    type_name: str,
+    values: Mapping[str, Any],
+    key: str,
+    number: int | None,
+    point: Any = None,
+) -> Details:
+    """An item of a node of a message in the frame odom."""
+    at = bench(display)
+    at.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
+    at.send(type_name, values, frame="odom")
+    at.turn()
+    return pick(at, key, number, point)
+
+
+POSE = {"position": {"x": 1.0, "y": 2.0}, "orientation": {"w": 1.0}}
+
+
+def pose(bench: Benches) -> Details:
+    return one_of(bench, Pose(), "geometry_msgs/msg/PoseStamped", {"pose": POSE}, "poses", 0)
+
+
+def pose_with_covariance(bench: Benches) -> Details:
+    values = {"pose": {"pose": POSE, "covariance": np.diag([0.04, 0, 0, 0, 0, 1]).ravel()}}
+    type_name = "geometry_msgs/msg/PoseWithCovarianceStamped"
+    return one_of(bench, PoseWithCovariance(), type_name, values, "ellipses", 0)
+
+
+def pose_of_an_array(bench: Benches) -> Details:
+    """The last line of the second arrow."""
+    values = {"poses": [{"position": {"x": NAN}}, POSE]}
+    return one_of(bench, PoseArray(), "geometry_msgs/msg/PoseArray", values, "poses", 2)
+
+
+def particle(bench: Benches) -> Details:
+    """The y axis of the second."""
+    values = {"particles": [{"pose": POSE, "weight": w} for w in (0.25, 0.75)]}
+    cloud = ParticleCloud(shape="Axes")
+    return one_of(bench, cloud, "nav2_msgs/msg/ParticleCloud", values, "poses", 4)
+
+
+def point(bench: Benches) -> Details:
+    values = {"point": {"x": 1.0, "y": 2.5}}
+    return one_of(bench, PointStamped(), "geometry_msgs/msg/PointStamped", values, "points", 0)
+
+
+def last_side_of_a_polygon(bench: Benches) -> Details:
+    points = np.array([(0, 0, 0), (3, 0, 0), (3, 4, 0)], np.float32)
+    values = {"polygon": {"points": points}}
+    return one_of(bench, Polygon(), "geometry_msgs/msg/PolygonStamped", values, "outline", 2)
+
+
+def cell_of_a_grid(bench: Benches) -> Details:
+    cells = np.array([(NAN, 0, 0), (0, 0, 0), (1, 0, 0)], np.float64)
+    values = {"cell_width": 1.0, "cell_height": 0.5, "cells": cells}
+    clicked = (1.25, 0.125, 0.0)
+    return one_of(bench, GridCells(), "nav_msgs/msg/GridCells", values, "cells", None, clicked)
+
+
+def torque(bench: Benches) -> Details:
+    values = {"wrench": {"force": {"x": 1.5}, "torque": {"z": -2.0}}}
+    type_name = "geometry_msgs/msg/WrenchStamped"
+    return one_of(bench, Wrench(), type_name, values, "torque circles", 5)
+
+
+def effort_of_a_joint(bench: Benches) -> Details:
+    at = bench(Effort())
+    urdf = (
+        "<robot name='r'><link name='map'/><link name='odom'/><joint name='elbow' type='revolute'>"
+        "<parent link='map'/><child link='odom'/><limit effort='8' velocity='1'/></joint></robot>"
+    )
+    at.send("std_msgs/msg/String", {"data": urdf}, topic="/robot_description")
+    at.turn()
+    at.settle()
+    at.transform("map", "odom")
+    values = {"name": ["elbow"], "effort": [2.0]}
+    at.send("sensor_msgs/msg/JointState", values, frame="", topic="/joint_states")
+    at.turn()
+    return pick(at, "rings", 3)
+
+
+def cone_of_a_range(bench: Benches) -> Details:
+    values = {"radiation_type": 1, "field_of_view": 0.5, "max_range": 4.0, "range": 0.7}
+    return one_of(bench, Range(), "sensor_msgs/msg/Range", values, "cone", 0)
+
+
+def temperature(bench: Benches) -> Details:
+    values = {"temperature": 21.5, "variance": 0.25}
+    return one_of(bench, Temperature(), "sensor_msgs/msg/Temperature", values, "points", 0)
+
+
+def point_of_an_older_cloud(bench: Benches) -> Details:
+    channels = [{"name": "ring", "values": [3.0, 5.0]}]
+    values = {"points": np.array([(NAN, 0, 0), (1, 2, 3)], np.float32), "channels": channels}
+    cloud = PointCloud(color_transformer="FlatColor")
+    return one_of(bench, cloud, "sensor_msgs/msg/PointCloud", values, "points", 0)
+
+
 def grid(bench: Benches) -> Details:
     at = bench(Grid(plane_cell_count=4, cell_size=0.5))
     at.turn()
@@ -198,6 +308,13 @@ def line_of_a_display_that_does_not_know(bench: Benches) -> Details:
     return details
 
 
+POSE_TOLD = {
+    "fields": {
+        "Position": "1.0000, 2.0000, 0.0000 m",
+        "Orientation": "x 0.0000, y 0.0000, z 0.0000, w 1.0000",
+        "Roll, pitch, yaw": "0.00, 0.00, 0.00 °",
+    }
+}
 CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     point_of_a_cloud: (
         "Point 5",
@@ -228,6 +345,28 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
         {"Speed": "0.5, 0, 0 m/s", "Turn rate": "0, 0, -0.25 rad/s", "Child frame": "base",
          "Standard deviations": "x 0.2, y 0, z 0, roll 0, pitch 0, yaw 1"},
     ),
+    pose: ("Pose 0", {"Pose in odom": POSE_TOLD}),
+    pose_with_covariance: (
+        "Pose 0",
+        {"Pose in odom": POSE_TOLD,
+         "Standard deviations": "x 0.2, y 0, z 0, roll 0, pitch 0, yaw 1"},
+    ),
+    pose_of_an_array: ("Pose 1", {"Pose in odom": POSE_TOLD, "Poses in the message": "2"}),
+    particle: ("Particle 1", {"Weight": "0.75", "Particles in the message": "2"}),
+    point: ("Point 0", {"Point in odom": {"fields": {"x": "1", "y": "2.5", "z": "0"}}}),
+    last_side_of_a_polygon: ("Side 2", {"Length": "5 m", "Points in the polygon": "3"}),
+    cell_of_a_grid: ("Cell 2", {"Size": "1 m x 0.5 m", "Cells in the message": "3"}),
+    torque: ("Wrench 0", {"Force in odom": "1.5, 0, 0 N", "Torque in odom": "0, 0, -2 Nm"}),
+    effort_of_a_joint: (
+        "Joint elbow", {"Effort": "2 Nm", "Largest effort": "8 Nm", "Link": "odom"}
+    ),
+    cone_of_a_range: (
+        "Range 0",
+        {"Range": "0.7 m", "Field of view": "28.65°", "Limits": "0 to 4 m",
+         "Radiation": "infrared"},
+    ),
+    temperature: ("Temperature 0", {"Value": "21.5 °C", "Standard deviation": "0.5 °C"}),
+    point_of_an_older_cloud: ("Point 1", {"ring": "5.0", "Points in the cloud": "2"}),
     grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
     axes: ("Axes of odom", {"Length": "1 m"}),
     line_of_a_display_that_does_not_know: ("Line 2", {}),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from random import Random
 from typing import Any
 
@@ -101,6 +101,15 @@ def plain(rosbags_store: Any) -> Callable[[Any], Any]:
         if kind == "TransformStamped":
             parent, stamp = items["header"]["frame_id"], items["header"]["stamp"]
             return [parent, items["child_frame_id"], stamp, *items["transform"].values()]
-        return list(items.values()) if kind in VECTOR_NAMES else items
+        return list(_numbers(items)) if kind in VECTOR_NAMES else items
 
     return convert
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    """The numbers of a message and its nested ones, in the order of the wire."""
+    if isinstance(value, dict | list):
+        for inner in value.values() if isinstance(value, dict) else value:
+            yield from _numbers(inner)
+    else:
+        yield value

@@ -18,9 +18,11 @@ from webviz_urdf.robot import (
     Robot,
     RobotDescriptionError,
     Shape,
+    TurningJoint,
 )
 
 if TYPE_CHECKING:
+    from webviz_urdf.effort_limits import turning_joints
     from webviz_urdf.load import load_file, load_robot
 
 __all__ = [
@@ -41,17 +43,21 @@ __all__ = [
     "RobotDescriptionError",
     "Shape",
     "Surface",
+    "TurningJoint",
     "glb_with",
     "inertia_box",
     "load_file",
     "load_robot",
     "mass_sphere",
+    "turning_joints",
     "write_glb",
 ]
 
 
 def __getattr__(name: str) -> object:
-    """Import what reads meshes when it is asked for: it takes longer than all of a viewer."""
+    """Import what reads files when it is asked for: it takes longer than all of a viewer."""
+    if name == "turning_joints":
+        return importlib.import_module("webviz_urdf.effort_limits").turning_joints
     if name in ("load_file", "load_robot"):
         return getattr(importlib.import_module("webviz_urdf.load"), name)
     raise AttributeError(f"module 'webviz_urdf' has no attribute {name!r}")

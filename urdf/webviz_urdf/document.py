@@ -46,7 +46,7 @@ _NUMBERS = {
     "mass": {"value": (1,)},
     "inertia": dict.fromkeys(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), (1,)),
     "axis": {"xyz": (3,)},
-    "limit": {"lower": (1,), "upper": (1,)},
+    "limit": {"lower": (1,), "upper": (1,), "effort": (1,)},
     "mimic": {"multiplier": (1,), "offset": (1,)},
 }
 _LARGEST = 1e12

@@ -102,6 +102,21 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class TurningJoint:
+    """A joint that turns.
+
+    Args:
+        child: its link, in whose frame the axis is.
+        axis: unit vector.
+        max_effort: Nm, 0 if the description gives none.
+    """
+
+    child: str
+    axis: tuple[float, float, float]
+    max_effort: float
+
+
+@dataclass(frozen=True)
 class Missing:
     """A visual or collision that is not drawn.
 

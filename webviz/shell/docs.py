@@ -96,7 +96,8 @@ def page(name: str, cls: type[Display], notes: Notes) -> str:
     shown = pictures(snake_case(name))
     lines = [f"# {name}", "", *paragraphs(cls), ""]
     lines += [f"![{name}]({shown.pop('default')})", ""] if "default" in shown else []
-    lines += [f"RViz2's `{cls.rviz}`. In a config file: `- type: {name}`.", ""]
+    origin = f"RViz2's `{cls.rviz}`." if cls.rviz else "RViz2 has no such display."
+    lines += [f"{origin} In a config file: `- type: {name}`.", ""]
     lines += inputs_table(cls)
     lines += ["## Properties", "", *properties_table(cls), ""]
     if notes.statuses:

@@ -67,8 +67,9 @@ VECTORS = {
     "geometry_msgs/msg/Quaternion": ("float64", 4),
     "std_msgs/msg/ColorRGBA": ("float32", 4),
     "visualization_msgs/msg/UVCoordinate": ("float32", 2),
+    "nav2_msgs/msg/Particle": ("float64", 8),
 }
-"""Messages of k equal numbers: a sequence of N of them is one (N, k) array."""
+"""Messages of k equal numbers, nested ones included: a sequence of N is one (N, k) array."""
 
 SEQUENCES: dict[str, Callable[[], Any]] = {
     "geometry_msgs/msg/Pose": geometry.PoseSequence,

@@ -58,7 +58,7 @@ def page(paths: Iterable[Path]) -> str:
     lines.append(_row((*_counts("**all**", whole, kinds),)))
     lines.append(_row(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds))))
     classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
-    classes += [cls.rviz for cls in plugin_types(Tool).values()]
+    classes += [cls.rviz for cls in plugin_types(Tool).values() if cls.rviz]
     lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:

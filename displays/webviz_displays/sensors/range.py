@@ -1,0 +1,87 @@
+"""The Range display."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+
+from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz_displays.shared.geometry import FARTHEST
+from webviz_displays.shared.rods import rods
+
+RADIATION = {0: "ultrasound", 1: "infrared"}
+
+
+class Range(Display):
+    """The cone in which an ultrasonic or infrared sensor sees something, up to its distance."""
+
+    rviz = "rviz_default_plugins/Range"
+
+    topic: Annotated[Topic, Input("sensor_msgs/msg/Range"), Prop(help="Topic of the ranges.")] = (
+        Topic("/range")
+    )
+    color: Annotated[Color, Prop(help="Colour of the cones.")] = (255, 255, 255)
+    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
+        0.5
+    )
+    buffer_length: Annotated[
+        int, Prop(ge=1, le=10_000, help="How many of the newest ranges to show.")
+    ] = 1
+
+    def history(self) -> Keep:
+        """The newest ranges."""
+        return Keep(count=self.buffer_length)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """One cone along x, in the frame and at the stamp of its header."""
+        message = sample.message
+        angle = message.field_of_view
+        if not 0 < angle < math.pi:
+            ctx.error(
+                "Range",
+                f"field_of_view is {angle:g} rad; a cone needs one between 0 and pi. "
+                "Set it in the driver.",
+            )
+            return
+        distance, sentence = measured(message)
+        radius = distance * math.tan(angle / 2)
+        if not 0 < distance < FARTHEST or radius > FARTHEST:
+            ctx.warn("Range", sentence)
+            return
+        if self.alpha == 0:
+            ctx.warn("Range", f"Invisible: alpha is 0. {sentence}")
+            return
+        ctx.ok("Range", sentence)
+        cone = rods([(distance, 0.0, 0.0)], [(0.0, 0.0, 0.0)], 2 * radius)
+        ctx.instances("cone", "cone", *cone[:2], self.color, cone.wxyzs, self.alpha)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """The message."""
+        message = hit.sample.message
+        return Details(
+            f"Range {hit.sample.number}",
+            {
+                "Range": f"{np.float32(message.range)!s} m",
+                "Field of view": f"{math.degrees(message.field_of_view):.4g}°",
+                "Limits": f"{message.min_range:g} to {message.max_range:g} m",
+                "Radiation": RADIATION.get(message.radiation_type, message.radiation_type),
+            },
+        )
+
+
+def measured(message: Any) -> tuple[float, str]:
+    """The distance in metres that a sensor_msgs/Range stands for, 0 if nothing, and a sentence.
+
+    With equal limits it is a sensor that only says whether something is within that distance, as
+    REP 117 has it: -inf if so, +inf if not.
+    """
+    low, high, distance = message.min_range, message.max_range, message.range
+    if low == high:
+        if distance == -math.inf or distance == low:
+            return low, f"Something is within {low:g} m."
+        return 0.0, f"Nothing is within {low:g} m, so there is no cone."
+    if low <= distance <= high:
+        return distance, f"Showing {distance:.4g} m."
+    return 0.0, f"The range {distance:g} m is not between {low:g} and {high:g} m; there is no cone."

@@ -1,0 +1,86 @@
+"""Base of the displays of one measured number: a coloured point, with RViz's properties."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Annotated, ClassVar
+
+import numpy as np
+
+from webviz import Color, ColorScale, Context, Details, Hit, Pose, Prop, Sample
+from webviz_displays.shared.colors import RAINBOW, ramp
+from webviz_displays.shared.geometry import origin_near
+from webviz_displays.shared.points_display import PointStyle
+
+LOWEST = Prop(help="Value that gets the minimum colour.")
+HIGHEST = Prop(help="Value that gets the maximum colour.")
+
+
+class ScalarDisplay(PointStyle):
+    """Base of displays that draw a point where a sensor is, coloured by what it measures."""
+
+    quantity: ClassVar[str]
+    """What is measured, which names the field of the message."""
+    unit: ClassVar[str]
+    """Of the quantity, as the message has it; "" for a ratio."""
+
+    use_rainbow: Annotated[
+        bool,
+        Prop(
+            rviz="Use rainbow",
+            help="Colour from red (low) to magenta (high) instead of between two colours.",
+        ),
+    ] = True
+    invert_rainbow: Annotated[
+        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
+    ] = False
+    min_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
+    ] = (0, 0, 0)
+    max_color: Annotated[
+        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
+    ] = (255, 255, 255)
+    min_intensity: Annotated[float, LOWEST] = 0.0
+    max_intensity: Annotated[float, HIGHEST] = 1.0
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """All measurements as one node, each where its frame was at its stamp."""
+        if not samples:
+            return
+        values = np.array([getattr(sample.message, self.quantity) for sample in samples])
+        ids = np.flatnonzero(np.isfinite(values))
+        said = self._amount(values[-1])
+        if not math.isfinite(values[-1]):
+            ctx.error("Value", f"The {self._noun} is {said}. Check the sensor.")
+        elif self.alpha == 0:
+            ctx.warn("Value", f"Invisible: alpha is 0. The {self._noun} is {said}.")
+        else:
+            ctx.ok("Value", said)
+        if not len(ids) or self.alpha == 0:
+            return
+        xyz = np.array([samples[i].pose.position for i in ids.tolist()])
+        rainbow = RAINBOW[::-1] if self.invert_rainbow else RAINBOW
+        stops = rainbow if self.use_rainbow else (self.min_color, self.max_color)
+        low, high = self.min_intensity, self.max_intensity
+        label = f"{self._noun} ({self.unit})" if self.unit else self._noun
+        ctx.color_scale = ColorScale(label, low, high, stops)
+        origin = origin_near(xyz)
+        group = ctx.follow(None, offset=Pose(origin))
+        points = (xyz - origin).astype(np.float32)
+        self.draw_points(points, ramp(values[ids], low, high, stops), group, ctx, ids=ids)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """What was measured."""
+        message = hit.samples[hit.id].message
+        values: dict[str, object] = {"Value": self._amount(getattr(message, self.quantity))}
+        if message.variance > 0:
+            values["Standard deviation"] = self._amount(math.sqrt(message.variance))
+        return Details(f"{self._noun.capitalize()} {hit.samples[hit.id].number}", values)
+
+    @property
+    def _noun(self) -> str:
+        return self.quantity.replace("_", " ")
+
+    def _amount(self, value: float) -> str:
+        return f"{value:.6g} {self.unit}".rstrip()

@@ -1,0 +1,259 @@
+"""The Effort display."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import numpy as np
+
+import webviz_urdf
+from webviz import Context, Details, Display, Frames, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz.data import messages
+from webviz.data.words import counted, listed
+from webviz_displays.shared.frame_names import prefixed
+from webviz_displays.shared.geometry import origin_near
+from webviz_displays.shared.history import HistoryLength
+from webviz_displays.vectors.rings import Rings, add_rings
+from webviz_urdf import RobotDescriptionError, TurningJoint
+
+MOST_NM = 1e6
+"""Larger efforts are not measurements; they could make a ring that cannot be drawn."""
+
+NAMED = 20
+"""Joints with a status of their own."""
+
+Joints = Mapping[str, TurningJoint]
+
+
+@dataclass(frozen=True)
+class _Waiting:
+    """A message with the frames that it needs at its stamp."""
+
+    number: int
+    stamp_ns: int
+    frames: tuple[str, ...]
+
+
+@dataclass
+class _State:
+    """What is drawn, and what waits.
+
+    Args:
+        waiting: messages without a transform of some link at their stamp, oldest first.
+        ready: number of the newest message that can be drawn.
+        efforts: of the newest message that is drawn, Nm by joint.
+        joints: of the robot.
+    """
+
+    waiting: list[_Waiting] = field(default_factory=list)
+    ready: int = -1
+    efforts: dict[str, float] = field(default_factory=dict)
+    joints: Joints = field(default_factory=dict)
+
+
+class Effort(Display):
+    """The torques of a robot's joints, as rings about their axes."""
+
+    rviz = "rviz_default_plugins/Effort"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/JointState"), Prop(help="Topic of the joints' efforts.")
+    ] = Topic("/joint_states")
+    robot_description: Annotated[
+        Topic,
+        Input("std_msgs/msg/String", latched=True),
+        Prop(help="Topic of the robot's URDF, which gives the axes and the largest efforts."),
+    ] = Topic("/robot_description")
+    alpha: Annotated[
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Opacity of the heads; rings are opaque in the browser and fade towards "
+            "dark grey.",
+        ),
+    ] = 1.0
+    width: Annotated[float, Prop(gt=0, unit="m", help="Width of the rings.")] = 0.02
+    scale: Annotated[
+        float, Prop(gt=0, unit="m", help="Diameter of the ring of the largest effort.")
+    ] = 1.0
+    tf_prefix: Annotated[
+        str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
+    ] = ""
+    history_length: HistoryLength = 1
+
+    def new_state(self) -> _State:
+        """Nothing."""
+        return _State()
+
+    def history(self) -> Keep:
+        """The newest messages, and those that wait for their transforms."""
+        return Keep(count=self.history_length + self.topic.filter_size)
+
+    def waits(self, name: str) -> bool:
+        """Links have frames of their own; that of the header does not matter."""
+        return False
+
+    def depends(self, ctx: Context) -> object:
+        """The newest message that can be drawn."""
+        state: _State = ctx.state
+        for each in reversed(state.waiting):
+            if _is_ready(each, ctx.frames):
+                state.ready = max(state.ready, each.number)
+                break
+        return state.ready
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """The rings of the newest messages, each link where it was at the stamp."""
+        state: _State = ctx.state
+        descriptions = [sample for sample in samples if sample.input == "robot_description"]
+        measured = [sample for sample in samples if sample.input == "topic"]
+        state.waiting, state.efforts = [], {}
+        if not descriptions:
+            topic = self.robot_description.name
+            ctx.warn(
+                "URDF",
+                f"No robot description received on {topic}. Start robot_state_publisher.",
+            )
+            return
+        try:
+            text = descriptions[-1].message.data
+            joints = ctx.background(("joints", text), _turning_joints, text)
+        except RobotDescriptionError as error:
+            ctx.error("URDF", str(error))
+            return
+        if joints is None:
+            ctx.warn("URDF", "Reading the robot description.")
+            return
+        state.joints = joints
+        ctx.ok("URDF", f"{counted(len(joints), 'joint')} that can turn.")
+        self._draw_rings(measured, joints, ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """The newest effort of a joint."""
+        state: _State = ctx.state
+        name = str(hit.id)
+        if name not in state.efforts:
+            return None
+        joint = state.joints[name]
+        return Details(
+            f"Joint {name}",
+            {
+                "Effort": f"{state.efforts[name]:.6g} Nm",
+                "Largest effort": f"{joint.max_effort:g} Nm" if joint.max_effort else "not given",
+                "Link": joint.child,
+            },
+        )
+
+    def _draw_rings(self, measured: Sequence[Sample], joints: Joints, ctx: Context) -> None:
+        state: _State = ctx.state
+        rings: list[Rings] = []
+        newest: Sample | None = None
+        for sample in reversed(measured):
+            efforts = _efforts(sample.message, joints)
+            frames = tuple(prefixed(self.tf_prefix, joints[name].child) for name in efforts)
+            waiting = _Waiting(sample.number, sample.stamp_ns, frames)
+            if newest is None and not _is_ready(waiting, ctx.frames):
+                state.waiting.insert(0, waiting)
+                continue
+            if newest is None:
+                newest, state.efforts = sample, efforts
+                state.ready = max(state.ready, sample.number)
+            rings.append(self._rings(efforts, frames, sample.stamp_ns, joints, ctx.frames))
+            if len(rings) == self.history_length:
+                break
+        if measured and newest is None:
+            waiting = state.waiting[-1]
+            lost = next(f for f in waiting.frames if ctx.frames.at(f, waiting.stamp_ns) is None)
+            ctx.error("Transform", ctx.frames.why_not(lost, waiting.stamp_ns))
+        if newest is None:
+            return
+        self._report(newest.message, state.efforts, joints, rings[0], ctx)
+        whole = Rings(*(np.concatenate(parts) for parts in zip(*rings, strict=True)))
+        if self.alpha == 0:
+            ctx.warn("Efforts", "Invisible: alpha is 0. Increase it to show the rings.")
+        elif len(whole.names):
+            origin = origin_near(whole.centers)
+            group = ctx.follow(None, offset=Pose(origin))
+            moved = whole._replace(centers=whole.centers - origin)
+            add_rings(group, moved, self.width, self.scale, self.alpha)
+
+    def _rings(
+        self,
+        efforts: Mapping[str, float],
+        frames: Sequence[str],
+        stamp_ns: int,
+        joints: Joints,
+        transforms: Frames,
+    ) -> Rings:
+        """The rings of one message; joints without a transform have none."""
+        found = [
+            (name, transforms.at(frame, stamp_ns))
+            for name, frame in zip(efforts, frames, strict=True)
+        ]
+        placed = [(name, pose) for name, pose in found if pose is not None]
+        return Rings.of(
+            [name for name, _ in placed],
+            [pose for _, pose in placed],
+            [joints[name].axis for name, _ in placed],
+            [efforts[name] for name, _ in placed],
+            [joints[name].max_effort for name, _ in placed],
+        )
+
+    def _report(
+        self,
+        message: messages.JointState,
+        efforts: Mapping[str, float],
+        joints: Joints,
+        rings: Rings,
+        ctx: Context,
+    ) -> None:
+        """Say what the newest message has, and what of it is not drawn."""
+        if len(message.effort) != len(message.name):
+            ctx.error(
+                "Efforts",
+                f"The message has {len(message.effort)} efforts for {len(message.name)} joints. "
+                "Fix the publisher.",
+            )
+            return
+        turning = [name for name in message.name if name in joints]
+        invalid = [name for name in turning if name not in efforts]
+        lost = [name for name in efforts if name not in rings.names]
+        ctx.ok("Efforts", f"Showing {counted(len(rings.names), 'joint')}.")
+        if invalid:
+            names = listed(invalid, NAMED)
+            ctx.warn("Efforts", f"Efforts are not finite or above 1e6 Nm: {names}.")
+        elif lost:
+            ctx.warn("Efforts", f"Links have no transform: {listed(lost, NAMED)}.")
+        elif not turning:
+            ctx.warn(
+                "Efforts",
+                "No joint of the message turns in the robot description. Check their names.",
+            )
+        for name in list(efforts)[:NAMED]:
+            most = joints[name].max_effort
+            limit = f" of {most:g} Nm" if most else ", without a largest effort in the URDF"
+            ctx.ok(f"Joint {name}", f"{efforts[name]:.4g} Nm{limit}")
+
+
+def _turning_joints(text: str) -> Joints:
+    return webviz_urdf.turning_joints(text)  # imports what reads XML, in the worker
+
+
+def _efforts(message: messages.JointState, joints: Joints) -> dict[str, float]:
+    """The sensible efforts in Nm of the joints that turn, by name."""
+    if len(message.effort) != len(message.name):
+        return {}
+    pairs = zip(message.name, message.effort.tolist(), strict=True)
+    return {name: effort for name, effort in pairs if name in joints and abs(effort) < MOST_NM}
+
+
+def _is_ready(message: _Waiting, frames: Frames) -> bool:
+    """Whether all links have a pose at the stamp, but for those that have none at all."""
+    return all(
+        frames.at(frame, message.stamp_ns) is not None or frames.latest(frame) is None
+        for frame in message.frames
+    )

@@ -1,0 +1,49 @@
+"""Base of the displays of velocities and accelerations, with RViz's properties."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Color, Prop
+from webviz_displays.vectors.vector_display import Look, VectorDisplay
+
+
+class MotionDisplay(VectorDisplay):
+    """Base of displays of a linear and an angular velocity or acceleration."""
+
+    linear_color: Annotated[Color, Prop(help="Colour of the linear part.")] = (204, 51, 51)
+    angular_color: Annotated[Color, Prop(help="Colour of the angular part.")] = (204, 204, 51)
+    linear_arrow_scale: Annotated[
+        float, Prop(gt=0, help="Length of the shaft in metres per SI unit of the linear part.")
+    ] = 2.0
+    angular_arrow_scale: Annotated[
+        float, Prop(gt=0, help="Length of the shaft in metres per SI unit of the angular part.")
+    ] = 2.0
+    hide_small_values: Annotated[
+        bool, Prop(help="Hide arrows whose shaft is not longer than Arrow Width.")
+    ] = False
+
+    def units(self) -> tuple[str, str]:
+        """SI units of the linear and the angular part."""
+        raise NotImplementedError
+
+    def looks(self) -> tuple[Look, Look]:
+        """The linear and the angular part."""
+        linear, angular = self.units()
+        return (
+            Look("linear", linear, self.linear_color, self.linear_arrow_scale),
+            Look("angular", angular, self.angular_color, self.angular_arrow_scale),
+        )
+
+    def hides(self, lengths: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Zero, or small ones if they are to be hidden."""
+        return lengths <= (self.arrow_width if self.hide_small_values else 0.0)
+
+    def why_hidden(self) -> str:
+        """Why neither is drawn."""
+        if self.hide_small_values:
+            return "Hide Small Values hides arrows that are not longer than Arrow Width."
+        return super().why_hidden()

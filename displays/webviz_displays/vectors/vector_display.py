@@ -1,0 +1,140 @@
+"""Base of the displays of two vectors: one straight, one to turn about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
+from webviz.data import messages
+from webviz.data.rotations import matrices
+from webviz_displays.shared.geometry import FARTHEST, origin_near
+from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
+
+F64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+class Look(NamedTuple):
+    """How to draw one of the vectors.
+
+    Attributes:
+        noun: such as "force".
+        unit: such as "N".
+        color: of the arrows.
+        scale: metres per unit.
+    """
+
+    noun: str
+    unit: str
+    color: Color
+    scale: float
+
+
+class VectorDisplay(Display):
+    """Base of displays that draw a linear and an angular vector at the origin of a frame."""
+
+    topic: Annotated[Topic, Prop(help="Topic of the vectors.")] = Topic()
+    alpha: Annotated[
+        float,
+        Prop(
+            ge=0,
+            le=1,
+            widget="slider",
+            help="Opacity of the arrows; circles are opaque in the browser and fade towards "
+            "dark grey.",
+        ),
+    ] = 1.0
+    arrow_width: Annotated[
+        float, Prop(gt=0, unit="m", help="Width of the arrows; heads are 0.2 of it thick.")
+    ] = 0.5
+
+    def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
+        """The linear and the angular vector of a message."""
+        raise NotImplementedError
+
+    def looks(self) -> tuple[Look, Look]:
+        """How to draw them."""
+        raise NotImplementedError
+
+    def hides(self, lengths: F64) -> Mask:
+        """Which vectors (N,) of these lengths in metres are not drawn."""
+        return lengths == 0
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """All vectors, each where its frame was at its stamp."""
+        if samples:
+            origin = origin_near([samples[-1].pose.position])
+            self.draw_vectors(samples, origin, ctx.follow(None, offset=Pose(origin)), ctx)
+
+    def draw_vectors(
+        self, samples: Sequence[Sample], origin: Sequence[float], group: Group, ctx: Context
+    ) -> None:
+        """Draw the vectors of samples.
+
+        Args:
+            samples: oldest first.
+            origin: of the group in the fixed frame, metres.
+            group: where to draw.
+            ctx: collects statuses.
+        """
+        values = np.array([self._row(sample.message) for sample in samples])
+        ok: Mask = np.all(np.isfinite(values), axis=(1, 2))
+        if not ok[-1]:
+            numbers = ", ".join(f"{number:g}" for number in values[-1].ravel())
+            remedy = "Fix the publisher."
+            ctx.error("Values", f"The message has values that are not finite: {numbers}. {remedy}")
+        tails = np.array([sample.pose.position for sample in samples]) - origin
+        turns = matrices([sample.pose.wxyz for sample in samples])
+        told: list[str] = []
+        shown = 0
+        for number, (look, add) in enumerate(
+            zip(self.looks(), (add_straight, add_turning), strict=True)
+        ):
+            with np.errstate(over="ignore", invalid="ignore"):
+                shafts = look.scale * np.einsum("nij,nj->ni", turns, values[:, number])
+                lengths = np.linalg.norm(shafts, axis=1)
+                fits: Mask = ok & (lengths < FARTHEST)
+                seen = np.flatnonzero(fits & ~self.hides(lengths))
+                size = np.linalg.norm(values[-1, number])
+            if ok[-1] and not fits[-1]:
+                text = f"is too large to be drawn: {size:.4g} {look.unit}. Fix the publisher."
+                ctx.error("Values", f"The {look.noun} {text}")
+            elif ok[-1]:
+                hidden = "" if len(samples) - 1 in seen else ", not drawn"
+                told.append(f"{look.noun} {size:.4g} {look.unit}{hidden}")
+            if len(seen) and self.alpha > 0:
+                vectors = Vectors(tails[seen], shafts[seen], seen)
+                add(group, look.noun, vectors, self.arrow_width, look.color, self.alpha)
+                shown += len(seen)
+        if told:
+            text = "; ".join(told)
+            sentence = f"{text[0].upper()}{text[1:]}."
+            if self.alpha == 0:
+                ctx.warn("Vectors", f"Invisible: alpha is 0. {sentence}")
+            elif shown:
+                ctx.ok("Vectors", sentence)
+            else:
+                ctx.warn("Vectors", f"{sentence} {self.why_hidden()}")
+
+    def why_hidden(self) -> str:
+        """Why no vector is drawn."""
+        return "Both are zero, so there is no arrow."
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details:
+        """Both vectors in their own frame."""
+        sample = hit.samples[hit.id]
+        pairs = zip(self.looks(), self.vectors(sample.message), strict=True)
+        values = {
+            f"{look.noun.capitalize()} in {sample.frame or hit.frame}": (
+                f"{v.x:.6g}, {v.y:.6g}, {v.z:.6g} {look.unit}"
+            )
+            for look, v in pairs
+        }
+        return Details(f"{type(self).__name__} {sample.number}", values)
+
+    def _row(self, message: Any) -> list[tuple[float, float, float]]:
+        return [(v.x, v.y, v.z) for v in self.vectors(message)]

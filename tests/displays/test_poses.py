@@ -1,0 +1,206 @@
+"""Pose, PoseWithCovariance, PoseArray, ParticleCloud and PointStamped."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.data.rotations import matrices
+from webviz_displays.poses import (
+    ParticleCloud,
+    PointStamped,
+    Pose,
+    PoseArray,
+    PoseWithCovariance,
+)
+from webviz_displays.poses import pose_set as pose_sets
+
+NAN = float("nan")
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+"""90 degrees about z, xyzw."""
+POSE = "geometry_msgs/msg/PoseStamped"
+COVARIANT = "geometry_msgs/msg/PoseWithCovarianceStamped"
+ARRAY = "geometry_msgs/msg/PoseArray"
+PARTICLES = "nav2_msgs/msg/ParticleCloud"
+POINT = "geometry_msgs/msg/PointStamped"
+
+Benches = Callable[..., Any]
+
+
+def pose(x: float, y: float = 0.0, turn: tuple[float, ...] = (0, 0, 0, 1)) -> dict[str, Any]:
+    return {"position": {"x": x, "y": y}, "orientation": dict(zip("xyzw", turn, strict=True))}
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn messages in the frame odom, which is 10 m along x and turned left."""
+
+    def make(display: Any, type_name: str, *messages: dict[str, Any]) -> Any:
+        made = bench(display)
+        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
+        for each in messages:
+            made.send(type_name, each, frame="odom")
+            made.turn()
+        return made
+
+    return make
+
+
+def test_a_pose_is_an_arrow_along_x_of_rvizs_size(shown: Benches) -> None:
+    at = shown(Pose(), POSE, {"pose": pose(1.0)})
+    node = at.nodes()["poses"]
+    np.testing.assert_allclose(at.xyz("poses"), [[(10, 1, 0), (10, 2.3, 0)]], atol=1e-6)
+    assert (node.shaft_radius, node.head_radius, node.head_length) == (0.05, 0.1, 0.3)
+    assert node.colors == (255, 25, 0)
+    assert at.statuses()["Pose"] == ("OK", "Showing 1 pose.")
+
+
+def test_former_poses_stay_where_their_frame_was(bench: Benches) -> None:
+    at = bench(Pose(history_length=2))
+    for x in (1.0, 2.0, 3.0):
+        at.transform("map", "odom", (x, 0.0, 0.0), stamp_ns=at.now_ns)
+        at.send(POSE, {"pose": pose(0.0)}, frame="odom")
+        at.turn(0.1)
+    np.testing.assert_allclose(at.xyz("poses")[:, 0], [(2, 0, 0), (3, 0, 0)], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("turn", "said"),
+    [((0, 0, 0, 0), "all zeros"), ((0, 0, 0, 7), "not normalized"), ((0, 0, 0, 1e200), "not norm")],
+)
+def test_a_quaternion_that_is_no_rotation_is_drawn_as_the_nearest_one(
+    shown: Benches, turn: tuple[float, ...], said: str
+) -> None:
+    at = shown(Pose(), POSE, {"pose": pose(0.0, turn=turn)})
+    np.testing.assert_allclose(at.xyz("poses")[0, 1], (10, 1.3, 0), atol=1e-6)
+    level, text = at.statuses()["Orientation"]
+    assert (level, said in text) == ("WARN", True)
+
+
+def test_an_invalid_pose_is_named_and_the_former_ones_stay(shown: Benches) -> None:
+    at = shown(Pose(history_length=3), POSE, {"pose": pose(1.0)}, {"pose": pose(NAN)})
+    assert len(at.xyz("poses")) == 1
+    level, text = at.statuses()["Pose"]
+    assert (level, "not finite: position (nan" in text) == ("ERROR", True)
+    at.send(POSE, {"pose": pose(2.0)}, frame="odom")
+    at.turn()
+    assert at.nodes()["poses"].ids.tolist() == [0, 2]
+    assert at.statuses()["Pose"] == ("OK", "Showing 2 poses.")
+
+
+def test_a_covariance_surrounds_its_pose(shown: Benches) -> None:
+    covariance = np.diag([4.0, 0.0, 0.0, 0.0, 0.0, 0.01]).ravel()
+    invalid = {"pose": {"pose": pose(NAN), "covariance": covariance}}
+    message = {"pose": {"pose": pose(1.0), "covariance": covariance}}
+    at = shown(PoseWithCovariance(history_length=2), COVARIANT, invalid, message)
+    assert at.nodes().keys() == {"poses", "ellipses", "wedges"}
+    ellipse = at.nodes()["ellipses"]
+    np.testing.assert_allclose(at.xyz("ellipses"), [(10, 1, 1e-3)], atol=1e-6)
+    extent = np.abs(matrices(ellipse.wxyzs) * ellipse.scales[:, None, :]).max(axis=2)
+    np.testing.assert_allclose(extent, [(0, 4, 1e-3)], atol=1e-5)  # odom's x is map's y
+    assert ellipse.ids.tolist() == at.nodes()["poses"].ids.tolist() == [1]
+
+
+def test_a_flat_arrow_is_three_lines_of_a_pixel(shown: Benches) -> None:
+    at = shown(PoseArray(arrow_length=2.0), ARRAY, {"poses": [pose(1.0), pose(3.0)]})
+    node = at.nodes()["poses"]
+    assert (node.width, node.unit, node.ids.tolist()) == (1.0, "px", [0, 0, 0, 1, 1, 1])
+    expected = [
+        [(10, 1, 0), (10, 3, 0)],
+        [(10, 3, 0), (9.6, 2.5, 0)],
+        [(10, 3, 0), (10.4, 2.5, 0)],
+    ]
+    np.testing.assert_allclose(at.xyz("poses")[:3], expected, atol=1e-6)
+
+
+def test_an_array_of_solid_arrows_or_axes(shown: Benches) -> None:
+    at = shown(PoseArray(shape="Arrow (3D)"), ARRAY, {"poses": [pose(1.0)]})
+    np.testing.assert_allclose(at.nodes()["shafts"].scales, [(0.02, 0.02, 0.23)], atol=1e-6)
+    np.testing.assert_allclose(at.nodes()["heads"].scales, [(0.06, 0.06, 0.07)], atol=1e-6)
+    np.testing.assert_allclose(at.xyz("heads"), [(10, 1.265, 0)], atol=1e-6)
+    at.set("shape", "Axes")
+    assert (at.nodes()["poses"].length, at.nodes()["poses"].radius) == (0.3, 0.01)
+
+
+def test_poses_that_are_not_finite_are_left_out_and_counted(shown: Benches) -> None:
+    at = shown(PoseArray(), ARRAY, {"poses": [pose(NAN), pose(1.0), pose(1e300)]})
+    assert at.nodes()["poses"].ids.tolist() == [1, 1, 1]
+    level, text = at.statuses()["Poses"]
+    assert (level, text.startswith("2 of 3 poses are not finite")) == ("WARN", True)
+    at.send(ARRAY, {"poses": []}, frame="odom")
+    at.turn()
+    assert at.statuses()["Poses"][0] == "WARN"
+
+
+def test_of_too_many_poses_some_are_picked(shown: Benches, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pose_sets, "MOST_POSES", 10)
+    at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(i) for i in range(100)]})
+    ids = at.nodes()["poses"].ids
+    assert (len(ids), set(ids // 10)) == (10, set(range(10)))
+    assert at.statuses()["Poses"] == ("WARN", "Showing 10 of 100 poses, evenly picked.")
+
+
+def particles(*weights: float) -> dict[str, Any]:
+    return {"particles": [{"pose": pose(i), "weight": w} for i, w in enumerate(weights)]}
+
+
+@pytest.mark.parametrize(
+    ("weight", "length"), [(0.0, 0.02), (0.5, 0.16), (1.0, 0.3), (7.0, 0.3), (-1.0, 0.02)]
+)
+def test_the_length_of_a_particle_is_its_weight(
+    shown: Benches, weight: float, length: float
+) -> None:
+    at = shown(ParticleCloud(), PARTICLES, particles(weight))
+    tail, tip = at.xyz("poses")[0]
+    assert tip - tail == pytest.approx((0, length, 0), abs=1e-6)
+
+
+def test_solid_particles_have_the_proportions_of_rvizs(shown: Benches) -> None:
+    at = shown(ParticleCloud(shape="Arrow (3D)", max_arrow_length=1.0), PARTICLES, particles(1, 0))
+    heads, shafts = at.nodes()["heads"], at.nodes()["shafts"]
+    np.testing.assert_allclose(heads.scales[0], (0.1304, 0.1304, 0.3043), atol=1e-6)
+    np.testing.assert_allclose(shafts.scales[0], (0.0435, 0.0435, 0.6957), atol=1e-6)
+    np.testing.assert_allclose(heads.scales[1], np.multiply(0.02, heads.scales[0]), atol=1e-6)
+    at.set("shape", "Axes")
+    axes = at.nodes()["poses"]
+    np.testing.assert_allclose(axes.scales[:3], [(0.0435, 0.0435, 1.0)] * 3, atol=1e-6)
+    # Turned left, x is along y, y against x, and z up.
+    middles = at.xyz("poses")[:3] - (10, 0, 0)
+    np.testing.assert_allclose(middles, [(0, 0.5, 0), (-0.5, 0, 0), (0, 0, 0.5)], atol=1e-6)
+
+
+def test_weights_that_are_not_finite_count_as_none(shown: Benches) -> None:
+    at = shown(ParticleCloud(), PARTICLES, particles(NAN, 1.0))
+    assert at.xyz("poses")[0, 1] == pytest.approx((10, 0.02, 0), abs=1e-6)
+    assert at.statuses()["Weight"][0] == "WARN"
+
+
+def test_a_point_is_a_sphere_that_stays_where_its_frame_was(bench: Benches) -> None:
+    at = bench(PointStamped(history_length=2))
+    for x in (1.0, 2.0, 3.0):
+        at.transform("map", "gripper", (x, 0.0, 0.0), stamp_ns=at.now_ns)
+        at.send(POINT, {"point": {"z": 0.5}}, frame="gripper")
+        at.turn(0.1)
+    node = at.nodes()["points"]
+    assert (node.shape, node.colors) == ("sphere", (204, 41, 204))
+    np.testing.assert_allclose(node.scales, np.full((2, 3), 0.4), atol=1e-6)
+    np.testing.assert_allclose(at.xyz("points"), [(2, 0, 0.5), (3, 0, 0.5)], atol=1e-6)
+    at.transform("map", "gripper", stamp_ns=at.now_ns)
+    at.send(POINT, {"point": {"x": NAN}}, frame="gripper")
+    at.turn()
+    assert len(at.xyz("points")) == 1
+    assert at.statuses()["Point"][0] == "ERROR"
+
+
+def test_far_from_the_origin_points_and_poses_keep_their_millimetres(shown: Benches) -> None:
+    east = 448_262.123
+    at = shown(PointStamped(), POINT, {"point": {"x": east}})
+    assert at.xyz("points")[0] == pytest.approx((10, east, 0), abs=1e-4)
+    at = shown(Pose(), POSE, {"pose": pose(east)})
+    assert at.xyz("poses")[0, 0] == pytest.approx((10, east, 0), abs=1e-4)
+    at = shown(PoseArray(shape="Axes"), ARRAY, {"poses": [pose(east)]})
+    assert at.xyz("poses")[0] == pytest.approx((10, east, 0), abs=1e-4)

@@ -1,0 +1,149 @@
+"""Range, the four scalars and the older point cloud."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.data.rotations import matrices
+from webviz_displays.sensors import (
+    FluidPressure,
+    Illuminance,
+    PointCloud,
+    Range,
+    RelativeHumidity,
+    Temperature,
+)
+
+NAN, INF = float("nan"), float("inf")
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+RANGE, CLOUD = "sensor_msgs/msg/Range", "sensor_msgs/msg/PointCloud"
+
+Benches = Callable[..., Any]
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn messages in the frame sensor, 10 m along x and turned left."""
+
+    def make(display: Any, type_name: str, *messages: dict[str, Any]) -> Any:
+        made = bench(display)
+        made.transform("map", "sensor", (10.0, 0.0, 0.0), QUARTER)
+        for each in messages:
+            made.send(type_name, each, frame="sensor")
+            made.turn()
+        return made
+
+    return make
+
+
+def measured(distance: float, low: float = 0.25, high: float = 4.0, angle: float = 1.0) -> Any:
+    return {"field_of_view": angle, "min_range": low, "max_range": high, "range": distance}
+
+
+def test_a_range_is_a_cone_with_its_tip_at_the_sensor(shown: Benches) -> None:
+    at = shown(Range(), RANGE, measured(2.0))
+    node = at.nodes()["cone"]
+    assert (node.shape, node.colors, node.opacity) == ("cone", (255, 255, 255), 0.5)
+    np.testing.assert_allclose(at.xyz("cone"), [(10, 1, 0)], atol=1e-6)
+    width = 2 * 2.0 * math.tan(0.5)
+    np.testing.assert_allclose(node.scales, [(width, width, 2.0)], rtol=1e-6)
+    pose = at.poses()["cone"]
+    tip = matrices(pose.wxyz) @ matrices(node.wxyzs[0]) @ (0, 0, 1)
+    np.testing.assert_allclose(tip, (0, -1, 0), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("message", "distance"),
+    [
+        (measured(0.25), 0.25),
+        (measured(4.0), 4.0),
+        (measured(4.5), 0.0),
+        (measured(0.125), 0.0),
+        (measured(INF), 0.0),
+        (measured(-INF), 0.0),
+        (measured(NAN), 0.0),
+        (measured(-INF, 2.0, 2.0), 2.0),
+        (measured(2.0, 2.0, 2.0), 2.0),
+        (measured(INF, 2.0, 2.0), 0.0),
+        (measured(NAN, 2.0, 2.0), 0.0),
+    ],
+)
+def test_a_range_out_of_its_limits_has_no_cone(
+    shown: Benches, message: Any, distance: float
+) -> None:
+    at = shown(Range(), RANGE, message)
+    lengths = [node.scales[0, 2] for node in at.nodes().values()]
+    assert lengths == ([distance] if distance else [])
+    assert at.statuses()["Range"][0] == ("OK" if distance else "WARN")
+
+
+@pytest.mark.parametrize("angle", [0.0, -0.5, math.pi, NAN])
+def test_a_cone_needs_a_field_of_view(shown: Benches, angle: float) -> None:
+    at = shown(Range(), RANGE, measured(2.0, angle=angle))
+    assert at.nodes() == {}
+    assert at.statuses()["Range"][0] == "ERROR"
+
+
+def test_former_ranges_stay(shown: Benches) -> None:
+    at = shown(Range(buffer_length=2), RANGE, *map(measured, (1.0, 2.0, 3.0)))
+    assert sorted(node.scales[0, 2] for _, _, node in at.scene.visible()) == [2.0, 3.0]
+
+
+@pytest.mark.parametrize(
+    ("display", "field", "value", "color", "said"),
+    [
+        (Temperature, "temperature", 0.0, (255, 0, 255), "0 °C"),
+        (Temperature, "temperature", 100.0, (255, 0, 0), "100 °C"),
+        (FluidPressure, "fluid_pressure", 98_000.0, (255, 0, 0), "98000 Pa"),
+        (Illuminance, "illuminance", 1000.0, (255, 0, 255), "1000 lx"),
+        (RelativeHumidity, "relative_humidity", 0.2, (255, 255, 0), "0.2"),
+    ],
+)
+def test_a_measurement_colours_a_point_at_its_sensor(
+    shown: Benches, display: type, field: str, value: float, color: tuple[int, ...], said: str
+) -> None:
+    at = shown(display(), f"sensor_msgs/msg/{display.__name__}", {field: value})
+    np.testing.assert_allclose(at.xyz("points"), [(10, 0, 0)], atol=1e-6)
+    assert at.nodes()["points"].colors.tolist() == [list(color)]
+    assert at.statuses()["Value"] == ("OK", said)
+    scale = at.runner.color_scale()
+    assert (scale.low, scale.high) == (display().min_intensity, display().max_intensity)
+
+
+def test_a_trail_of_measurements_is_one_node(bench: Benches) -> None:
+    at = bench(Temperature(decay_time=10.0))
+    for x, value in ((1.0, 20.0), (2.0, NAN), (3.0, 40.0)):
+        at.transform("map", "sensor", (x, 0.0, 0.0), stamp_ns=at.now_ns)
+        at.send("sensor_msgs/msg/Temperature", {"temperature": value}, frame="sensor")
+        at.turn(0.1)
+        assert at.statuses()["Value"][0] == ("OK" if math.isfinite(value) else "ERROR")
+    np.testing.assert_allclose(at.xyz("points"), [(1, 0, 0), (3, 0, 0)], atol=1e-6)
+    assert at.nodes()["points"].ids.tolist() == [0, 2]
+
+
+def old_cloud(**channels: list[float]) -> dict[str, Any]:
+    named = [{"name": name, "values": values} for name, values in channels.items()]
+    return {"points": np.array([(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]), "channels": named}
+
+
+def test_the_channels_of_an_older_cloud_are_its_fields(shown: Benches) -> None:
+    at = shown(PointCloud(), CLOUD, old_cloud(intensity=[3.0, 5.0]))
+    np.testing.assert_allclose(at.xyz("points"), [(10, 1, 0), (10, 2, 0)], atol=1e-6)
+    assert at.nodes()["points"].colors.tolist() == [[255, 0, 0], [255, 0, 255]]
+    assert at.statuses()["Colors"] == ("OK", "Intensity, by the fields: x, y, z, intensity.")
+    packed = np.array([0x00FF8000, 0x000080FF], np.uint32).view(np.float32).tolist()
+    at.send(CLOUD, old_cloud(rgb=packed), frame="sensor")
+    at.turn()
+    assert at.nodes()["points"].colors.tolist() == [[255, 128, 0], [0, 128, 255]]
+
+
+def test_a_channel_of_another_length_is_named(shown: Benches) -> None:
+    at = shown(PointCloud(), CLOUD, old_cloud(intensity=[3.0]))
+    assert len(at.nodes()["points"].xyz) == 2
+    level, text = at.statuses()["Data"]
+    assert (level, "ignored: 'intensity' with 1." in text) == ("WARN", True)

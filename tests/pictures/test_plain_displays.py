@@ -1,0 +1,147 @@
+"""Poses, areas, vectors and single measurements as people see them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from webviz import Display
+from webviz.api.display import inputs_of
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage, turned
+from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.grid import Grid
+from webviz_displays.poses import (
+    ParticleCloud,
+    PointStamped,
+    Pose,
+    PoseArray,
+    PoseWithCovariance,
+)
+from webviz_displays.sensors import (
+    FluidPressure,
+    Illuminance,
+    PointCloud,
+    Range,
+    RelativeHumidity,
+    Temperature,
+)
+from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
+
+Values = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A display, alone in its picture.
+
+    Args:
+        picture: folder of its picture.
+        display: with what the picture shows best.
+        messages: the values of some, each in the frame sensor.
+    """
+
+    picture: str
+    display: Display
+    messages: tuple[Values, ...]
+
+
+def pose(x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> Values:
+    return {
+        "position": {"x": x, "y": y, "z": z},
+        "orientation": dict(zip("xyzw", turned(yaw=yaw), strict=True)),
+    }
+
+
+def around(count: int, radius: float) -> list[Values]:
+    """Poses on a circle that look outwards."""
+    angles = [2 * math.pi * i / count for i in range(count)]
+    return [pose(radius * math.cos(a), radius * math.sin(a), yaw=a) for a in angles]
+
+
+def vector(x: float, y: float, z: float) -> Values:
+    return {"x": x, "y": y, "z": z}
+
+
+ARM = """
+<robot name="arm"><link name="base_link"/><link name="sensor"/>
+<joint name="elbow" type="revolute"><parent link="base_link"/><child link="sensor"/>
+<axis xyz="0.3 0 1"/><limit effort="10" velocity="1" lower="0" upper="1"/></joint></robot>
+"""
+COVARIANCE = np.diag([0.09, 0.04, 0.0, 0.0, 0.0, 0.07]).ravel()
+PUSH = {"force": vector(0.4, 0.3, 0.2), "torque": vector(0.0, 0.2, 0.7)}
+MOTION = {"linear": vector(0.6, 0.0, 0.0), "angular": vector(0.0, 0.0, 0.5)}
+OTHER_MOTION = {"linear": vector(0.0, -0.6, 0.0), "angular": vector(0.0, 0.0, -0.6)}
+STAR = [
+    vector(r * math.cos(k * math.pi / 5), r * math.sin(k * math.pi / 5), 0.0)
+    for k in range(10)
+    for r in [1.2 if k % 2 else 0.6]
+]
+CELLS = [vector(0.3 * i - 0.8, 0.3 * j - 0.8, 0.0) for i in range(6) for j in range(6) if i * j % 3]
+HILL = [
+    vector(0.1 * i, 0.1 * j, 0.4 * math.exp(-((i / 6) ** 2 + (j / 6) ** 2)))
+    for i in range(-10, 11)
+    for j in range(-10, 11)
+]
+SONAR = {"field_of_view": 0.5, "min_range": 0.2, "max_range": 4.0, "range": 1.4}
+BIG: Values = {"style": "Spheres", "size": 0.8}
+
+CASES = [
+    Case("pose", Pose(shaft_length=0.8), ({"pose": pose(-0.5, 0.0, yaw=0.5)},)),
+    Case(
+        "pose_with_covariance",
+        PoseWithCovariance(shaft_length=0.6),
+        ({"pose": {"pose": pose(-0.3, 0.0, yaw=0.5), "covariance": COVARIANCE}},),
+    ),
+    Case("pose_array", PoseArray(shape="Arrow (3D)"), ({"poses": around(9, 0.7)},)),
+    Case(
+        "particle_cloud",
+        ParticleCloud(max_arrow_length=1.0),
+        ({"particles": [{"pose": p, "weight": 0.1 * i} for i, p in enumerate(around(11, 0.3))]},),
+    ),
+    Case(
+        "point_stamped",
+        PointStamped(history_length=3, alpha=0.7),
+        tuple({"point": vector(0.5 * i - 0.5, 0.3 * i, 0.2)} for i in range(3)),
+    ),
+    Case("polygon", Polygon(), ({"polygon": {"points": STAR}},)),
+    Case("grid_cells", GridCells(), ({"cell_width": 0.28, "cell_height": 0.28, "cells": CELLS},)),
+    Case("wrench", Wrench(), ({"wrench": PUSH},)),
+    Case("twist_stamped", TwistStamped(), ({"twist": MOTION},)),
+    Case("accel_stamped", AccelStamped(linear_color=(80, 160, 255)), ({"accel": MOTION},)),
+    Case("twist", Twist(reference_frame="sensor"), (OTHER_MOTION,)),
+    Case("effort", Effort(scale=2.0, width=0.06), ({"name": ["elbow"], "effort": [6.0]},)),
+    Case("range", Range(), (SONAR,)),
+    Case("temperature", Temperature(**BIG), ({"temperature": 20.0},)),
+    Case("fluid_pressure", FluidPressure(**BIG), ({"fluid_pressure": 101_325.0},)),
+    Case("illuminance", Illuminance(**BIG), ({"illuminance": 900.0},)),
+    Case("relative_humidity", RelativeHumidity(**BIG), ({"relative_humidity": 0.65},)),
+    Case("point_cloud", PointCloud(size=0.06), ({"points": HILL},)),
+]
+
+
+def test_each_display_has_a_picture_of_its_own(webviz_stage: Callable[..., Stage]) -> None:
+    view = Orbit(distance=4.5, yaw=-0.7, pitch=0.8, focal_point=(0.2, 0.0, 0.2))
+    for case in CASES:
+        case.display.enabled = False
+    shown = (case.display for case in CASES)
+    seen = webviz_stage(*shown, Grid(plane_cell_count=4), view=view)
+    seen.transform("map", "sensor")
+    for case in CASES:
+        name = type(case.display).__name__
+        seen.set("enabled", True, name)
+        seen.publish("/robot_description", "std_msgs/msg/String", {"data": ARM})
+        seen.settle()
+        topic = case.display.topic.name  # pyright: ignore[reportAttributeAccessIssue]
+        spec = inputs_of(type(case.display))["topic"]
+        for values in case.messages:
+            frame = None if case.picture == "twist" else "sensor"
+            seen.publish(topic, spec.type, values, frame=frame)
+            seen.turn()
+        seen.wait_until_drawn(name)
+        seen.check_picture(f"{case.picture}/default")
+        seen.set("enabled", False, name)

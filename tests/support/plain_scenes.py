@@ -1,0 +1,145 @@
+"""Messages for the displays of poses, areas, vectors and single measurements.
+
+In each scene every property of the display has something to change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+ROBOT = """
+<robot name="one">
+  <link name="base"/>
+  <link name="rider"/>
+  <joint name="slide" type="continuous">
+    <parent link="base"/><child link="rider"/><axis xyz="1 2 3"/>
+    <limit effort="1" velocity="1"/>
+  </joint>
+</robot>
+"""
+
+
+def in_moving_frame(type_name: str, *values: dict[str, Any]) -> Callable[[Any], None]:
+    """Messages in a tilted frame that is elsewhere at each of them."""
+
+    def send(bench: Any) -> None:
+        for number, each in enumerate(values):
+            place = (float(number), 2.0 * number, 0.0)
+            tilt = (0.5, 0.5, 0.5, 0.5)
+            bench.transform("map", "sensor", place, tilt, stamp_ns=bench.now_ns)
+            bench.send(type_name, each, frame="sensor")
+            bench.turn(0.1)
+
+    return send
+
+
+def old_clouds(bench: Any) -> None:
+    """As `clouds`, in the message type before PointCloud2."""
+    bench.transform("map", "lidar", (1.0, 0.0, 0.5), (0.5, 0.5, 0.5, 0.5))
+    points = [(1.0, 0.0, 0.1), (1.1, 0.2, 0.3), (40.0, 4.0, 4.4), (41.0, 4.1, 4.5)]
+    channels = {"intensity": [100.0, 900.0, 30.0, 5000.0], "rgb": [1e-38, 2e-38, 3e-38, 4e-38]}
+    channels |= {"r": [0.1, 0.2, 0.3, 0.4], "g": [0.5] * 4, "b": [0.6, 0.5, 0.4, 0.3]}
+    values = {
+        "points": np.array(points),
+        "channels": [{"name": name, "values": each} for name, each in channels.items()],
+    }
+    for _ in range(2):
+        bench.send("sensor_msgs/msg/PointCloud", values, frame="lidar")
+        bench.turn()
+
+
+def velocity(bench: Any) -> None:
+    bench.transform("map", "base_link", (1.0, 0.0, 0.0))
+    bench.transform("map", "robot", (1.0, 2.0, 0.0))
+    bench.send("geometry_msgs/msg/Twist", MOTION)
+    bench.turn()
+
+
+def torques(bench: Any) -> None:
+    """A weak and a strong torque of a joint, of which the frames are known with and without
+    prefix."""
+    urdf = ROBOT.replace("prismatic", "continuous").replace(
+        "</joint>", '<axis xyz="1 2 3"/></joint>'
+    )
+    bench.send("std_msgs/msg/String", {"data": urdf}, topic="/robot_description")
+    bench.turn()
+    bench.settle()
+    bench.transform("map", "robot/rider", (5.0, 0.0, 0.0))
+    for number, effort in enumerate((0.25, 0.75)):
+        place = (float(number), 0.0, 0.0)
+        bench.transform("map", "rider", place, stamp_ns=bench.now_ns)
+        values = {"name": ["slide"], "effort": [effort]}
+        bench.send("sensor_msgs/msg/JointState", values, frame="", topic="/joint_states")
+        bench.turn(0.1)
+
+
+def at(x: float) -> dict[str, Any]:
+    return {"position": {"x": x}, "orientation": {"w": 1.0}}
+
+
+def turned(x: float) -> dict[str, Any]:
+    """As `at`, looking to the left."""
+    return {"position": {"x": x}, "orientation": {"z": 0.6, "w": 0.8}}
+
+
+COVARIANCE = np.diag([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]).ravel()
+MOTION = {"linear": {"x": 0.2, "y": 0.1}, "angular": {"z": 0.2}}
+NAN = float("nan")
+
+PLAIN_SCENES: dict[str, Callable[[Any], None]] = {
+    "AccelStamped": in_moving_frame(
+        "geometry_msgs/msg/AccelStamped", {"accel": MOTION}, {"accel": MOTION}
+    ),
+    "Effort": torques,
+    "FluidPressure": in_moving_frame(
+        "sensor_msgs/msg/FluidPressure", {"fluid_pressure": 1e5}, {"fluid_pressure": 1.01e5}
+    ),
+    "GridCells": in_moving_frame(
+        "nav_msgs/msg/GridCells",
+        *({"cell_width": 0.1, "cell_height": 0.2, "cells": [{"x": x}]} for x in (0.0, 1.0)),
+    ),
+    "Illuminance": in_moving_frame(
+        "sensor_msgs/msg/Illuminance", {"illuminance": 300.0}, {"illuminance": 400.0}
+    ),
+    "ParticleCloud": in_moving_frame(
+        "nav2_msgs/msg/ParticleCloud",
+        *({"particles": [{"pose": at(x), "weight": 0.3}]} for x in (0.0, 1.0)),
+    ),
+    "PointCloud": old_clouds,
+    "PointStamped": in_moving_frame(
+        "geometry_msgs/msg/PointStamped", {"point": {"x": 1.0}}, {"point": {"x": 2.0}}
+    ),
+    "Polygon": in_moving_frame(
+        "geometry_msgs/msg/PolygonStamped",
+        *({"polygon": {"points": [{"x": x}, {"y": x}, {"z": x}]}} for x in (1.0, 2.0)),
+    ),
+    "Pose": in_moving_frame("geometry_msgs/msg/PoseStamped", {"pose": at(1.0)}, {"pose": at(2.0)}),
+    "PoseArray": in_moving_frame(
+        "geometry_msgs/msg/PoseArray", {"poses": [at(1.0)]}, {"poses": [at(2.0), at(3.0)]}
+    ),
+    "PoseWithCovariance": in_moving_frame(
+        "geometry_msgs/msg/PoseWithCovarianceStamped",
+        *({"pose": {"pose": turned(x), "covariance": COVARIANCE}} for x in (1.0, 2.0)),
+    ),
+    "Range": in_moving_frame(
+        "sensor_msgs/msg/Range",
+        *({"field_of_view": 0.5, "max_range": 4.0, "range": each} for each in (1.0, 2.0)),
+    ),
+    "RelativeHumidity": in_moving_frame(
+        "sensor_msgs/msg/RelativeHumidity", {"relative_humidity": 0.3}, {"relative_humidity": 0.4}
+    ),
+    "Temperature": in_moving_frame(
+        "sensor_msgs/msg/Temperature", {"temperature": 30.0}, {"temperature": 40.0}
+    ),
+    "Twist": velocity,
+    "TwistStamped": in_moving_frame(
+        "geometry_msgs/msg/TwistStamped", {"twist": MOTION}, {"twist": MOTION}
+    ),
+    "Wrench": in_moving_frame(
+        "geometry_msgs/msg/WrenchStamped",
+        *({"wrench": {"force": {"x": 1.0, "y": NAN}, "torque": {"z": 1.0}}} for _ in range(2)),
+    ),
+}
