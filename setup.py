@@ -20,6 +20,8 @@ setup(
             "Illuminance = webviz_displays.sensors:Illuminance",
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Map = webviz_displays.map:Map",
+            "Marker = webviz_displays.markers:Marker",
+            "MarkerArray = webviz_displays.markers:MarkerArray",
             "Odometry = webviz_displays.odometry:Odometry",
             "ParticleCloud = webviz_displays.poses:ParticleCloud",
             "Path = webviz_displays.path:Path",

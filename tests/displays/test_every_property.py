@@ -19,6 +19,8 @@ from plain_scenes import PLAIN_SCENES
 import webviz_displays
 from webviz import Display, Topic
 from webviz.api.declared import set_property
+from webviz.api.display import inputs
+from webviz.shell.testing.messages import header
 from webviz_displays.robot_model.parts import JointSettings, LinkSettings
 
 SECOND = 1_000_000_000
@@ -146,11 +148,33 @@ def robots(bench: Any) -> None:
         bench.turn(0.1)
 
 
+def markers(bench: Any) -> None:
+    """Two markers, one alone and one in an array, if the display takes both."""
+    for name, topic in (("Marker", ""), ("MarkerArray", "_array")):
+        marker = {
+            "header": header("map", bench.now_ns),
+            "ns": "robot",
+            "id": len(topic),
+            "type": 1,
+            "pose": {"position": {"x": 2.0 * len(topic)}},
+            "scale": {"x": 1.0, "y": 1.0, "z": 1.0},
+            "color": {"a": 1.0},
+        }
+        values = {"markers": [marker]} if topic else marker
+        known = {each.name for _, _, each in inputs(bench.display)}
+        if f"/visualization_marker{topic}" in known or "" in known:
+            type_name = f"visualization_msgs/msg/{name}"
+            bench.send(type_name, values, topic=f"/visualization_marker{topic}")
+    bench.turn()
+
+
 SCENES: dict[str, Callable[[Any], None]] = {
     "Axes": robot_frame,
     "Grid": robot_frame,
     "LaserScan": scans,
     "Map": maps,
+    "Marker": markers,
+    "MarkerArray": markers,
     "Odometry": odometries,
     "Path": paths,
     "PointCloud2": clouds,

@@ -101,13 +101,13 @@ def test_an_arrow_strip_is_an_arrow_from_each_point_to_the_next() -> None:
 
 
 @pytest.mark.parametrize(
-    ("type_", "shape"), [(Marker.CUBE_LIST, "box"), (Marker.SPHERE_LIST, "sphere")]
+    ("type_", "key"), [(Marker.CUBE_LIST, "box"), (Marker.SPHERE_LIST, "sphere data")]
 )
-def test_the_items_of_a_list_are_solids_with_a_colour_each(type_: int, shape: str) -> None:
+def test_the_items_of_a_list_are_solids_with_a_colour_each(type_: int, key: str) -> None:
     each = colors((1, 0, 0, 1), (0, 1, 0, 0.5))
     where = points((0, 0, 0), (1, 0, 0))
     nodes = drawn(marker(type_, (4, 2, 1), (0, 0, 1, 0), points=where, colors=each))
-    opaque, clear = nodes[f"{shape} data"], nodes[f"{shape} data 0.502"]
+    opaque, clear = nodes[key], nodes[f"{key} 0.502"]
     np.testing.assert_allclose(corners(opaque), [(9, -2, -0.5), (11, 2, 0.5)], atol=1e-6)
     np.testing.assert_allclose(clear.positions, [(10, 1, 0)], atol=1e-6)
     assert (opaque.colors, clear.colors, clear.opacity) == ((255, 0, 0), (0, 255, 0), 128 / 255)
@@ -115,7 +115,7 @@ def test_the_items_of_a_list_are_solids_with_a_colour_each(type_: int, shape: st
 
 def test_a_list_has_the_colour_of_the_marker_unless_there_is_one_for_each_point() -> None:
     where = points((0, 0, 0), (1, 0, 0))
-    node = drawn(marker(Marker.CUBE_LIST, points=where, colors=colors((0, 1, 0, 1))))["box data"]
+    node = drawn(marker(Marker.CUBE_LIST, points=where, colors=colors((0, 1, 0, 1))))["box"]
     assert node.colors == (255, 0, 0)
 
 

@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz_urdf.glb import MeshPart, Surface, glb_with, write_glb
+from webviz_urdf.glb import MeshFile, MeshPart, Surface, glb_with, write_glb
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.kinematics import Kinematics
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
@@ -33,6 +33,7 @@ __all__ = [
     "LoadRequest",
     "Loading",
     "LoadingStopped",
+    "MeshFile",
     "MeshPart",
     "Mimic",
     "Missing",

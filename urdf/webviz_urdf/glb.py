@@ -61,6 +61,19 @@ class MeshPart:
     colors: U8 | None = None
 
 
+@dataclass(frozen=True)
+class MeshFile:
+    """The content of a mesh file, in metres.
+
+    Args:
+        parts: at least one, none of them empty.
+        warnings: sentences, such as textures that were not found.
+    """
+
+    parts: tuple[MeshPart, ...]
+    warnings: tuple[str, ...] = ()
+
+
 def write_glb(parts: Sequence[MeshPart]) -> bytes:
     """One mesh of several parts as a binary glTF; a part without a surface is white."""
     writer = _Writer()

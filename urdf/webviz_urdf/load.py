@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
 from webviz_urdf.build import build_robot
 from webviz_urdf.description import parse_description
 from webviz_urdf.files import read_file
-from webviz_urdf.resolve import Resolver
+from webviz_urdf.glb import MeshFile
+from webviz_urdf.loading import LoadRequest
+from webviz_urdf.meshes import MeshError, parse_mesh, read_mesh
+from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import Progress, Robot, RobotDescriptionError
+from webviz_urdf.textures import TextureError, encode, open_image, parse_image
 
 MAX_BYTES = 16 << 20
 """Of a file with a description."""
@@ -54,6 +58,26 @@ def load_file(
     text = _expand(path) if path.suffix.lower() == ".xacro" else _read(path)
     resolver = (resolver or Resolver()).relative_to(path.absolute().parent)
     return load_robot(text, resolver, progress, collisions, skip)
+
+
+def load_asset(request: LoadRequest, resolver: Resolver) -> MeshFile | bytes:
+    """Load a mesh, or a picture as PNG or JPEG.
+
+    Raises:
+        RobotDescriptionError: it cannot be drawn; one sentence says why.
+    """
+    name = request.mesh or request.picture
+    try:
+        path = Path("/", PurePosixPath(name).name) if request.data else resolver.resolve(name)
+        if request.mesh:
+            # What came in a message may name no files of this machine.
+            if request.data:
+                return parse_mesh(request.data, path, Resolver(roots=(), ament_prefix_path=""))
+            return read_mesh(path, resolver)
+        image = parse_image(request.data, path) if request.data else open_image(path)
+        return encode(image)
+    except (ResolveError, MeshError, TextureError) as error:
+        raise RobotDescriptionError(str(error)) from error
 
 
 def _read(path: Path) -> str:

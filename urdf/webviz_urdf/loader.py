@@ -11,10 +11,10 @@ from pathlib import Path
 
 from PIL import Image
 
-from webviz_urdf.load import load_file, load_robot
-from webviz_urdf.loading import DEADLINE_S, IDLE_S, MAX_MEMORY, LoadRequest
+from webviz_urdf.load import load_asset, load_file, load_robot
+from webviz_urdf.loading import DEADLINE_S, IDLE_S, MAX_MEMORY, Loaded, LoadRequest
 from webviz_urdf.resolve import Resolver
-from webviz_urdf.robot import Robot, RobotDescriptionError
+from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import MAX_PIXELS
 
 
@@ -43,12 +43,15 @@ def _limit() -> None:
 
 def _load(
     connection: Connection, request: LoadRequest, resolver: Resolver, skip: dict[int, str]
-) -> Robot | Exception:
+) -> Loaded | Exception:
     def progress(done: int, total: int, link: str) -> None:
         signal.alarm(round(2 * DEADLINE_S))  # in case the parent process is gone
         connection.send((done, total, link))
 
     try:
+        if request.mesh or request.picture:
+            progress(0, 1, "")
+            return load_asset(request, resolver)
         if request.path:
             path = Path(request.path).expanduser()
             return load_file(path, resolver, progress, request.collisions, skip)
@@ -57,7 +60,7 @@ def _load(
         return error
     except MemoryError:
         return RobotDescriptionError(
-            "Loading the robot exceeds the memory limit. Simplify its meshes."
+            f"Loading {request.mesh or 'the robot'} exceeds the memory limit. Simplify its meshes."
         )
     except Exception:
         return RuntimeError(traceback.format_exc())

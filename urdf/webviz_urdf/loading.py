@@ -1,4 +1,4 @@
-"""Loading robots in a process that can be ended if it hangs or takes too much memory."""
+"""Loading robots and meshes in a process that can be ended if it hangs or takes too much memory."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import subprocess
 import sys
 import threading
 from dataclasses import dataclass
+from typing import Any
 
+from webviz_urdf.glb import MeshFile
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
@@ -32,7 +34,7 @@ MOST_FAILURES = 3
 
 @dataclass(frozen=True)
 class LoadRequest:
-    """A robot to load; equal requests give equal robots.
+    """A robot, mesh or picture to load; equal requests give equal results.
 
     Args:
         text: URDF, if it came as a message.
@@ -40,6 +42,9 @@ class LoadRequest:
         changed_ns: when the file was last written, 0 if unknown.
         package_paths: folders that hold ROS packages.
         collisions: whether to read collision shapes.
+        mesh: URI of a mesh to load instead of a robot.
+        picture: URI of a picture to load instead.
+        data: the content of the mesh or picture, if it came in a message; its URI is just a name.
     """
 
     text: str = ""
@@ -47,6 +52,13 @@ class LoadRequest:
     changed_ns: int = 0
     package_paths: tuple[str, ...] = ()
     collisions: bool = False
+    mesh: str = ""
+    picture: str = ""
+    data: bytes = b""
+
+
+Loaded = Robot | MeshFile | bytes
+"""A robot, a mesh, or a picture as PNG or JPEG."""
 
 
 class LoadingStopped(Exception):
@@ -54,7 +66,7 @@ class LoadingStopped(Exception):
 
 
 class Loading:
-    """Loads one robot; `run` blocks, the rest may be called from any thread."""
+    """Loads one robot or file; `run` blocks, the rest may be called from any thread."""
 
     def __init__(self, request: LoadRequest) -> None:
         self.at = (0, 0, "")
@@ -64,13 +76,16 @@ class Loading:
         self._stopped = threading.Event()
         self._process: _Process | None = None
 
-    def run(self) -> Robot:
-        """Load the robot; shapes at which the process hangs or ends are listed as missing.
+    def run(self) -> Any:
+        """Load what the request names, one of `Loaded`.
+
+        Shapes of a robot at which the process hangs or ends are listed as missing.
 
         Raises:
             RobotDescriptionError: it cannot be drawn; one sentence says why.
             LoadingStopped: `stop` was called.
         """
+        what = self._request.mesh or self._request.picture
         skip: dict[int, str] = {}
         while True:
             self._process = process = _take()
@@ -78,6 +93,8 @@ class Loading:
                 robot = self._converse(process, skip)
             except _Ended as ended:
                 process.end()
+                if what:
+                    raise RobotDescriptionError(f"Loading {what} failed. {ended}") from None
                 done, total, link = self.at
                 if done in skip or len(skip) == MOST_FAILURES or done == total:
                     where = f" It stopped at link '{link}'." if link else ""
@@ -101,7 +118,7 @@ class Loading:
         if process := self._process:
             process.kill()
 
-    def _converse(self, process: _Process, skip: dict[int, str]) -> Robot:
+    def _converse(self, process: _Process, skip: dict[int, str]) -> Loaded:
         try:
             process.connection.send((self._request, self._resolver, skip))
             patience = START_S
@@ -110,7 +127,7 @@ class Loading:
                     raise _Ended(f"It took longer than {patience:g} s.")
                 patience = DEADLINE_S
                 answer = process.connection.recv()
-                if isinstance(answer, Robot):
+                if isinstance(answer, Loaded):
                     return answer
                 if isinstance(answer, Exception):
                     raise answer

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 from webviz.api.nodes import U8
 from webviz_urdf.dae import without_broken_materials
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import MeshPart, Surface
+from webviz_urdf.glb import MeshFile, MeshPart, Surface
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.textures import TextureFolder, encode
 
@@ -34,19 +34,6 @@ class MeshError(Exception):
     """A mesh cannot be drawn; the text is one sentence that says why."""
 
 
-@dataclass(frozen=True)
-class MeshFile:
-    """The content of a mesh file, in metres.
-
-    Args:
-        parts: at least one, none of them empty.
-        warnings: sentences, such as textures that were not found.
-    """
-
-    parts: tuple[MeshPart, ...]
-    warnings: tuple[str, ...] = ()
-
-
 def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     """Read a mesh file of one of `FORMATS`.
 
@@ -56,15 +43,31 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     Raises:
         MeshError: it cannot be read, has no triangles or too many, or is an archive.
     """
-    suffix = path.suffix.lower().lstrip(".")
-    if suffix not in FORMATS:
-        raise MeshError(
-            f"{path} has the unsupported mesh format '.{suffix}'. "
-            f"Convert it to one of {', '.join(FORMATS)}."
-        )
+    _check_format(path)
+    try:
+        data = read_file(path, MAX_BYTES)
+    except OSError as error:
+        raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
+    except MemoryError as error:
+        raise MeshError(f"{path} exceeds the memory limit. Simplify the mesh.") from error
+    return parse_mesh(data, path, resolver)
+
+
+def parse_mesh(data: bytes, path: Path, resolver: Resolver) -> MeshFile:
+    """Read the content of a mesh file; see `read_mesh`.
+
+    Args:
+        data: the content.
+        path: gives the format, and the folder of its textures.
+        resolver: finds textures.
+
+    Raises:
+        MeshError: see `read_mesh`.
+    """
+    suffix = _check_format(path)
     textures = TextureFolder(path.parent, resolver)
     try:
-        parts, broken = _read(read_file(path, MAX_BYTES), suffix, textures)
+        parts, broken = _read(data, suffix, textures)
     except OSError as error:
         raise MeshError(f"{path} cannot be read: {error.strerror or error}.") from error
     except MemoryError as error:
@@ -85,6 +88,16 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     ]
     warnings += [f"Material '{name}' of {path} is not completely defined." for name in broken]
     return MeshFile(tuple(parts), tuple(warnings))
+
+
+def _check_format(path: Path) -> str:
+    suffix = path.suffix.lower().lstrip(".")
+    if suffix not in FORMATS:
+        raise MeshError(
+            f"{path} has the unsupported mesh format '.{suffix}'. "
+            f"Convert it to one of {', '.join(FORMATS)}."
+        )
+    return suffix
 
 
 def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshPart], list[str]]:

@@ -89,7 +89,20 @@ def open_image(path: Path) -> Image.Image:
         TextureError: it cannot be read, is not a picture, or has too many pixels.
     """
     try:
-        with _open(path, read_file(path, MAX_BYTES)) as image:
+        data = read_file(path, MAX_BYTES)
+    except OSError as error:
+        raise TextureError(f"{path} cannot be read: {error.strerror or error}.") from error
+    return parse_image(data, path)
+
+
+def parse_image(data: bytes, path: Path) -> Image.Image:
+    """The picture whose file has this content; `path` is its name.
+
+    Raises:
+        TextureError: it is not a picture, or has too many pixels.
+    """
+    try:
+        with _open(path, data) as image:
             image.load()
             return image
     except UnidentifiedImageError as error:

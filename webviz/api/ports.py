@@ -15,12 +15,14 @@ class Input:
         latched: subscribe transient local, whatever the known publishers offer.
         suffix: without a topic name, the input uses the first input's topic with this suffix.
         optional: having no publisher is not a problem.
+        every: take latched messages even if they equal the one before, as they may say it anew.
     """
 
     type: str
     latched: bool = False
     suffix: str = ""
     optional: bool = False
+    every: bool = False
 
 
 @dataclass(frozen=True)

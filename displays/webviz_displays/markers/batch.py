@@ -79,7 +79,7 @@ def opacities(alphas: ArrayLike) -> F64:
     """Alphas as opacities 0 to 1, in steps of 1/255."""
     values = np.asarray(alphas, np.float64)
     clamped = np.where(values >= OPAQUE, 1.0, np.clip(values, 0.0, 1.0))
-    return np.asarray(np.ceil(clamped * 255.0) / 255.0)
+    return np.asarray(np.ceil(clamped * 255.0 - 1e-3) / 255.0)
 
 
 def rgb(colors: NDArray[np.floating]) -> U8:

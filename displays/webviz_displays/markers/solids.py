@@ -140,7 +140,9 @@ def _lists(batch: Batch) -> Iterator[Solids]:
         items = items_of(batch, rows)
         of = items.rows
         scales = np.abs(batch.scales[of])
-        yield Solids(shape, items.xyz, batch.wxyzs[of], scales, items.colors, batch.ids[of], True)
+        where = items.xyz, batch.wxyzs[of]
+        is_ball = shape == "sphere"  # boxes need their shading to be seen as such
+        yield Solids(shape, *where, scales, items.colors, batch.ids[of], is_ball)
 
 
 def _arrows(batch: Batch) -> Iterator[Solids]:

@@ -37,6 +37,14 @@ from webviz.data.messages.geometry import (
     TwistWithCovariance,
     Vector3,
 )
+from webviz.data.messages.markers import (
+    ColorRGBA,
+    CompressedImage,
+    Marker,
+    MarkerArray,
+    MarkerSequence,
+    MeshFile,
+)
 from webviz.data.messages.tree import to_tree
 from webviz.data.messages.types import (
     Clock,
@@ -55,6 +63,8 @@ from webviz.data.messages.typestore import definition, type_exists, type_hash
 
 __all__ = [
     "Clock",
+    "ColorRGBA",
+    "CompressedImage",
     "DecodeError",
     "DefinitionError",
     "Duration",
@@ -64,6 +74,10 @@ __all__ = [
     "JointState",
     "LaserScan",
     "MapMetaData",
+    "Marker",
+    "MarkerArray",
+    "MarkerSequence",
+    "MeshFile",
     "MessageError",
     "OccupancyGrid",
     "OccupancyGridUpdate",

@@ -98,7 +98,8 @@ class Intake:
         is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
         for raw in raws:
             last = reception.last
-            if is_latched and last is not None and raw.cdr == last.cdr:
+            is_again = last is not None and raw.cdr == last.cdr
+            if is_latched and is_again and not self.spec.every:
                 continue  # delivered again, by a second publisher or a new subscription
             reception.note(raw, clock)
             try:

@@ -1,0 +1,86 @@
+"""What the markers of one message do, taken together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from webviz.data.messages.markers import Marker, MarkerSequence
+
+Key = tuple[str, int]
+"""Namespace and id: what a marker is known by."""
+
+
+@dataclass
+class Effect:
+    """The net effect of a message: nothing is drawn before all its markers are processed.
+
+    Args:
+        added: the number in the message of the last version of each marker, by namespace and id.
+        deleted: markers that are deleted, unless they are in `added` as well.
+        deleted_namespaces: of which all markers are.
+        deletes_all: whether all are.
+        duplicates: markers that were added twice without being deleted in between.
+        unknown: actions that there are not.
+    """
+
+    added: dict[str, dict[int, int]] = field(default_factory=dict)
+    deleted: set[Key] = field(default_factory=set)
+    deleted_namespaces: set[str] = field(default_factory=set)
+    deletes_all: bool = False
+    duplicates: list[Key] = field(default_factory=list)
+    unknown: list[int] = field(default_factory=list)
+
+    def doomed(self, known: Collection[Key]) -> list[Key]:
+        """Which of the known markers are deleted for good."""
+        if self.deletes_all or self.deleted_namespaces:
+            named = self.deleted_namespaces
+            gone = [
+                key for key in known if self.deletes_all or key[0] in named or key in self.deleted
+            ]
+        else:
+            gone = [key for key in self.deleted if key in known]
+        added = self.added
+        return [key for key in gone if key[1] not in added.get(key[0], ())]
+
+
+def effect_of(markers: MarkerSequence) -> Effect:
+    """The net effect of the markers of one message, in order."""
+    effect = Effect()
+    namespaces, ids = markers.namespaces, markers.ids.tolist()
+    actions = markers.actions
+    ends = [*(np.flatnonzero(actions[1:] != actions[:-1]) + 1).tolist(), len(ids)]
+    for start, stop in zip([0, *ends], ends, strict=False):
+        if start == stop:
+            continue  # no markers
+        match int(actions[start]):
+            case Marker.ADD:
+                _add(effect, namespaces, ids, start, stop)
+            case Marker.DELETE:
+                for i in range(start, stop):
+                    effect.added.get(namespaces[i], {}).pop(ids[i], None)
+                    effect.deleted.add((namespaces[i], ids[i]))
+            case Marker.DELETEALL:
+                for namespace in dict.fromkeys(namespaces[start:stop]):
+                    if namespace:
+                        effect.added.pop(namespace, None)
+                        effect.deleted_namespaces.add(namespace)
+                    else:
+                        effect.added.clear()
+                        effect.deletes_all = True
+            case other:
+                effect.unknown.append(other)
+    return effect
+
+
+def _add(effect: Effect, namespaces: list[str], ids: list[int], start: int, stop: int) -> None:
+    added = effect.added
+    for i in range(start, stop):
+        same = added.get(namespaces[i])
+        if same is None:
+            same = added[namespaces[i]] = {}
+        if ids[i] in same:
+            effect.duplicates.append((namespaces[i], ids[i]))
+        same[ids[i]] = i

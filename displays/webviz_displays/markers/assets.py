@@ -1,0 +1,116 @@
+"""The files that markers name: meshes and pictures, loaded outside the frame loop."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+
+import numpy as np
+
+from webviz import Context, Level
+from webviz.data.messages.markers import Content, Marker
+from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.faults import Fault
+from webviz_displays.markers.meshes import LoadedMesh, Tint
+from webviz_displays.markers.nodes import Files
+from webviz_urdf import Loading, LoadRequest, MeshFile, RobotDescriptionError
+
+EMBEDDED = "embedded://"
+"""Begins the URI of a file that is in the message."""
+MAX_FILES = 500
+"""Different files per display."""
+
+
+class Assets:
+    """Meshes and pictures by what was requested."""
+
+    def __init__(self) -> None:
+        self._known: dict[LoadRequest, LoadedMesh | bytes | str] = {}
+        self._loading: dict[LoadRequest, Loading] = {}
+        self._models: dict[tuple[int, Tint], bytes] = {}
+
+    @property
+    def loading(self) -> int:
+        """How many files are being loaded."""
+        return len(self._loading)
+
+    def load(self, ctx: Context, used: Set[LoadRequest]) -> set[LoadRequest]:
+        """Go on loading; what has arrived.
+
+        Args:
+            ctx: has the workers.
+            used: what markers name; other files are dropped if there are many.
+        """
+        if len(self._known) > MAX_FILES // 2:
+            self._known = {request: v for request, v in self._known.items() if request in used}
+            self._models.clear()
+        self._loading = {request: v for request, v in self._loading.items() if request in used}
+        arrived: set[LoadRequest] = set()
+        for request, loading in self._loading.items():
+            try:
+                result = ctx.background(request, loading.run, stop=loading.stop)
+            except RobotDescriptionError as error:
+                result = str(error)
+            if isinstance(result, MeshFile):
+                name = f"{request.mesh} {len(self._known)}" if request.data else request.mesh
+                result = LoadedMesh(name, result.parts)
+            if result is not None:
+                self._known[request] = result
+                arrived.add(request)
+        for request in arrived:
+            del self._loading[request]
+        return arrived
+
+    def of(self, batch: Batch) -> tuple[Files, list[Fault], set[LoadRequest]]:
+        """What markers take from files, what they lack, and which files they name."""
+        meshes: dict[int, LoadedMesh] = {}
+        pictures: dict[int, bytes] = {}
+        faults: list[Fault] = []
+        requests: set[LoadRequest] = set()
+        types = (Marker.MESH_RESOURCE, Marker.TRIANGLE_LIST)
+        for row in np.flatnonzero(np.isin(batch.types, types)).tolist():
+            request = _request(int(batch.types[row]), batch.contents[row])
+            if isinstance(request, str):
+                faults.append((row, Level.ERROR, request))
+            elif request is not None:
+                requests.add(request)
+                asset = self._asset(request)
+                if isinstance(asset, str):
+                    faults.append((row, Level.ERROR, asset))
+                elif isinstance(asset, LoadedMesh):
+                    meshes[row] = asset
+                elif asset is not None:
+                    pictures[row] = asset
+        return Files(meshes, pictures, self._models), faults, requests
+
+    def _asset(self, request: LoadRequest) -> LoadedMesh | bytes | str | None:
+        """A mesh, a picture, why there is none, or None while it is being loaded."""
+        if request in self._known:
+            return self._known[request]
+        if request not in self._loading:
+            if len(self._known) + len(self._loading) >= MAX_FILES:
+                return f"The markers of this display name more than {MAX_FILES} files."
+            self._loading[request] = Loading(request)
+        return None
+
+
+def _request(type_: int, content: Content) -> LoadRequest | str | None:
+    """The file that a marker names, None if it names none, or why that is impossible."""
+    if type_ == Marker.MESH_RESOURCE:
+        uri = content.mesh_resource
+        if not uri.startswith(EMBEDDED):
+            return LoadRequest(mesh=uri) if uri else None
+        data, name = content.mesh_file.data, content.mesh_file.filename
+        if not len(data):
+            return f"{uri:.80} is not in the message: mesh_file.data is empty."
+        return LoadRequest(mesh=name or uri, data=data.tobytes())
+    uri = content.texture_resource
+    if not uri:
+        return None
+    if len(content.uv_coordinates) != len(content.points):
+        counts = f"{len(content.uv_coordinates)} for {len(content.points)} points"
+        return f"The texture needs one uv coordinate per point, there are {counts}."
+    if not uri.startswith(EMBEDDED):
+        return LoadRequest(picture=uri)
+    if not len(content.texture.data):
+        return f"{uri:.80} is not in the message: texture.data is empty."
+    return LoadRequest(picture=uri, data=content.texture.data.tobytes())

@@ -1,0 +1,161 @@
+"""Nodes of markers by blocks of rows: a marker that changes renews the nodes of its block only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Level, Node, Pose
+from webviz_displays.markers.assets import Assets
+from webviz_displays.markers.faults import faults_of
+from webviz_displays.markers.nodes import nodes_of
+from webviz_displays.markers.table import Table
+from webviz_urdf import LoadRequest
+
+BLOCK = 1024
+"""Rows per block."""
+LARGE = 2000
+"""Points above which a marker is a block by itself."""
+CELL_M = 4000.0
+"""Nodes are float32, which resolves 0.1 mm at half this distance from their origin."""
+
+Place = tuple[str, tuple[float, float, float]]
+"""The frame that a group follows, "" for the fixed frame, and its origin there."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """The nodes of some rows.
+
+    Args:
+        nodes: by where their group is, and by key.
+        faults: sentences about markers that cannot be seen, by row.
+        shown: how many markers are drawn.
+        requests: the files that they name.
+    """
+
+    nodes: Mapping[Place, Mapping[str, Node]] = field(default_factory=dict)
+    faults: Mapping[int, tuple[Level, str]] = field(default_factory=dict)
+    shown: int = 0
+    requests: Set[LoadRequest] = frozenset()
+
+
+class Blocks:
+    """The nodes of all markers."""
+
+    def __init__(self) -> None:
+        self._blocks: dict[int, Block] = {}
+        self._large: set[int] = set()
+
+    def __iter__(self) -> Iterator[Block]:
+        return iter(self._blocks.values())
+
+    def clear(self) -> None:
+        """Make all nodes anew next time."""
+        self._blocks.clear()
+        self._large.clear()
+
+    def requests(self) -> set[LoadRequest]:
+        """The files that markers name."""
+        return {request for block in self for request in block.requests}
+
+    def renew(
+        self,
+        table: Table,
+        changed: Iterable[int],
+        arrived: Set[LoadRequest],
+        is_on: Callable[[str], bool],
+        assets: Assets,
+    ) -> None:
+        """Make the nodes of the blocks that have a changed row.
+
+        Args:
+            table: of the markers.
+            changed: rows.
+            arrived: files that have been loaded.
+            is_on: whether the markers of a namespace are drawn.
+            assets: the files that they name.
+        """
+        rows = set(changed)
+        if not self._blocks:
+            rows |= set(table.rows.values())
+        dirty = {n for n, block in self._blocks.items() if not arrived.isdisjoint(block.requests)}
+        for row in rows:
+            was_large = row in self._large
+            is_large = len(table.shown_contents[row].points) > LARGE
+            (self._large.add if is_large else self._large.discard)(row)
+            if is_large or was_large:
+                dirty.add(-1 - row)
+            if not (is_large and was_large):
+                dirty.add(row // BLOCK)
+        for number in dirty:
+            block = self._make(number, table, is_on, assets)
+            if block is None:
+                self._blocks.pop(number, None)
+            else:
+                self._blocks[number] = block
+
+    def draw(self, ctx: Context) -> None:
+        """Add the nodes to a context."""
+        for number, block in self._blocks.items():
+            for (frame, origin), nodes in block.nodes.items():
+                key = ",".join(f"{metres:g}" for metres in origin)
+                group = ctx.follow(frame or None, offset=Pose(origin), key=key)
+                for name, node in nodes.items():
+                    group.add(f"{name} in {number}", node)
+
+    def _make(
+        self, number: int, table: Table, is_on: Callable[[str], bool], assets: Assets
+    ) -> Block | None:
+        if number < 0:
+            rows = [-1 - number] if -1 - number in self._large else []
+        else:
+            end = min((number + 1) * BLOCK, len(table.keys))
+            rows = [row for row in range(number * BLOCK, end) if row not in self._large]
+        drawn = [
+            row
+            for row in rows
+            if table.is_shown[row] and (key := table.keys[row]) and is_on(key[0])
+        ]
+        if not drawn:
+            return None
+        nodes: dict[Place, Mapping[str, Node]] = {}
+        faults: dict[int, tuple[Level, str]] = {}
+        requests: set[LoadRequest] = set()
+        for place, some in _by_group(table, np.array(drawn, np.intp)):
+            batch = table.batch(some, place[1])
+            files, missing, named = assets.of(batch)
+            requests |= named
+            made = nodes_of(batch, files)
+            if made:
+                nodes[place] = made
+            for row, level, text in (*faults_of(batch), *missing):
+                faults[int(some[row])] = level, text
+        return Block(nodes, faults, len(drawn) - len(faults), requests)
+
+
+def _by_group(table: Table, rows: NDArray[np.intp]) -> Iterator[tuple[Place, NDArray[np.intp]]]:
+    """Rows by the group that their nodes are in."""
+    some = table.shown[rows]
+    cells = np.round(some["position"] / CELL_M) * CELL_M
+    cells[some["locked"]] = 0.0
+    locked = np.flatnonzero(some["locked"]).tolist()
+    if not locked and (cells == cells[0]).all():
+        yield ("", _origin(cells[0])), rows
+        return
+    frames = [""] * len(rows)
+    for index in locked:
+        frames[index] = table.shown_frames[int(rows[index])]
+    found: dict[Place, list[int]] = {}
+    for frame, cell, row in zip(frames, cells, rows.tolist(), strict=True):
+        found.setdefault((frame, _origin(cell)), []).append(row)
+    for place, group in found.items():
+        yield place, np.array(group)
+
+
+def _origin(cell: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (cell + 0.0).tolist()  # -0.0 is 0
+    return x, y, z

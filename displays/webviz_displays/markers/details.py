@@ -1,0 +1,45 @@
+"""What is known of a marker that was selected."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from webviz import Details, Pose
+from webviz_displays.markers.faults import type_name
+from webviz_displays.markers.table import FOREVER, Table
+
+SECOND = 1_000_000_000
+
+
+def marker_details(table: Table, serial: int, now_ns: int) -> Details | None:
+    """A marker by its serial number, None if it was deleted."""
+    rows = np.flatnonzero(table.serials == serial)
+    if not len(rows) or (key := table.keys[row := int(rows[0])]) is None:
+        return None
+    wanted, content = table.wanted[row], table.wanted_contents[row]
+    values: dict[str, object] = {
+        "Namespace": key[0],
+        "Id": key[1],
+        "Type": type_name(int(wanted["type"])),
+        "Frame": table.frames[row],
+        "Age": f"{(now_ns - int(wanted['received_ns'])) / SECOND:.1f} s",
+    }
+    if (expires_ns := int(wanted["expires_ns"])) != FOREVER:
+        values["Expires in"] = f"{(expires_ns - now_ns) / SECOND:.1f} s"
+    if content.text:
+        values["Text"] = content.text
+    if content.mesh_resource:
+        values["Mesh"] = content.mesh_resource
+    if len(content.points):
+        values["Points"] = len(content.points)
+    pose = Pose(tuple(wanted["position"].tolist()), tuple(wanted["wxyz"].tolist()))
+    return Details(
+        f"Marker {key[0]}/{key[1]}",
+        values
+        | {
+            f"Pose in {table.frames[row] or 'the fixed frame'}": pose,
+            "Scale": tuple(wanted["scale"].tolist()),
+            "Color": ", ".join(f"{value:.3g}" for value in wanted["color"].tolist()),
+            "Locked to its frame": bool(wanted["locked"]),
+        },
+    )

@@ -1,0 +1,143 @@
+"""The Marker and MarkerArray displays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated
+
+import msgspec
+
+from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Status, Topic
+from webviz.data import messages
+from webviz_displays.markers.assets import Assets
+from webviz_displays.markers.blocks import Blocks
+from webviz_displays.markers.details import marker_details
+from webviz_displays.markers.report import report_markers, report_namespaces, report_waiting
+from webviz_displays.markers.store import Store
+
+SECOND = 1_000_000_000
+
+
+@dataclass
+class _State:
+    """What is drawn.
+
+    Args:
+        store: all markers, None before the first message.
+        blocks: their nodes.
+        assets: the files that they name.
+        readout: statuses of namespaces, and the second in which they were made.
+    """
+
+    store: Store | None = None
+    blocks: Blocks = field(default_factory=Blocks)
+    assets: Assets = field(default_factory=Assets)
+    switches: dict[str, bool] = field(default_factory=dict)
+    readout: tuple[int, dict[str, Status]] = (-1, {})
+
+
+class Markers(Display):
+    """Base of both displays: what differs is their topics."""
+
+    namespaces: Annotated[
+        dict[str, bool],
+        Prop(help="Switches of single namespaces by name; the markers of others are shown."),
+    ] = msgspec.field(default_factory=dict)
+
+    def new_state(self) -> _State:
+        """Nothing drawn."""
+        return _State()
+
+    def waits(self, name: str) -> bool:
+        """Each marker waits for the transform at its own stamp, so messages need not."""
+        return False
+
+    def fold(self, name: str, sample: Sample, state: Store | None) -> Store:
+        """Take the markers of a message, in order; they are changed in place."""
+        store = state or Store()
+        message = sample.message
+        if isinstance(message, messages.MarkerArray):
+            store.apply(message.markers, sample.received_ns)
+        else:
+            store.apply(messages.MarkerSequence.of([message]), sample.received_ns, is_array=False)
+        return store
+
+    def depends(self, ctx: Context) -> object:
+        """What has expired or has got its transform since the last turn."""
+        state: _State = ctx.state
+        if state.store is None:
+            return None
+        state.store.expire(ctx.frames.now_ns)
+        state.store.place(ctx.frames)
+        return state.store.version
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw all markers; the blocks in which none has changed keep their nodes."""
+        if not samples:
+            return
+        state: _State = ctx.state
+        store: Store = samples[-1].message
+        if state.store is not store or state.switches != self.namespaces:
+            state.blocks.clear()
+            state.store, state.switches = store, dict(self.namespaces)
+        store.expire(ctx.frames.now_ns)
+        store.place(ctx.frames)
+        arrived = state.assets.load(ctx, state.blocks.requests())
+        changed, store.changed = store.changed, set()
+        state.blocks.renew(store.table, changed, arrived, self._is_on, state.assets)
+        state.assets.load(ctx, state.blocks.requests())
+        state.blocks.draw(ctx)
+        report_markers(store, state.blocks, self._is_on, state.assets.loading, ctx)
+
+    def tick(self, ctx: Context) -> None:
+        """Report the namespaces, and what waits for a transform."""
+        state: _State = ctx.state
+        if state.store is None:
+            ctx.warn("Markers", "No message received. Start the publisher or choose another topic.")
+            return
+        second = ctx.frames.now_ns // SECOND
+        if state.readout[0] != second:
+            report_namespaces(state.store, self._is_on, ctx)
+            report_waiting(state.store, ctx)
+            state.readout = second, dict(ctx.statuses)
+        ctx.statuses.update(state.readout[1])
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A marker."""
+        state: _State = ctx.state
+        if state.store is None or hit.id is None:
+            return super().inspect(hit, ctx)
+        return marker_details(state.store.table, int(hit.id), ctx.frames.now_ns)
+
+    def _is_on(self, namespace: str) -> bool:
+        return self.namespaces.get(namespace, True)
+
+
+class Marker(Markers):
+    """Shapes, lines, texts and meshes that programs publish one by one, or as arrays."""
+
+    rviz = "rviz_default_plugins/Marker"
+
+    topic: Annotated[
+        Topic,
+        Input("visualization_msgs/msg/Marker", every=True),
+        Prop(help="Topic of the markers."),
+    ] = Topic("/visualization_marker")
+    array_topic: Annotated[
+        Topic,
+        Input("visualization_msgs/msg/MarkerArray", suffix="_array", optional=True, every=True),
+        Prop(help="Topic of arrays of markers; empty means the topic + _array."),
+    ] = Topic()
+
+
+class MarkerArray(Markers):
+    """Shapes, lines, texts and meshes that programs publish as arrays."""
+
+    rviz = "rviz_default_plugins/MarkerArray"
+
+    topic: Annotated[
+        Topic,
+        Input("visualization_msgs/msg/MarkerArray", every=True),
+        Prop(help="Topic of the arrays of markers."),
+    ] = Topic("/visualization_marker_array")

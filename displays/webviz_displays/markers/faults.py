@@ -1,0 +1,156 @@
+"""Why markers cannot be drawn, or cannot be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Level
+from webviz.data.messages.markers import NOTHING, Content, Marker, MarkerSequence
+from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.triangles import corner_colors
+from webviz_displays.shared.geometry import FARTHEST, is_drawable
+
+TYPES = (
+    "ARROW",
+    "CUBE",
+    "SPHERE",
+    "CYLINDER",
+    "LINE_STRIP",
+    "LINE_LIST",
+    "CUBE_LIST",
+    "SPHERE_LIST",
+    "POINTS",
+    "TEXT_VIEW_FACING",
+    "MESH_RESOURCE",
+    "TRIANGLE_LIST",
+    "ARROW_STRIP",
+)
+"""The names of the types, by their number."""
+
+Fault = tuple[int, Level, str]
+"""The row of a marker in its batch, and a sentence about it."""
+
+_SOLID = (Marker.CUBE, Marker.SPHERE, Marker.CYLINDER, Marker.CUBE_LIST, Marker.SPHERE_LIST)
+_LINES = (Marker.LINE_STRIP, Marker.LINE_LIST)
+_LISTS = (*_LINES, Marker.CUBE_LIST, Marker.SPHERE_LIST, Marker.POINTS, Marker.TRIANGLE_LIST)
+_ONE_COLOR = (
+    Marker.ARROW,
+    Marker.CUBE,
+    Marker.SPHERE,
+    Marker.CYLINDER,
+    Marker.TEXT_VIEW_FACING,
+    Marker.ARROW_STRIP,
+)
+
+
+def type_name(type_: int) -> str:
+    """The name of a type, or its number."""
+    return TYPES[type_] if 0 <= type_ < len(TYPES) else f"type {type_}"
+
+
+def is_valid(markers: MarkerSequence) -> NDArray[np.bool_]:
+    """Which markers have numbers that are finite, and lengths that a screen can show."""
+    with np.errstate(invalid="ignore"):
+        ok = is_drawable(markers.positions) & is_drawable(markers.scales)
+    ok &= np.isfinite(markers.orientations).all(axis=1) & np.isfinite(markers.colors).all(axis=1)
+    for row, content in enumerate(markers.contents):
+        if content is not NOTHING and ok[row]:
+            ok[row] = _is_valid(content, markers.scales[row], int(markers.types[row]))
+    return ok
+
+
+def _is_valid(content: Content, scale: NDArray[np.float64], type_: int) -> bool:
+    if len(content.points):
+        with np.errstate(invalid="ignore", over="ignore"):
+            factor = max(1.0, float(np.abs(scale).max())) if type_ == Marker.TRIANGLE_LIST else 1.0
+            reach = float(np.abs(content.points).max()) * factor
+        if not reach < FARTHEST:  # NaN included
+            return False
+    if len(content.colors) and not np.isfinite(content.colors).all():
+        return False
+    return not len(content.uv_coordinates) or bool(np.isfinite(content.uv_coordinates).all())
+
+
+def faults_of(batch: Batch) -> Iterator[Fault]:
+    """Why markers cannot be seen, one sentence for each that cannot."""
+    types, scales, alphas = batch.types, batch.scales, batch.colors[:, 3]
+    suspects = (types < 0) | (types >= len(TYPES))
+    suspects |= np.isin(types, _ONE_COLOR) & (alphas <= 0.0)
+    suspects |= np.isin(types, _SOLID) & (scales == 0.0).any(axis=1)
+    suspects |= (types == Marker.ARROW) | (types == Marker.ARROW_STRIP)
+    suspects |= np.isin(types, (*_LISTS, Marker.TEXT_VIEW_FACING, Marker.MESH_RESOURCE))
+    for row in np.flatnonzero(suspects).tolist():
+        content = batch.contents[row]
+        color = batch.colors[row]
+        if fault := _fault(int(types[row]), content, scales[row].tolist(), color):
+            yield row, *fault
+
+
+def _fault(
+    type_: int, content: Content, scale: list[float], color: NDArray[np.float32]
+) -> tuple[Level, str] | None:
+    name = type_name(type_)
+    count = len(content.points)
+    if not 0 <= type_ < len(TYPES):
+        return Level.ERROR, f"The type {type_} is unknown. Types are 0 (ARROW) to 12 (ARROW_STRIP)."
+    if type_ in _LISTS and not count:
+        return Level.WARN, f"The {name} has no points."
+    if type_ == Marker.LINE_LIST and count % 2:
+        return Level.ERROR, f"The LINE_LIST has {count} points; add one, since two make a line."
+    if type_ == Marker.LINE_STRIP and count == 1:
+        return Level.WARN, "The LINE_STRIP has only one point; a line needs two."
+    if type_ == Marker.TRIANGLE_LIST and count % 3:
+        return Level.ERROR, f"The TRIANGLE_LIST has {count} points; three make a triangle."
+    if type_ == Marker.ARROW_STRIP and count < 2:
+        return Level.ERROR, f"The ARROW_STRIP has {count} points; an arrow needs two."
+    if type_ == Marker.ARROW and count == 1:
+        return Level.ERROR, "The ARROW has only one point; set two, or none to use its pose."
+    if type_ == Marker.TEXT_VIEW_FACING and not content.text.strip():
+        return Level.WARN, "The text is empty."
+    if type_ == Marker.MESH_RESOURCE and not content.mesh_resource:
+        return Level.ERROR, "The MESH_RESOURCE names no mesh. Set mesh_resource."
+    return _invisible(type_, content, scale, color)
+
+
+def _invisible(
+    type_: int, content: Content, scale: list[float], color: NDArray[np.float32]
+) -> tuple[Level, str] | None:
+    if needed := _missing_scale(type_, len(content.points), scale):
+        return Level.WARN, f"The scale is 0 in {needed}. Set it to the size in metres."
+    if _is_clear(type_, content, color):
+        whose = "every color" if len(content.colors) else "the color"
+        return Level.WARN, f"It is invisible: alpha of {whose} is 0. Set it to 1."
+    return None
+
+
+def _missing_scale(type_: int, points: int, scale: list[float]) -> str:
+    if type_ in (*_LINES, Marker.POINTS):
+        needed = "x"
+    elif type_ == Marker.TEXT_VIEW_FACING:
+        needed = "z"
+    elif type_ == Marker.ARROW_STRIP or (type_ == Marker.ARROW and points == 2):
+        return "x and y" if not scale[0] and not scale[1] else ""
+    else:
+        needed = "xyz"
+    bad = [axis for axis in needed if scale["xyz".index(axis)] == 0.0]
+    if not bad and needed in ("x", "z") and scale["xyz".index(needed)] < 0.0:
+        bad = [needed]
+    return " and ".join(bad) if len(bad) < 3 else "x, y and z"
+
+
+def _is_clear(type_: int, content: Content, color: NDArray[np.float32]) -> bool:
+    if color[3] > 0.0:
+        each = corner_colors(content) if type_ == Marker.TRIANGLE_LIST else _colors(type_, content)
+        return each is not None and not (each[:, 3] > 0.0).any()
+    if type_ == Marker.MESH_RESOURCE:
+        return bool(color[:3].any())  # all zeros keep the materials of the file
+    each = corner_colors(content) if type_ == Marker.TRIANGLE_LIST else _colors(type_, content)
+    return each is None or not (each[:, 3] > 0.0).any()
+
+
+def _colors(type_: int, content: Content) -> NDArray[np.float32] | None:
+    is_each = type_ in _LISTS and len(content.colors) == len(content.points)
+    return content.colors if is_each and len(content.colors) else None

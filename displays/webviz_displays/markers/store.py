@@ -1,0 +1,358 @@
+"""The newest version of each marker, and where it is drawn."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Frames, Pose
+from webviz.api.nodes import same
+from webviz.data.messages.markers import NOTHING, Content, MarkerSequence
+from webviz.data.rotations import matrices, multiply_many, normalized, w_first
+from webviz_displays.markers.actions import Key, effect_of
+from webviz_displays.markers.faults import is_valid
+from webviz_displays.markers.table import FOREVER, LOOK, Table
+
+MAX_MARKERS = 100_000
+"""Of a display; further ones are refused."""
+MAX_BYTES = 256_000_000
+"""Of the lists, texts and meshes of a display; markers beyond it are refused."""
+SHORTEST_NS = 100_000
+"""Lifetimes up to this mean for ever, as in RViz."""
+REMEMBERED = 50
+"""Markers that were refused or have expired, for statuses."""
+MAX_LOOKUPS = 1000
+"""Frames and stamps that are looked up in one turn of the frame loop."""
+TILTED = 1e-3
+"""How far the length of a quaternion may be from 1."""
+
+Place = tuple[str, int]
+"""A frame and a stamp."""
+
+
+class Store:
+    """All markers of a display.
+
+    A new version waits for its transform while the former one stays; one that is replaced
+    meanwhile is dropped. What is deleted goes at once.
+    """
+
+    def __init__(self) -> None:
+        self.table = Table()
+        self.version = 0
+        """Changes whenever something else is to be drawn or said."""
+        self.changed: set[int] = set()
+        """Rows to be drawn anew; whoever draws them clears it."""
+        self.waiting: dict[Place, list[int]] = {}
+        """Rows that have no pose yet."""
+        self.refused: dict[Key, str] = {}
+        """Why the newest version of a marker cannot be drawn, of the last ones."""
+        self.expired: dict[Key, int] = {}
+        """When the last ones have expired."""
+        self.tilted: set[Key] = set()
+        """Markers whose orientation is not a unit quaternion."""
+        self.duplicates: list[Key] = []
+        """Of the last array."""
+        self.unknown_actions: list[int] = []
+        """Of the last message that had any."""
+        self.overflow = 0
+        """Markers that were refused since there are too many."""
+        self._todo: set[int] = set()
+        self._tried = -1
+        self._sizes: dict[int, int] = {}
+        self._bytes = 0
+        self._next_expiry = FOREVER
+        self._fixed_frame = ""
+
+    # Messages
+
+    def apply(self, markers: MarkerSequence, received_ns: int, is_array: bool = True) -> None:
+        """Take the markers of one message.
+
+        Args:
+            markers: in order.
+            received_ns: ROS time of arrival, from which lifetimes count.
+            is_array: whether they came in one array, in which none may be there twice.
+        """
+        self.expire(received_ns)
+        effect = effect_of(markers)
+        for key in effect.doomed(self.table.rows):
+            self._remove(key)
+        for key in effect.doomed(self.refused):
+            del self.refused[key]
+        numbers = [i for same in effect.added.values() for i in same.values()]
+        if numbers:
+            self._put(markers, np.array(numbers, np.intp), received_ns)
+        if is_array and effect.duplicates != self.duplicates:
+            self.duplicates = effect.duplicates[:REMEMBERED]
+        if effect.unknown:
+            self.unknown_actions = effect.unknown[:REMEMBERED]
+        self.version += 1
+
+    def expire(self, now_ns: int) -> None:
+        """Remove the markers whose lifetime has ended."""
+        if now_ns < self._next_expiry:
+            return
+        table = self.table
+        expires = table.wanted["expires_ns"]
+        for row in np.flatnonzero(expires <= now_ns).tolist():
+            if key := table.keys[row]:
+                self.expired.pop(key, None)
+                self.expired[key] = int(expires[row])
+                self._remove(key)
+        _trim(self.expired)
+        self._next_expiry = int(table.wanted["expires_ns"].min())
+        self.version += 1
+
+    def _put(self, markers: MarkerSequence, numbers: NDArray[np.intp], received_ns: int) -> None:
+        """Add markers, or new versions of them."""
+        table = self.table
+        ok = is_valid(markers)
+        rows, taken = [], []
+        for i in numbers.tolist():
+            key = markers.namespaces[i], int(markers.ids[i])
+            if not ok[i]:
+                self._refuse(key, "It has a number that is not finite, or more than 1e9 m.")
+                continue
+            if key not in table.rows and len(table) >= MAX_MARKERS:
+                self.overflow += 1
+                continue
+            row = table.row_of(key)
+            if not self._put_content(row, markers.contents[i]):
+                self._refuse(key, "The markers of this display exceed 256 MB.")
+                if not table.is_shown[row]:
+                    self._remove(key)
+                continue
+            rows.append(row)
+            taken.append(i)
+        if not rows:
+            return
+        where, of = np.array(rows), np.array(taken)
+        new = self._looks(markers, of, received_ns)
+        old = table.wanted[where]
+        is_new = ~table.is_shown[where]
+        for name, *_ in LOOK:
+            is_new |= (new[name] != old[name]).reshape(len(of), -1).any(axis=1)
+        is_new |= new["stamp_ns"] != old["stamp_ns"]
+        table.wanted[where] = new
+        self._next_expiry = min(self._next_expiry, int(new["expires_ns"].min()))
+        for row, i, changed in zip(rows, taken, is_new.tolist(), strict=True):
+            frame = markers.frame_ids[i].removeprefix("/")
+            if changed or frame != table.frames[row]:
+                table.frames[row] = frame
+                self._todo.add(row)
+            elif table.wanted_contents[row] is not table.shown_contents[row]:
+                self._todo.add(row)
+        if self.refused or self.expired:
+            for row in rows:
+                if key := table.keys[row]:
+                    self.refused.pop(key, None)
+                    self.expired.pop(key, None)
+
+    def _looks(
+        self, markers: MarkerSequence, of: NDArray[np.intp], received_ns: int
+    ) -> NDArray[Any]:
+        new = np.zeros(len(of), self.table.wanted.dtype)
+        xyzw = markers.orientations[of]
+        wxyz, _ = normalized(w_first(xyzw))
+        with np.errstate(over="ignore"):
+            is_tilted = np.abs(np.linalg.norm(xyzw, axis=1) - 1.0) > TILTED
+        if is_tilted.any() or self.tilted:
+            for i, tilted in zip(of.tolist(), is_tilted.tolist(), strict=True):
+                key = markers.namespaces[i], int(markers.ids[i])
+                (self.tilted.add if tilted else self.tilted.discard)(key)
+        new["type"], new["locked"] = markers.types[of], markers.frame_locked[of]
+        new["position"], new["wxyz"] = markers.positions[of], wxyz
+        new["scale"], new["color"] = markers.scales[of], markers.colors[of]
+        new["own_materials"] = markers.own_materials[of]
+        new["stamp_ns"], new["received_ns"] = markers.stamps_ns[of], received_ns
+        lifetimes = markers.lifetimes_ns[of]
+        ends = np.minimum(lifetimes, FOREVER - received_ns) + received_ns
+        new["expires_ns"] = np.where(lifetimes > SHORTEST_NS, ends, FOREVER)
+        return new
+
+    def _put_content(self, row: int, content: Content) -> bool:
+        """Keep the content of a version, the former if they are equal; whether there is room."""
+        table = self.table
+        before = table.wanted_contents[row]
+        if content is NOTHING and before is NOTHING:
+            return True
+        if is_same(content, before):
+            return True
+        size = size_of(content)
+        if self._bytes - self._sizes.get(row, 0) + size > MAX_BYTES:
+            return False
+        self._bytes += size - self._sizes.pop(row, 0)
+        if size:
+            self._sizes[row] = size
+        table.wanted_contents[row] = detached(content)
+        return True
+
+    def _refuse(self, key: Key, why: str) -> None:
+        self.refused.pop(key, None)
+        self.refused[key] = why
+        _trim(self.refused)
+
+    def _remove(self, key: Key) -> None:
+        was_shown = self.table.is_shown[self.table.rows[key]]
+        row = self.table.remove(key)
+        self._bytes -= self._sizes.pop(row, 0)
+        self._todo.discard(row)
+        self.tilted.discard(key)
+        if was_shown:
+            self.changed.add(row)
+
+    # Transforms
+
+    def place(self, frames: Frames) -> None:
+        """Draw the newest versions of all markers that have a pose."""
+        if frames.fixed_frame != self._fixed_frame:
+            self._move(frames)
+        if self._todo:
+            self._settle(frames)
+        elif self.waiting and frames.buffer.version != self._tried:
+            tried = list(itertools.islice(self.waiting, MAX_LOOKUPS))
+            self._tried = frames.buffer.version
+            for place in tried:
+                rows = self.waiting.pop(place)
+                if (pose := _pose(place, frames)) is None:
+                    self.waiting[place] = rows  # the others come first in the next turn
+                else:
+                    self._show(np.array(rows), pose)
+
+    def _settle(self, frames: Frames) -> None:
+        """Draw what is new, if it has a pose."""
+        late = {row for rows in self.waiting.values() for row in rows}
+        self.waiting = {}
+        rows = [row for row in late | self._todo if self.table.keys[row] is not None]
+        self._todo.clear()
+        for number, (place, some) in enumerate(self._by_place(rows).items()):
+            pose = _pose(place, frames) if number < MAX_LOOKUPS else None
+            if pose is None:
+                self.waiting[place] = some
+            else:
+                self._show(np.array(some), pose)
+        self.version += 1
+
+    def _by_place(self, rows: Iterable[int]) -> dict[Place, list[int]]:
+        """Rows by what their pose depends on; locked ones need none."""
+        table = self.table
+        locked, stamps = table.wanted["locked"], table.wanted["stamp_ns"]
+        found: dict[Place, list[int]] = {}
+        for row in rows:
+            place = ("", 0) if locked[row] else (table.frames[row], int(stamps[row]))
+            found.setdefault(place, []).append(row)
+        return found
+
+    def _show(self, rows: NDArray[np.intp], pose: Pose) -> None:
+        """Draw the newest versions of some markers, whose frame has this pose."""
+        table = self.table
+        new = table.wanted[rows]
+        look = np.zeros(len(rows), LOOK)
+        for name, *_ in LOOK:
+            look[name] = new[name]
+        look["position"], look["wxyz"] = _moved(new["position"], new["wxyz"], pose)
+        old = table.shown[rows]
+        changed = ~table.is_shown[rows]
+        for name, *_ in LOOK:
+            changed |= (look[name] != old[name]).reshape(len(rows), -1).any(axis=1)
+        table.shown[rows], table.is_shown[rows] = look, True
+        is_locked = bool(new["locked"].any())
+        for row, is_changed in zip(rows.tolist(), changed.tolist(), strict=True):
+            content = table.wanted_contents[row]
+            frame = table.frames[row]
+            is_changed |= content is not table.shown_contents[row]
+            if is_changed or (is_locked and frame != table.shown_frames[row]):
+                self.changed.add(row)
+            table.shown_contents[row], table.shown_frames[row] = content, frame
+        self.version += 1
+
+    def _move(self, frames: Frames) -> None:
+        """Place all markers in another fixed frame.
+
+        Each at its own stamp; those older than the transforms move with the former fixed frame.
+        """
+        former, self._fixed_frame = self._fixed_frame, frames.fixed_frame
+        table = self.table
+        shown = [row for row in table.rows.values() if table.is_shown[row]]
+        if not shown:
+            return
+        shift = frames.latest(former)
+        loose = [row for row in shown if not table.shown["locked"][row]]
+        for place, rows in self._by_place(loose).items():
+            if _pose(place, frames) is not None:
+                self._todo.update(rows)
+            elif shift is not None:
+                each = np.array(rows)
+                some = table.shown[each]
+                table.shown["position"][each], table.shown["wxyz"][each] = _moved(
+                    some["position"], some["wxyz"], shift
+                )
+            else:
+                table.is_shown[rows] = False
+                self._todo.update(rows)
+        self.changed.update(loose)
+        self.version += 1
+
+
+def is_same(a: Content, b: Content) -> bool:
+    """Whether two contents are equal."""
+    if a is b:
+        return True
+    if (a is NOTHING) != (b is NOTHING):
+        return False
+    return (
+        (a.text, a.mesh_resource, a.texture_resource, a.mesh_file.filename)
+        == (b.text, b.mesh_resource, b.texture_resource, b.mesh_file.filename)
+        and _equal(a.points, b.points)
+        and _equal(a.colors, b.colors)
+        and _equal(a.uv_coordinates, b.uv_coordinates)
+        and _equal(a.mesh_file.data, b.mesh_file.data)
+        and _equal(a.texture.data, b.texture.data)
+    )
+
+
+def _equal(a: NDArray[Any], b: NDArray[Any]) -> bool:
+    return len(a) == len(b) and (not len(a) or same(a, b))
+
+
+def size_of(content: Content) -> int:
+    """Bytes of a content."""
+    arrays = (content.points, content.colors, content.uv_coordinates)
+    files = len(content.mesh_file.data) + len(content.texture.data)
+    return sum(array.nbytes for array in arrays) + files + len(content.text)
+
+
+def detached(content: Content) -> Content:
+    """A copy that does not keep the message alive, of which it may be a small part."""
+    if content is NOTHING:
+        return content
+    values: dict[str, Any] = {name: getattr(content, name) for name in Content.__struct_fields__}
+    for name in ("points", "colors", "uv_coordinates"):
+        if len(values[name]):
+            values[name] = values[name].copy()
+    return Content(**values)
+
+
+def _trim(remembered: dict[Key, Any]) -> None:
+    while len(remembered) > REMEMBERED:
+        del remembered[next(iter(remembered))]
+
+
+def _pose(place: Place, frames: Frames) -> Pose | None:
+    frame, stamp_ns = place
+    return Pose() if frame in ("", frames.fixed_frame) else frames.at(frame, stamp_ns)
+
+
+def _moved(
+    positions: NDArray[np.float64], wxyzs: NDArray[np.float64], pose: Pose
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Poses moved from the frame that has a pose."""
+    if pose == Pose():
+        return positions, wxyzs
+    turned = np.einsum("ij,nj->ni", matrices(pose.wxyz), positions)
+    return turned + pose.position, multiply_many(pose.wxyz, wxyzs)

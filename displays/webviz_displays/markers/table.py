@@ -1,0 +1,119 @@
+"""A table of markers, whose columns are arrays."""
+
+from __future__ import annotations
+
+import heapq
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.messages.markers import NOTHING, Content
+from webviz_displays.markers.actions import Key
+from webviz_displays.markers.batch import Batch
+
+FOREVER = np.iinfo(np.int64).max
+"""When markers without a lifetime expire."""
+
+LOOK = [
+    ("type", np.int32),
+    ("position", np.float64, 3),
+    ("wxyz", np.float64, 4),
+    ("scale", np.float64, 3),
+    ("color", np.float32, 4),
+    ("own_materials", np.bool_),
+    ("locked", np.bool_),
+]
+"""What a marker looks like, apart from its content."""
+_TIMES = [("stamp_ns", np.int64), ("expires_ns", np.int64), ("received_ns", np.int64)]
+_FIRST = 64
+
+
+class Table:
+    """Rows of markers; those that are freed are used again, the lowest first.
+
+    Attributes:
+        wanted: the newest version of each marker, in its frame.
+        shown: the version that is drawn, in the fixed frame; of a locked marker, in its frame.
+        wanted_contents, shown_contents: the fields whose size varies.
+        frames, shown_frames: of the newest version, and of the one that is drawn.
+        keys: None for a row that is free.
+        is_shown: whether `shown` is valid.
+        serials: a number that no other marker has, (ns, id) of two lives included.
+    """
+
+    def __init__(self) -> None:
+        self.rows: dict[Key, int] = {}
+        self.keys: list[Key | None] = []
+        self.frames: list[str] = []
+        self.shown_frames: list[str] = []
+        self.wanted_contents: list[Content] = []
+        self.shown_contents: list[Content] = []
+        self.wanted: NDArray[Any] = np.zeros(_FIRST, LOOK + _TIMES)
+        self.shown: NDArray[Any] = np.zeros(_FIRST, LOOK)
+        self.is_shown = np.zeros(_FIRST, np.bool_)
+        self.serials = np.zeros(_FIRST, np.int64)
+        self.wanted["expires_ns"] = FOREVER
+        self._free: list[int] = []
+        self._serial = 0
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def row_of(self, key: Key) -> int:
+        """The row of a marker, a new one if it is new."""
+        row = self.rows.get(key)
+        if row is not None:
+            return row
+        row = heapq.heappop(self._free) if self._free else len(self.keys)
+        if row == len(self.keys):
+            self.keys.append(key)
+            self.frames.append("")
+            self.shown_frames.append("")
+            self.wanted_contents.append(NOTHING)
+            self.shown_contents.append(NOTHING)
+            if row == len(self.wanted):
+                self._grow()
+        self._serial += 1
+        self.serials[row] = self._serial
+        self.rows[key], self.keys[row] = row, key
+        self.is_shown[row] = False
+        self.wanted["expires_ns"][row] = FOREVER
+        return row
+
+    def remove(self, key: Key) -> int:
+        """Free the row of a marker."""
+        row = self.rows.pop(key)
+        self.keys[row] = None
+        self.is_shown[row] = False
+        self.wanted["expires_ns"][row] = FOREVER
+        self.wanted_contents[row] = self.shown_contents[row] = NOTHING
+        heapq.heappush(self._free, row)
+        return row
+
+    def used(self) -> NDArray[np.intp]:
+        """The rows of all markers."""
+        return np.array(list(self.rows.values()), np.intp)
+
+    def batch(self, rows: NDArray[np.intp], origin: tuple[float, float, float]) -> Batch:
+        """The markers in some rows as they are drawn, relative to an origin."""
+        some = self.shown[rows]
+        return Batch(
+            some["type"],
+            some["position"] - origin,
+            some["wxyz"],
+            some["scale"],
+            some["color"],
+            some["own_materials"],
+            [self.shown_contents[row] for row in rows.tolist()],
+            self.serials[rows],
+        )
+
+    def _grow(self) -> None:
+        size = 2 * len(self.wanted)
+        for name in ("wanted", "shown", "is_shown", "serials"):
+            old = getattr(self, name)
+            new = np.zeros(size, old.dtype)
+            new[: len(old)] = old
+            setattr(self, name, new)
+        self.wanted["expires_ns"][size // 2 :] = FOREVER

@@ -1,0 +1,348 @@
+"""Marker and MarkerArray: actions, lifetimes, transforms, namespaces and statuses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.engine.sources import Raw
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import SECOND
+from webviz_displays.markers import Marker, MarkerArray
+from webviz_displays.markers.blocks import BLOCK
+
+MARKER, ARRAY = "visualization_msgs/msg/Marker", "visualization_msgs/msg/MarkerArray"
+ADD, DELETE, DELETEALL = 0, 2, 3
+CUBE, TEXT, MESH = 1, 9, 10
+NAN = float("nan")
+
+Benches = Callable[..., Any]
+
+
+def cube(id: int = 0, x: float = 0.0, frame: str = "map", **more: Any) -> dict[str, Any]:
+    """A red cube of 1 m; a stamp of 0 is the latest transform."""
+    more.setdefault("stamp_ns", 0)
+    stamp_ns = more.pop("stamp_ns")
+    values: dict[str, Any] = {
+        "header": header(frame, stamp_ns),
+        "ns": "a",
+        "id": id,
+        "type": CUBE,
+        "pose": {"position": {"x": x}, "orientation": {"w": 1.0}},
+        "scale": {"x": 1.0, "y": 1.0, "z": 1.0},
+        "color": {"r": 1.0, "a": 1.0},
+    }
+    return values | more
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn arrays of markers."""
+
+    def make(*arrays: list[dict[str, Any]], **properties: Any) -> Any:
+        made = bench(MarkerArray(**properties))
+        made.transform("map", "base", (10.0, 0.0, 0.0))
+        for markers in arrays:
+            send(made, *markers)
+        return made
+
+    return make
+
+
+def send(bench: Any, *markers: dict[str, Any]) -> None:
+    bench.send(ARRAY, {"markers": list(markers)})
+    bench.turn()
+
+
+def xs(bench: Any) -> list[float]:
+    """Where the cubes are along x, sorted."""
+    found = [bench.xyz(key)[:, 0] for key in bench.nodes() if key.startswith("box")]
+    return sorted(np.concatenate(found).round(6).tolist()) if found else []
+
+
+# Actions
+
+
+def test_markers_are_added_changed_and_deleted_in_order(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 2.0)], [cube(2, 3.0), cube(3, 4.0)])
+    assert xs(bench) == [1.0, 3.0, 4.0]
+    send(bench, cube(1, action=DELETE), cube(9, action=DELETE))
+    assert xs(bench) == [3.0, 4.0]
+
+
+def test_no_message_of_a_turn_is_lost(shown: Benches) -> None:
+    bench = shown()
+    for index in range(50):
+        bench.send(ARRAY, {"markers": [cube(index, float(index))]})
+    bench.turn()
+    assert xs(bench) == list(range(50))
+
+
+def test_delete_all_spares_what_comes_after_it(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")])
+    send(bench, cube(0, action=DELETEALL, ns=""), cube(0, 5.0))
+    assert xs(bench) == [5.0]
+    assert "Duplicates" not in bench.statuses()
+
+
+def test_delete_all_of_a_namespace_spares_the_others(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")], [cube(0, action=DELETEALL, ns="b")])
+    assert xs(bench) == [1.0]
+
+
+def test_the_last_of_several_actions_on_one_marker_counts(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(1, action=DELETE), cube(1, 2.0)])
+    assert xs(bench) == [2.0]
+    assert "Duplicates" not in bench.statuses()
+    send(bench, cube(1, 3.0), cube(1, action=DELETE))
+    assert xs(bench) == []
+
+
+def test_a_marker_that_is_there_twice_is_reported(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(1, 2.0)])
+    assert xs(bench) == [2.0]
+    level, text = bench.statuses()["Duplicates"]
+    assert (level, "a/1" in text) == ("WARN", True)
+    send(bench, cube(1, 1.0))
+    assert "Duplicates" not in bench.statuses()
+
+
+def test_numbers_that_are_not_finite_refuse_one_version_but_no_deletion(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 2.0)], [cube(1, NAN), cube(2, 3.0)])
+    assert xs(bench) == [1.0, 3.0]
+    assert bench.statuses()["Marker a/1"][0] == "ERROR"
+    send(bench, cube(2, NAN, action=DELETE))
+    assert xs(bench) == [1.0]
+    send(bench, cube(1, 5.0))
+    assert xs(bench) == [5.0]
+    assert "Marker a/1" not in bench.statuses()
+
+
+def test_unknown_actions_and_types_are_reported(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0, action=1), cube(2, 2.0, type=42), cube(3, 3.0)])
+    statuses = bench.statuses()
+    assert "Unknown action 1" in statuses["Action"][1]
+    assert "type 42 is unknown" in statuses["Marker a/2"][1]
+    assert xs(bench) == [3.0]
+
+
+# Lifetimes
+
+
+def test_a_marker_expires_its_lifetime_after_it_arrived(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0, lifetime={"sec": 2}), cube(2, 2.0)])
+    bench.turn(1.9)
+    assert xs(bench) == [1.0, 2.0]
+    send(bench, cube(1, 1.0, lifetime={"sec": 2}))
+    bench.turn(1.9)
+    assert xs(bench) == [1.0, 2.0]
+    bench.turn(0.2)
+    assert xs(bench) == [2.0]
+
+
+def test_tiny_and_negative_lifetimes_mean_for_ever(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0, lifetime={"nanosec": 100_000}), cube(2, 2.0, lifetime={"sec": -1})])
+    bench.turn(1000.0)
+    assert xs(bench) == [1.0, 2.0]
+
+
+def test_what_has_expired_is_said_with_its_age(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0, lifetime={"sec": 1})])
+    bench.turn(4.0)
+    level, text = bench.statuses()["Markers"]
+    assert level == "WARN"
+    assert "a/1, expired 3.0 s ago" in text
+
+
+# Transforms
+
+
+def test_each_marker_is_placed_by_its_own_header(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 1.0, "base"), cube(3, 1.0, "/base")])
+    assert xs(bench) == [1.0, 11.0, 11.0]
+
+
+def test_a_marker_waits_for_its_transform_and_the_former_version_stays(shown: Benches) -> None:
+    bench = shown()
+    bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
+    send(bench, cube(1, 1.0, "odom", stamp_ns=SECOND), cube(2, 2.0))
+    assert xs(bench) == [2.0, 101.0]
+    send(bench, cube(1, 5.0, "odom", stamp_ns=2 * SECOND))
+    send(bench, cube(1, 6.0, "odom", stamp_ns=3 * SECOND))
+    bench.turn(2.0)
+    assert xs(bench) == [2.0, 101.0]
+    level, text = bench.statuses()["Transform"]
+    assert (level, text.startswith("1 marker (a/1) waits for a transform.")) == ("ERROR", True)
+    bench.transform("map", "odom", (200.0, 0.0, 0.0), stamp_ns=2 * SECOND)
+    bench.turn()
+    assert xs(bench) == [2.0, 101.0]  # version 5.0 was replaced
+    bench.transform("map", "odom", (300.0, 0.0, 0.0), stamp_ns=3 * SECOND)
+    bench.turn()
+    assert xs(bench) == [2.0, 306.0]
+    bench.turn(1.0)
+    assert "Transform" not in bench.statuses()
+
+
+def test_a_marker_stays_where_its_frame_was_unless_it_is_locked(shown: Benches) -> None:
+    bench = shown()
+    bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
+    send(bench, cube(1, 1.0, "odom"), cube(2, 2.0, "odom", frame_locked=True))
+    bench.transform("map", "odom", (200.0, 0.0, 0.0), stamp_ns=2 * SECOND)
+    bench.turn()
+    assert xs(bench) == [101.0, 202.0]
+
+
+def test_markers_move_with_the_fixed_frame(shown: Benches) -> None:
+    bench = shown()
+    bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
+    send(bench, cube(1, 1.0, "odom", stamp_ns=SECOND), cube(2, 2.0), cube(3, 0.0, "base"))
+    bench.fixed_frame = "base"
+    bench.turn()
+    assert xs(bench) == [-8.0, 0.0, 91.0]
+
+
+def test_zero_and_long_quaternions_are_normalised_and_reported(shown: Benches) -> None:
+    zero = cube(1, pose={"position": {}, "orientation": {"w": 0.0}}, scale={"x": 4, "y": 2, "z": 1})
+    long = cube(2, pose={"position": {}, "orientation": {"z": 5.0, "w": 5.0}})
+    bench = shown([zero, long])
+    (node,) = bench.nodes().values()
+    turns = sorted(np.abs(node.wxyzs).tolist())
+    np.testing.assert_allclose(turns, [(np.sqrt(0.5), 0, 0, np.sqrt(0.5)), (1, 0, 0, 0)], atol=1e-6)
+    assert bench.statuses()["Orientation"][0] == "WARN"
+    send(bench, cube(1), cube(2))
+    assert "Orientation" not in bench.statuses()
+
+
+# Namespaces
+
+
+def test_a_namespace_that_is_off_keeps_its_markers(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")], namespaces={"b": False})
+    assert xs(bench) == [1.0]
+    send(bench, cube(2, 3.0, ns="b"))
+    bench.set("namespaces", {})
+    assert xs(bench) == [1.0, 3.0]
+    bench.set("namespaces", {"a": False, "b": False})
+    level, text = bench.statuses()["Markers"]
+    assert (level, "2 in namespaces that are switched off (a, b)" in text) == ("WARN", True)
+
+
+def test_namespaces_say_how_many_markers_they_have(shown: Benches) -> None:
+    bench = shown([cube(1), cube(2), cube(3, ns="")])
+    bench.turn(1.5)
+    statuses = bench.statuses()
+    assert statuses["Namespace 'a'"] == ("OK", "2 markers, the newest 1.5 s ago.")
+    assert statuses["Namespace ''"] == ("OK", "1 marker, the newest 1.5 s ago.")
+
+
+# Statuses
+
+
+@pytest.mark.parametrize(
+    ("marker", "said"),
+    [
+        (cube(color={"r": 1.0}), "alpha"),
+        (cube(scale={"x": 1.0, "z": 1.0}), "scale is 0 in y"),
+        (cube(type=0, points=[{"x": 1.0}]), "one point"),
+        (cube(type=5, points=[{}] * 3), "3 points"),
+        (cube(type=6), "no points"),
+        (cube(type=TEXT), "text is empty"),
+        (cube(type=MESH), "names no mesh"),
+        (cube(type=11, points=[{}] * 4), "4 points"),
+        (cube(type=12, points=[{}]), "1 points"),
+        (cube(type=8, points=[{}], colors=[{"r": 1.0}]), "every color"),
+    ],
+)
+def test_an_invisible_marker_says_why(shown: Benches, marker: dict[str, Any], said: str) -> None:
+    bench = shown([marker])
+    assert said in bench.statuses()["Marker a/0"][1]
+    assert bench.statuses()["Markers"][0] == "WARN"
+
+
+def test_statuses_are_bounded(shown: Benches) -> None:
+    bench = shown([cube(i, color={}, ns=f"n{i}") for i in range(100)])
+    statuses = bench.statuses()
+    assert sum(key.startswith("Marker ") for key in statuses) == 10
+    assert statuses["Other markers"] == ("WARN", "90 more are invalid or invisible.")
+    assert statuses["Other namespaces"] == ("OK", "90 more.")
+
+
+# Cost
+
+
+def test_a_marker_that_changes_renews_the_nodes_of_its_block_only(shown: Benches) -> None:
+    bench = shown([cube(i, 0.1 * i) for i in range(3 * BLOCK)])
+    before = bench.nodes()
+    send(bench, cube(BLOCK, -1.0))
+    after = bench.nodes()
+    assert [key for key in after if after[key] is not before[key]] == ["box in 1"]
+
+
+def test_nothing_is_drawn_anew_if_a_message_says_the_same(shown: Benches) -> None:
+    texts = [cube(i, type=TEXT, text=f"t{i}") for i in range(9)]
+    bench = shown([*texts, cube(10, type=5, points=[{}, {"x": 1.0}])])
+    before = bench.nodes()
+    send(bench, *texts, cube(10, type=5, points=[{}, {"x": 1.0}]))
+    after = bench.nodes()
+    assert all(after[key] is before[key] for key in before)
+
+
+def test_rows_and_nodes_are_used_again(shown: Benches) -> None:
+    bench = shown()
+    for step in range(60):
+        send(bench, *(cube(i, 1.0 * i) for i in range(100 * step, 100 * step + 100)))
+        send(bench, *(cube(i, action=DELETE) for i in range(100 * step, 100 * step + 100)))
+    send(bench, cube(1, 7.0))
+    assert xs(bench) == [7.0]
+    assert len(bench.nodes()) == 1
+
+
+def test_markers_far_away_keep_their_precision(shown: Benches) -> None:
+    bench = shown([cube(1, 500_000.0), cube(2, 500_000.001)])
+    a, b = (
+        (bench.xyz(key) for key in bench.nodes() for key in [key])
+        if len(bench.nodes()) == 2
+        else bench.xyz("box in 0")
+    )
+    assert abs(abs(b[0] - a[0]) - 0.001) < 2e-4
+
+
+# Topics
+
+
+def test_marker_takes_single_ones_and_arrays_of_the_topic_beside_it(bench: Benches) -> None:
+    made = bench(Marker())
+    made.send(MARKER, cube(1, 1.0), topic="/visualization_marker")
+    made.send(ARRAY, {"markers": [cube(2, 2.0)]}, topic="/visualization_marker_array")
+    made.turn()
+    assert xs(made) == [1.0, 2.0]
+
+
+def test_a_latched_message_that_comes_again_renews_lifetimes(bench: Benches) -> None:
+    made = bench(MarkerArray())
+    for _ in range(2):
+        made.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
+        offer = made._offers["/visualization_marker_array"]
+        made._offers["/visualization_marker_array"] = type(offer)(
+            offer.publishers, ("reliable", "transient_local")
+        )
+        made.turn(1.5)
+    assert xs(made) == [1.0]
+
+
+def test_a_reset_forgets_all_markers(shown: Benches) -> None:
+    bench = shown([cube(1)])
+    bench.runner.reset()
+    bench.turn()
+    assert xs(bench) == []
+
+
+def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:
+    bench = shown([cube(1, 1.0)])
+    bench._batches["/visualization_marker_array"] = [Raw(b"\0\1\0\0\xff\xff\xff\xff", bench.now_ns)]
+    bench.turn()
+    assert xs(bench) == [1.0]
+    assert bench.statuses()["Message"][0] == "ERROR"

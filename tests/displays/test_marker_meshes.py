@@ -1,0 +1,145 @@
+"""Meshes and textures of markers."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from webviz import Glb, Instances, Models
+from webviz.data.messages import Marker, MarkerSequence
+from webviz.data.messages.geometry import Vector3
+from webviz.data.messages.markers import ColorRGBA
+from webviz_displays.markers import MarkerArray
+from webviz_displays.markers.batch import batch_of
+from webviz_displays.markers.meshes import LoadedMesh
+from webviz_displays.markers.nodes import Files, nodes_of
+from webviz_urdf import MeshPart, Surface
+
+ARRAY = "visualization_msgs/msg/MarkerArray"
+CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.float32)
+FACE = np.array([(0, 1, 2)], np.uint32)
+GREEN = MeshPart(CORNERS, FACE, Surface((0.0, 1.0, 0.0, 1.0)))
+PAINTED = MeshPart(CORNERS, FACE, colors=np.full((3, 4), 255, np.uint8))
+
+Benches = Callable[..., Any]
+
+
+def drawn(
+    *markers: tuple[tuple[float, ...], bool], part: MeshPart = GREEN, scale: float = 1.0
+) -> dict[str, Any]:
+    """The nodes of markers with a colour, and whether they keep the materials of one file."""
+    mesh = LoadedMesh("file", (part,))
+    each = [
+        Marker(
+            type=Marker.MESH_RESOURCE,
+            scale=Vector3(scale, 1.0, 1.0),
+            color=ColorRGBA(*rgba),
+            mesh_use_embedded_materials=own,
+        )
+        for rgba, own in markers
+    ]
+    files = Files(meshes=dict.fromkeys(range(len(each)), mesh))
+    return dict(nodes_of(batch_of(MarkerSequence.of(each)), files))
+
+
+def test_meshes_of_one_file_are_one_node_with_a_colour_each() -> None:
+    (node,) = drawn(((1, 0, 0, 1), False), ((0, 0, 1, 1), False)).values()
+    assert isinstance(node, Instances)
+    np.testing.assert_array_equal(node.colors, [(255, 0, 0), (0, 0, 255)])
+    np.testing.assert_array_equal(node.shape.vertices, CORNERS)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+@pytest.mark.parametrize(
+    ("rgba", "color", "opacity"),
+    [
+        ((0, 0, 0, 0), (0, 255, 0), 1.0),
+        ((1, 1, 1, 1), (0, 255, 0), 1.0),
+        ((0, 0, 0, 0.2), (0, 255, 0), 51 / 255),
+        ((1, 0.2, 1, 0.2), (0, 51, 0), 51 / 255),
+    ],
+)
+def test_a_colour_multiplies_the_materials_of_the_file(
+    rgba: tuple[float, ...], color: tuple[int, int, int], opacity: float
+) -> None:
+    (node,) = drawn((rgba, True)).values()
+    assert (node.colors, node.opacity) == (color, opacity)
+
+
+def test_what_has_no_material_has_the_colour_of_the_marker() -> None:
+    part = MeshPart(CORNERS, FACE)
+    (node,) = drawn(((0.2, 0, 1, 1), True), part=part).values()
+    assert node.colors == (51, 0, 255)
+
+
+def test_a_mirrored_mesh_still_has_its_outside_outside() -> None:
+    (node,) = drawn(((1, 0, 0, 1), False), scale=-2.0).values()
+    a, b, c = (node.shape.vertices * node.scales[0])[node.shape.faces[0]]
+    assert np.cross(b - a, c - a)[2] > 0.0
+    assert {tuple(row) for row in (node.shape.vertices * node.scales[0]).tolist()} == {
+        (0.0, 0.0, 0.0),
+        (-2.0, 0.0, 0.0),
+        (0.0, 1.0, 0.0),
+    }
+
+
+def test_copies_of_a_painted_mesh_are_one_node_for_each_tint() -> None:
+    white, red = (1.0, 1.0, 1.0, 1.0), (1.0, 0.0, 0.0, 1.0)
+    nodes = drawn((white, True), (red, True), (white, True), part=PAINTED)
+    assert all(isinstance(node, Models) for node in nodes.values())
+    assert sorted(len(node.positions) for node in nodes.values()) == [1, 2]
+
+
+# Files
+
+
+def marker(**more: Any) -> dict[str, Any]:
+    one = {"x": 1.0, "y": 1.0, "z": 1.0}
+    return {"header": {"frame_id": "map"}, "scale": one, "color": {"r": 1.0, "a": 1.0}, **more}
+
+
+def test_meshes_and_pictures_in_a_message_are_drawn_and_broken_ones_named(bench: Benches) -> None:
+    stl = trimesh.creation.box().export(file_type="stl")
+    png = io.BytesIO()
+    Image.new("RGB", (2, 2), (255, 0, 0)).save(png, "PNG")
+    triangle = {
+        "type": 11,
+        "points": [{}, {"x": 1.0}, {"y": 1.0}],
+        "uv_coordinates": [{}, {"u": 1.0}, {"v": 1.0}],
+        "texture_resource": "embedded://red.png",
+    }
+    mesh = {"type": 10, "mesh_resource": "embedded://a.stl"}
+    markers = [
+        marker(id=1, **mesh, mesh_file={"filename": "a.stl", "data": stl}),
+        marker(id=2, **triangle, texture={"format": "png", "data": png.getvalue()}),
+        marker(id=3, **mesh, mesh_file={"filename": "b.stl", "data": b"no mesh"}),
+        marker(id=4, **mesh),
+        marker(id=5, **triangle, texture={"format": "png", "data": b"no picture"}),
+        marker(id=6, type=10, mesh_resource="http://example.org/a.stl"),
+        marker(id=7, **(triangle | {"uv_coordinates": []})),
+    ]
+    made = bench(MarkerArray())
+    made.send(ARRAY, {"markers": markers})
+    made.turn()
+    made.settle()
+    nodes = made.nodes()
+    (ball,) = (node for node in nodes.values() if isinstance(node, Instances))
+    assert len(ball.shape.faces) == 12  # pyright: ignore[reportAttributeAccessIssue]
+    assert sum(isinstance(node, Glb) for node in nodes.values()) == 1
+    statuses = made.statuses()
+    for id, said in (
+        (3, "b.stl"),
+        (4, "mesh_file.data is empty"),
+        (5, "red.png"),
+        (6, "is on a network"),
+        (7, "0 for 3 points"),
+    ):
+        level, text = statuses[f"Marker /{id}"]
+        assert (level, said in text) == ("ERROR", True), text
+    assert "Marker /1" not in statuses
+    assert "Marker /2" not in statuses
