@@ -48,6 +48,9 @@ setup(
             "PublishPoint = webviz.tools.publish_point:PublishPoint",
             "Teleop = webviz.tools.teleop:Teleop",
         ],
+        "webviz.panels": [
+            "Nav2 = webviz.panels.nav2:Nav2",
+        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/webviz"]),

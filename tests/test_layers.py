@@ -19,6 +19,7 @@ ROOMS = (
     "webviz.engine",
     "webviz.edges",
     "webviz.tools",
+    "webviz.panels",
     "webviz.shell",
 )
 """Each may import itself and those before it."""

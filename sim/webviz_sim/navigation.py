@@ -9,6 +9,7 @@ from rclpy.node import Node
 
 from webviz_sim import messages
 from webviz_sim.action_server import ActionServer, ServerGoal
+from webviz_sim.lifecycle import Lifecycle
 from webviz_sim.messages import stamp, to_map_pose
 from webviz_sim.pose import Pose2D
 from webviz_sim.simulation import Simulation
@@ -44,7 +45,8 @@ class Navigation:
     """Serves Nav2's actions with the goals of a simulation, one at a time.
 
     As in Nav2, a new goal of the same action replaces the active one, which is aborted, and a goal
-    of another action is rejected meanwhile. Loops of waypoints are ignored.
+    of another action is rejected meanwhile, as all are while the lifecycle manager has the
+    navigation inactive. Loops of waypoints are ignored.
 
     Args:
         node: The node that serves them.
@@ -54,6 +56,7 @@ class Navigation:
     def __init__(self, node: Node, simulation: Simulation):
         self._simulation = simulation
         self._task: _Task | None = None
+        self._lifecycle = Lifecycle(node, self._stop)
         for name, type in ACTIONS.items():
             accept = functools.partial(self._accept, name)
             ActionServer(node, name, type, accept, functools.partial(self._begin, name))
@@ -78,13 +81,20 @@ class Navigation:
 
     def _accept(self, action: str, request: Any) -> bool:
         is_free = self._task is None or self._task.action == action
-        return is_free and bool(len(_poses(action, request)))
+        return self._lifecycle.is_active and is_free and bool(len(_poses(action, request)))
 
     def _begin(self, action: str, goal: ServerGoal) -> None:
         if self._task is not None:
             self._task.goal.abort({})
         poses = list(_poses(action, goal.request))
         self._task = _Task(action, goal, poses, self._simulation.time)
+
+    def _stop(self) -> None:
+        """End the goal: the navigation is not active any more."""
+        if self._task is not None:
+            self._simulation.stop()
+            self._task.goal.abort({})
+            self._task = None
 
     def _set_out(self, task: _Task) -> None:
         pose = task.poses[task.at]

@@ -157,6 +157,36 @@ def test_waypoints_are_numbered_removed_and_sent_together(page: Page, pages: lis
     until(page, "Cancelled.")
 
 
+def test_the_panel_shows_nav2_starts_and_stops_it_and_cancels_the_goals_of_all(page: Page) -> None:
+    button(page, "Add a panel").click()
+    page.tab.get_by_role("menuitem", name="Navigation 2").click()
+    page.tab.get_by_role("tab", name="Navigation 2").click()
+
+    def reads(text: str) -> None:
+        panel = page.tab.locator(".wv-plugin")
+        page.wait_for(lambda: text in " ".join(panel.inner_text().split()), text, 60)
+
+    reads("Navigation active Localization unknown: No node offers")
+    drag(page, FAR, 0.0)
+    reads("navigate_to_pose State active")
+    reads("Distance left")
+    button(page, "Cancel all goals").click()
+    reads("navigate_to_pose 1 cancelled.")
+    reads("follow_waypoints None cancelled: there is none.")
+    reads("navigate_to_pose State cancelled")
+    page.tab.locator(".wv-plugin").get_by_role("button", name="Pause").click()
+    reads("Navigation inactive")
+    reads("Navigation Done.")
+    drag(page, NEAR, 0.0)
+    page.wait_for(
+        lambda: page.tab.get_by_text("/navigate_to_pose rejected the goal.").count() > 0, "rejected"
+    )
+    button(page, "Resume").click()
+    reads("Navigation active")
+    page.tab.get_by_text("Remove panel").click()
+    page.wait_for(lambda: button(page, "Cancel all goals").count() == 0, "no panel")
+
+
 def test_a_server_that_ends_during_a_goal_and_one_that_is_not_there_are_named(
     page: Page, pages: list[Page], robot: Program, viewer: webviz.Viewer
 ) -> None:

@@ -16,7 +16,7 @@ from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Ui
 from webviz.edges.page.plugin_panels import MAX_WAITING
 from webviz.edges.page.widgets import MAX_HTML, MAX_LINES, RecordedUi
-from webviz.engine.commands import InspectTopic, Reset, SetPanelProperty
+from webviz.engine.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.plugins import load
 from webviz.engine.state import PanelTab, State, Traffic
 
@@ -118,7 +118,9 @@ def tabs(tab: Tab) -> list[str]:
 def shown(*types: Any) -> tuple[PanelTab, ...]:
     """What the state has of panels of these types, which are registered."""
     registry.register("tests", {cls.__name__: cls for cls in types if cls.__module__ == __name__})
-    return tuple(PanelTab(f"panel{i}", make(cls, {})) for i, cls in enumerate(types))
+    names = [f"{cls.__name__}{i or ''}" for i, cls in enumerate(types)]
+    tabs = zip(names, types, strict=True)
+    return tuple(PanelTab(f"of {name}", name, make(cls, {})) for name, cls in tabs)
 
 
 def open_panel(loop: Loop, tab: Tab, type_: type[Panel]) -> None:
@@ -179,15 +181,20 @@ def test_what_somebody_types_stays_while_the_panel_shows_something_else(
     tab.wait_for(lambda: name.input_value() == "map")
 
 
-def test_the_properties_of_a_panel_are_edited_in_its_tab(loop: Loop, tab: Tab) -> None:
+def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, tab: Tab) -> None:
     open_panel(loop, tab, Limited)
     tab.page.get_by_text("Properties", exact=True).click()
     most = tab.page.get_by_role("spinbutton", name="Most")
     most.fill("7")
     most.press("Enter")
-    tab.wait_for_command(SetPanelProperty("panel0", "most", 7))
+    tab.wait_for_command(SetPanelProperty("of Limited", "most", 7))
+    tab.page.get_by_text("Remove panel").click()
+    tab.wait_for_command(RemovePanel("of Limited"))
     loop.show(panels=shown(Limited, Limited))
     tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
+    tab.button("Add a panel").click()
+    tab.page.get_by_role("menuitem", name="Navigation 2").click()
+    tab.wait_for_command(AddPanel("Nav2"))
     open_panel(loop, tab, Frames)
     assert not tab.page.get_by_text("Properties", exact=True).is_visible(), "it has none"
 
@@ -212,12 +219,12 @@ def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
         "The panel Unbuilt failed: SystemExit: not today",
         "The panel Moody failed: ValueError: no frames, sorry",
     )
-    assert sorted(r.message.partition("\n")[0] for r in caplog.records) == [moody, unbuilt]
     tab.wait_for(lambda: "Unbuilt" in tabs(tab))
     tab.show_tab("Unbuilt")
     tab.wait_for(lambda: unbuilt in tab.text())
     tab.show_tab("Moody")
     tab.wait_for(lambda: moody in tab.text())
+    assert [r.message.partition("\n")[0] for r in caplog.records] == [unbuilt, moody]
     note, half, other = (
         tab.page.get_by_text(text, exact=True).bounding_box() or {}
         for text in (moody, "Half", "Other half")

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from remembering_graph import RememberingGraph
 
 from webviz.api import registry
-from webviz.engine.commands import Load, ReloadPlugin, SetPanelProperty, Undo
+from webviz.data.messages import encode
+from webviz.engine.commands import (
+    AddPanel,
+    CallService,
+    Load,
+    OpenPanels,
+    Publish,
+    ReloadPlugin,
+    RemovePanel,
+    SetPanelProperty,
+    Undo,
+)
 from webviz.engine.plugins import load
 from webviz.files.config import ConfigError, Unreadable, document
 from webviz.files.config.overrides import override
@@ -43,15 +54,6 @@ def panels(config: Any) -> list[tuple[str, Any]]:
     return [(each.name, getattr(each, "most", None)) for each in config.panels]
 
 
-def carried_out(b: Any, command: Any) -> Any:
-    """The answer to a command, which may need a thread and several turns."""
-    answer = b.viewer.enqueue(command)
-    give_up = time.monotonic() + 30
-    while not answer.done() and time.monotonic() < give_up:
-        b.turn()
-    return answer
-
-
 def test_without_a_list_there_are_all_of_them_in_the_order_of_their_tabs(file: Path) -> None:
     config = parse("displays: []\n", "x.yaml")
     assert panels(config) == [("Jobs", None), ("Notes", 3)]
@@ -74,8 +76,8 @@ def test_a_panel_that_cannot_be_used_is_kept_with_the_reason(bench: Callable[...
     assert "panels[0].type: unknown panel type `Notes`" in panel.reason
     assert document(config)["panels"] == [{"type": "Notes", "most": 7}]
     b = bench(strict=False)
-    carried_out(b, Load(LISTED, "x.yaml"))
-    assert "unknown panel type" in b.viewer.state().statuses["Panels"].text
+    state = b.do(Load(LISTED, "x.yaml"))
+    assert "unknown panel type" in state.statuses["Panels"].text
 
 
 def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
@@ -84,10 +86,10 @@ def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
     b = bench(strict=False)
 
     def do(command: Any) -> Any:
-        return carried_out(b, command).exception() or panels(b.viewer.config())
+        return panels(b.do(command) and b.viewer.config())
 
     assert do(SetPanelProperty("Notes", "most", 5)) == [("Jobs", None), ("Notes", 5)]
-    assert "most: expected >= 1, got 0" in str(do(SetPanelProperty("Notes", "most", 0)))
+    assert "most: expected >= 1, got 0" in b.refused(SetPanelProperty("Notes", "most", 0))
     assert do(Undo()) == [("Jobs", None), ("Notes", 3)]
     do(SetPanelProperty("Notes", "most", 6))
     tab = b.viewer.state().panels[1]
@@ -98,3 +100,83 @@ def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
     assert do(Load(LISTED, "x.yaml")) == [("Notes", 7)]
     file.write_text(CODE)
     assert do(ReloadPlugin(file)) == [("Notes", 7), ("Jobs", None)], "a new one is shown"
+
+
+WIRED = """\
+from webviz import Panel
+from webviz.commands import CallService, Publish
+
+class Wired(Panel):
+    heard = []
+
+    def subscriptions(self):
+        return {"/words": "std_msgs/msg/String"}
+
+    def publications(self):
+        return {"/answers": "std_msgs/msg/String"}
+
+    def take(self, topic, message):
+        self.heard.append((topic, message.data))
+"""
+
+
+def test_an_open_panel_reads_topics_and_is_advertised(
+    tmp_path: Path, bench: Callable[..., Any]
+) -> None:
+    path = tmp_path / "panels.py"
+    path.write_text(WIRED)
+    wired: Any = load(path)["Wired"]
+    try:
+        b = bench(graph=RememberingGraph())
+        said = ("/words", "std_msgs/msg/String", {"data": "one"})
+        b.publish(*said)
+        b.turn()
+        assert "/words" not in b.source.wanted
+        assert wired.heard == []
+        b.do(OpenPanels(frozenset({"Wired"})))
+        assert b.source.wanted["/words"].type == "std_msgs/msg/String"
+        assert "/answers" in {outlet.topic for outlet in b.source.graph.advertised}
+        b.publish(*said)
+        b.publish("/words", "std_msgs/msg/String", {"data": "two"})
+        b.source.put("/words", "std_msgs/msg/String", b"\x00\x01\x00\x00\xff")
+        b.turn()
+        assert wired.heard == [("/words", "one"), ("/words", "two")]
+        b.do(Publish("/answers", "std_msgs/msg/String", {"data": "yes"}))
+        ((outlet, message),) = b.source.graph.published
+        assert (outlet.topic, message.data) == ("/answers", "yes")
+        b.do(OpenPanels(frozenset()))
+        assert "/words" not in b.source.wanted
+    finally:
+        registry.register(str(path), {})
+
+
+def test_a_service_answers_or_says_why_not(bench: Callable[..., Any]) -> None:
+    b = bench(graph=RememberingGraph())
+    answers: list[Any] = []
+    call = CallService(
+        "/start", "std_srvs/srv/Trigger", {}, answered=answers.append, failed=answers.append
+    )
+    b.do(call)
+    assert answers.pop() == "No node offers /start. Start one."
+    response = encode("std_srvs/srv/Trigger_Response", {"success": True, "message": "on"})
+    b.source.graph.responses["/start"] = response
+    b.do(call)
+    assert (answers[0].success, answers[0].message) == (True, "on")
+    unknown = b.refused(CallService("/start", "std_srvs/srv/Nothing", {}))
+    assert unknown == "Not called: No definition of std_srvs/srv/Nothing is known."
+
+
+def test_a_panel_on_request_is_added_and_removed_by_a_command(bench: Callable[..., Any]) -> None:
+    b = bench()
+    assert [tab.tab for tab in b.viewer.state().panels] == []
+    added = [AddPanel("Nav2"), AddPanel("Nav2", {"namespace": "robot1", "name": "Second"})]
+    assert [b.ask(command) for command in added] == ["Added Navigation 2.", "Added Second."]
+    assert [tab.tab for tab in b.viewer.state().panels] == ["Nav2", "Nav2 2"]
+    saved = document(b.viewer.config())["panels"]
+    assert saved[1] == {"type": "Nav2", "name": "Second", "namespace": "robot1"}
+    assert b.ask(RemovePanel("Navigation 2")) == "Removed Navigation 2."
+    b.do(Undo())
+    assert [tab.panel.name for tab in b.viewer.state().panels] == ["Navigation 2", "Second"]
+    assert b.refused(AddPanel("Nav3")) == "Unknown panel type `Nav3`: did you mean `Nav2`?"
+    sentence = "Not added: namespace: expected text, got 5."
+    assert b.refused(AddPanel("Nav2", {"namespace": 5})) == sentence

@@ -18,7 +18,7 @@ those of displays, edited in the tab, and kept in the config under `panels`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
 from webviz.api.declared import Declared
@@ -139,11 +139,35 @@ class Panel(Declared, kw_only=True, dict=True):
     place: ClassVar[int] = 100
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 
+    on_request: ClassVar[bool] = False
+    """Whether it is shown only if the config or somebody adds it."""
+
     def build(self, ui: Ui, send: Send) -> None:
         """Build the tab. Called once, before the first `show`."""
 
     def show(self, state: Any) -> None:
         """Show the state of the viewer, a read-only `webviz.State`.
 
-        Called by the frame loop a few times a second, so it must be fast.
+        Called by the frame loop a few times a second while the tab is open in a browser, so it must
+        be fast.
         """
+
+    def subscriptions(self) -> Mapping[str, str]:
+        """The topics to read while the tab is open: message types by full name."""
+        return {}
+
+    def take(self, topic: str, message: Any) -> None:
+        """Take a message of one of these topics; called by the frame loop, oldest first.
+
+        Args:
+            topic: its full name, as in `subscriptions`.
+            message: decoded, read-only.
+        """
+
+    def publications(self) -> Mapping[str, str]:
+        """The topics to publish on while the tab is open: message types by full name.
+
+        Messages are sent by the command `webviz.commands.Publish`. Without this, the first message
+        of a topic gets lost while subscribers connect.
+        """
+        return {}

@@ -98,8 +98,8 @@ class FrameLoop:
         goals = GoalsPart(core)
         self.helms = Helms(gate, source.now_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
-        tools = ToolsPart(core, goals, self.helms)
         panels = PanelsPart(core)
+        tools = ToolsPart(core, goals, self.helms, panels.outlets)
         files = self._files = FilesPart(
             core, displays, settings, views, tools.list, panels.list, config, path
         )

@@ -199,10 +199,12 @@ class PanelTab:
 
     Args:
         id: for commands.
+        tab: names its tab: its type, with a number from the second of a type on.
         panel: read-only but for its own methods.
     """
 
     id: str
+    tab: str
     panel: Panel
 
 

@@ -78,14 +78,14 @@ class Nav2Goal(Tool):
         x, y, _ = stroke.position
         label = f"{len(poses)} waypoints" if stroke.several else f"x {x:.2f} y {y:.2f} m"
         send = functools.partial(
-            ctx.send_goal, label=label, stroke=stroke, feedback=_progress, fault=_fault
+            ctx.send_goal, label=label, stroke=stroke, feedback=progress, fault=_fault
         )
         if stroke.several == EACH:
             send(
                 self.follow_waypoints,
                 "nav2_msgs/action/FollowWaypoints",
                 {"poses": poses},
-                feedback=functools.partial(_at_waypoint, len(poses)),
+                feedback=functools.partial(at_waypoint, len(poses)),
                 success=f"Stopped at all {len(poses)} waypoints.",
                 remedy=_remedy("waypoint_follower"),
             )
@@ -111,7 +111,7 @@ def _remedy(node: str) -> str:
     return f"Start Nav2's {node}, or choose another action in the properties of the tool."
 
 
-def _progress(feedback: Any) -> dict[str, str]:
+def progress(feedback: Any) -> dict[str, str]:
     """What the feedback of NavigateToPose and NavigateThroughPoses says."""
     left = feedback.distance_remaining
     values = {
@@ -124,7 +124,7 @@ def _progress(feedback: Any) -> dict[str, str]:
     return values if poses_left is None else {"Waypoints left": str(poses_left), **values}
 
 
-def _at_waypoint(count: int, feedback: Any) -> dict[str, str]:
+def at_waypoint(count: int, feedback: Any) -> dict[str, str]:
     """What the feedback of FollowWaypoints says."""
     return {"Waypoint": f"{feedback.current_waypoint + 1} of {count}"}
 

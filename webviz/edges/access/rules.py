@@ -22,6 +22,7 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.WriteDisplays: Role.WATCHER,
     # What everybody sees, and what the robot does.
     commands.AddDisplay: Role.OPERATOR,
+    commands.AddPanel: Role.OPERATOR,
     commands.CancelGoal: Role.OPERATOR,
     commands.DismissGoal: Role.OPERATOR,
     commands.DuplicateDisplay: Role.OPERATOR,
@@ -29,6 +30,7 @@ COMMANDS: Mapping[type[Command], Role] = {
     commands.Pause: Role.OPERATOR,
     commands.Redo: Role.OPERATOR,
     commands.RemoveDisplay: Role.OPERATOR,
+    commands.RemovePanel: Role.OPERATOR,
     commands.RemoveView: Role.OPERATOR,
     commands.RenameView: Role.OPERATOR,
     commands.Reset: Role.OPERATOR,

@@ -67,8 +67,8 @@ class Pages:
     def update(self, state: State) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
         self._toolbar.update(state)
-        self._panels.update(state)
         watched = self._channel.watched()
+        self._panels.update(state, watched)
         self._wishes.update(watched)
         self._forget(watched)
         for store in watched:

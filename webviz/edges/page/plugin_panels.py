@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import contextlib
+import inspect
+import logging
 import queue
 import threading
-from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Future
 from typing import Any
 
 from webviz.api.panel import Panel
-from webviz.api.registry import broken_types, type_name
+from webviz.api.registry import broken_types, plugin_types
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content.forms import form, values_of
 from webviz.edges.page.messages import Done, Use
 from webviz.edges.page.widgets import RecordedUi, Widget, clean
 from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
-from webviz.engine.state import PanelTab, State
+from webviz.engine.state import State
+
+log = logging.getLogger("webviz")
 
 MAX_WAITING = 16
 """Acts of one panel that wait for one that takes long."""
@@ -36,7 +40,7 @@ class PluginPanels:
         enqueue: takes commands, from any thread.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], object]) -> None:
+    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
         self._channel = channel
         self._enqueue = enqueue
         self._tabs: dict[str, _Tab] = {}
@@ -44,24 +48,25 @@ class PluginPanels:
         self._broken = broken_types(Panel)
         channel.on(Use, self._use)
 
-    def update(self, state: State) -> None:
-        """Let every panel show the viewer."""
-        panels = _by_name(state.panels)
+    def update(self, state: State, watched: Collection[str]) -> None:
+        """Let the panels show the viewer whose stores are watched."""
+        panels = {tab.tab: tab.panel for tab in state.panels}
         for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
             self._tabs.pop(name).close()
         for name in panels.keys() - self._tabs.keys():
             self._tabs[name] = _Tab(name, panels[name], self._send)
         self._order = list(panels)
-        for tab in self._tabs.values():
-            tab.update(state)
+        for name, tab in self._tabs.items():
+            if f"panel:{name}" in watched:
+                tab.update(state)
 
     # What stores hold, see `webviz.edges.page.content`
 
     def panels(self, state: State, _: str) -> Mapping[str, Any]:
-        """Title by name, and "/order": the names from left to right."""
+        """Title by name, "/order": the names from left to right, and "/types" that can be added."""
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
-        return {**titles, **broken, "/order": [*self._order, *self._broken]}
+        return {**titles, **broken, "/order": [*self._order, *self._broken], "/types": _types()}
 
     def panel(self, state: State, name: str) -> Mapping[str, Any]:
         """The widgets of a panel by id, "/order", and "/failure": a sentence or ""."""
@@ -73,11 +78,11 @@ class PluginPanels:
         return {**values, "/order": list(widgets), "/failure": tab.failure}
 
     def properties(self, state: State, name: str) -> Mapping[str, Any]:
-        """Of a panel, as the store `tool` has them of a tool; nothing if it has none."""
-        found = next((tab for tab in state.panels if self._is_in(name, tab.panel)), None)
-        if found is None or not (own := values_of(found.panel, _SHARED)):
+        """Of a panel, as the store `tool` has them of a tool; nothing if it is gone."""
+        found = next((tab for tab in state.panels if tab.tab == name), None)
+        if found is None:
             return {}
-        cls = type(found.panel)
+        cls, own = type(found.panel), values_of(found.panel, _SHARED)
         return {"id": found.id, "type": cls.__name__, "declared": form(cls, _SHARED), **own}
 
     def commands(self, state: State, _: str) -> Mapping[str, Any]:
@@ -87,10 +92,6 @@ class PluginPanels:
             for name, tab in self._tabs.items()
             for id_, command in dict(tab.ui.commands).items()
         }
-
-    def _is_in(self, name: str, panel: Panel) -> bool:
-        tab = self._tabs.get(name)
-        return tab is not None and tab.panel is panel
 
     # Called on the event loop
 
@@ -107,7 +108,24 @@ class PluginPanels:
             answer(f"Not done: the panel {tab.title} is busy.")
 
     def _send(self, command: Any, browser: int | None = None) -> None:
-        self._enqueue(command, Sender(browser))
+        self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)
+
+
+def _types() -> list[Mapping[str, str]]:
+    """The types of panels: name, title, and what each is for."""
+    return [
+        {
+            "type": name,
+            "title": clean(cls.title or name),
+            "hint": clean((inspect.getdoc(cls) or "").partition("\n")[0]),
+        }
+        for name, cls in sorted(plugin_types(Panel).items())
+    ]
+
+
+def _note_refusal(answer: Future[str]) -> None:
+    if not answer.cancelled() and (error := answer.exception()) is not None:
+        log.warning("A panel: %s", error)
 
 
 class _Tab:
@@ -151,17 +169,6 @@ class _Tab:
     def _build(self, send: Callable[..., None]) -> None:
         self.panel.build(self.ui, send)
         self._is_built = True
-
-
-def _by_name(tabs: Iterable[PanelTab]) -> dict[str, Panel]:
-    """Panels by the name of their tab: their type, with a number from the second of a type on."""
-    found: dict[str, Panel] = {}
-    count: Counter[str] = Counter()
-    for tab in tabs:
-        name = type_name(type(tab.panel))
-        count[name] += 1
-        found[name if count[name] == 1 else f"{name} {count[name]}"] = tab.panel
-    return found
 
 
 class _Hands:

@@ -11,6 +11,7 @@ from webviz.engine.commands import (
     InspectSelections,
     InspectTopics,
     InspectTransforms,
+    OpenPanels,
     Sender,
 )
 
@@ -43,6 +44,7 @@ def _wishes(stores: set[str]) -> set[Command]:
             _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
         ),
         InspectTransforms("transforms" in stores, frozenset(pair for pair in pairs if pair)),
+        OpenPanels(frozenset(_arguments("panel", stores))),
     }
 
 

@@ -13,8 +13,15 @@ from webviz.engine.commands.displays import (
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
 from webviz.engine.commands.goals import CancelGoal, DismissGoal
 from webviz.engine.commands.history import Redo, Undo
-from webviz.engine.commands.panel import Refresh, SetPanelProperty
+from webviz.engine.commands.panel import (
+    AddPanel,
+    OpenPanels,
+    Refresh,
+    RemovePanel,
+    SetPanelProperty,
+)
 from webviz.engine.commands.plugins import ReloadPlugin
+from webviz.engine.commands.ports import CallService, Publish
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.commands.time import Pause, Reset
@@ -38,6 +45,8 @@ from webviz.engine.commands.views import (
 __all__ = [
     "PROGRAM",
     "AddDisplay",
+    "AddPanel",
+    "CallService",
     "CancelGoal",
     "ChangeView",
     "Command",
@@ -55,13 +64,16 @@ __all__ = [
     "Load",
     "MoveDisplay",
     "Open",
+    "OpenPanels",
     "Pause",
     "Pick",
     "Picks",
+    "Publish",
     "Redo",
     "Refresh",
     "ReloadPlugin",
     "RemoveDisplay",
+    "RemovePanel",
     "RemoveView",
     "RenameView",
     "Reset",

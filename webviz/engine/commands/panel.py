@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from webviz.engine.commands.command import Command
@@ -11,6 +11,26 @@ from webviz.engine.commands.command import Command
 @dataclass(frozen=True)
 class Refresh(Command):
     """Update panels at once, such as after another tab was selected."""
+
+
+@dataclass(frozen=True)
+class AddPanel(Command):
+    """Add a panel of a plug-in behind the others.
+
+    Args:
+        type: name of the panel type.
+        values: its properties, as in a config file.
+    """
+
+    type: str
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class RemovePanel(Command):
+    """Remove a panel of a plug-in, by its id or name."""
+
+    panel: str
 
 
 @dataclass(frozen=True)
@@ -26,3 +46,14 @@ class SetPanelProperty(Command):
     panel: str
     path: str
     value: Any
+
+
+@dataclass(frozen=True)
+class OpenPanels(Command):
+    """Say which panels of plug-ins are open in any browser; the others rest.
+
+    Args:
+        panels: names of their tabs.
+    """
+
+    panels: frozenset[str]

@@ -1,16 +1,35 @@
-"""The panels of plug-ins and their properties."""
+"""The panels of plug-ins: their properties, what they read, and what they send."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Collection, Mapping
+from concurrent.futures import CancelledError, Future
 from typing import Any
 
+import msgspec
+
+from webviz.api.declared import Topic, make
 from webviz.api.panel import Panel
+from webviz.api.registry import plugin_types, type_name
 from webviz.api.status import Status
-from webviz.engine.commands import Command, Sender, SetPanelProperty
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.data.messages import MessageError, decode, encode, interfaces
+from webviz.engine.commands import (
+    AddPanel,
+    CallService,
+    Command,
+    OpenPanels,
+    Publish,
+    RemovePanel,
+    Sender,
+    SetPanelProperty,
+)
+from webviz.engine.parts.outlets import outlet_of, publish
+from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
+from webviz.engine.sources import Outlet, Subscription
 from webviz.engine.state import PanelTab
+from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
 
 
 class PanelsPart(Part):
@@ -21,19 +40,125 @@ class PanelsPart(Part):
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self.list = PluginList(Panel)
+        self._open: frozenset[str] = frozenset()
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {SetPanelProperty: self._set}
+        return {
+            AddPanel: self._add,
+            RemovePanel: self._remove,
+            SetPanelProperty: self._set,
+            OpenPanels: self._attend,
+            Publish: self._publish,
+            CallService: self._call,
+        }
+
+    def subscriptions(self) -> Mapping[str, Subscription]:
+        """What the open panels read."""
+        wanted: dict[str, Subscription] = {}
+        for panel in self._attended():
+            for topic, type_ in self._topics(panel, "subscriptions").items():
+                wanted.setdefault(topic, Subscription(type_, Topic(topic)))
+        return wanted
+
+    def take(self, batches: Batches) -> None:
+        """Pass messages on to the open panels that read them."""
+        for panel in self._attended():
+            for topic, type_ in self._topics(panel, "subscriptions").items():
+                offer = self.core.offers.get(topic)
+                if topic in batches and (offer is None or offer.type in ("", type_)):
+                    for raw in batches[topic]:
+                        self.core.guard(f"The panel {panel.name}", _pass, panel, topic, type_, raw)
+
+    def outlets(self) -> Collection[Outlet]:
+        """Where the open panels publish."""
+        topics = [
+            (type_, Topic(topic))
+            for panel in self._attended()
+            for topic, type_ in self._topics(panel, "publications").items()
+        ]
+        return {outlet for each in topics if (outlet := outlet_of(self.core, *each))}
 
     def state(self) -> Mapping[str, Any]:
         """The tabs."""
-        return {"panels": tuple(PanelTab(id, each) for id, each in self.list.usable().items())}
+        count: Counter[str] = Counter()
+        tabs = []
+        for id, panel in self.list.usable().items():
+            name = type_name(type(panel))
+            count[name] += 1
+            tabs.append(PanelTab(id, name if count[name] == 1 else f"{name} {count[name]}", panel))
+        return {"panels": tuple(tabs)}
 
     def statuses(self) -> Mapping[str, Status]:
         """Which panels cannot be used."""
         return self.list.statuses()
 
+    def _attended(self) -> list[Panel]:
+        if not self._open:
+            return []
+        return [tab.panel for tab in self.state()["panels"] if tab.tab in self._open]
+
+    def _topics(self, panel: Panel, hook: str) -> Mapping[str, str]:
+        """What a panel says of its topics; nothing if it fails to."""
+        return self.core.guard.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
+
+    def _add(self, command: AddPanel, sender: Sender) -> str:
+        types = plugin_types(Panel)
+        if (cls := types.get(command.type)) is None:
+            hint = nearest(command.type, types)
+            raise ConfigError(f"Unknown panel type `{command.type[:80]}`: {hint}")
+        if len(self.list.items()) >= MAX_PLUGINS:
+            raise ConfigError(f"There are {MAX_PLUGINS} panels. Remove one first.")
+        try:
+            panel = make(cls, command.values)
+        except msgspec.ValidationError as error:
+            problems = mistakes(cls, command.values, error, ())
+            raise ConfigError(f"Not added: {sentences(problems)}") from error
+        self.list.add(panel)
+        return f"Added {panel.name}."
+
+    def _remove(self, command: RemovePanel, sender: Sender) -> str:
+        return f"Removed {self.list.remove(command.panel)}."
+
     def _set(self, command: SetPanelProperty, sender: Sender) -> None:
         self.list.set(command.panel, command.path, command.value)
+
+    def _attend(self, command: OpenPanels, sender: Sender) -> None:
+        self._open = command.panels
+
+    def _publish(self, command: Publish, sender: Sender) -> None:
+        try:
+            payload = encode(command.type, command.values)
+        except MessageError as error:
+            raise ConfigError(f"Not published: {error}") from error
+        publish(self.core, command.type, Topic(command.topic), payload, command.report)
+
+    def _call(self, command: CallService, sender: Sender) -> None:
+        try:
+            name = self.core.source.resolve(command.service)
+            parts = interfaces.service(command.type, command.definition)
+            request = encode(parts.request, command.request)
+        except ValueError as error:  # the name, the type or a value
+            raise ConfigError(f"Not called: {error}") from error
+
+        def finish(response: Future[bytes]) -> None:
+            try:
+                answer = decode(parts.response, response.result())
+            except CancelledError:
+                command.failed("The viewer has ended.")
+            except Exception as error:  # of the service or its message
+                command.failed(str(error) or f"{name}: {type(error).__name__}.")
+            else:
+                command.answered(answer)
+
+        sent = self.core.gate.call(name, command.type, request, command.timeout_s)
+        sent.add_done_callback(finish)
+
+
+def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
+    try:
+        message = decode(type_, raw.cdr)
+    except MessageError:
+        return  # the panel Topics tells what is wrong with them
+    panel.take(topic, message)

@@ -37,9 +37,26 @@ class PluginList(Generic[P]):
         """Replace all of them."""
         self._items = {}
         for item in items:
-            self._add(item)
+            self.add(item)
             if isinstance(item, Unreadable):
                 log.warning("%s", item.reason)
+
+    def add(self, item: P | Unreadable) -> str:
+        """Append one; returns its id."""
+        self._made += 1
+        id = f"{self._base.kind}{self._made}"
+        self._items[id] = item
+        return id
+
+    def remove(self, wanted: str) -> str:
+        """Remove one by its id or name; returns its name.
+
+        Raises:
+            ConfigError: there is none.
+        """
+        id, item = self.find(wanted)
+        del self._items[id]
+        return item.name
 
     def items(self) -> list[P | Unreadable]:
         """What to save: a snapshot, for any thread."""
@@ -62,7 +79,8 @@ class PluginList(Generic[P]):
                 if lost:
                     log.warning("%s: values were dropped: %s.", item.name, "; ".join(lost))
         for name in self._types.keys() - before.keys():
-            self._add(make(self._types[name], {}))
+            if not getattr(self._types[name], "on_request", False):
+                self.add(make(self._types[name], {}))
 
     def find(self, wanted: str) -> tuple[str, P]:
         """Id and item by its id or name.
@@ -107,7 +125,3 @@ class PluginList(Generic[P]):
         faults = [item.reason for item in self._items.values() if isinstance(item, Unreadable)]
         key = f"{self._base.kind}s".capitalize()
         return {key: Status(Level.ERROR, " ".join(faults))} if faults else {}
-
-    def _add(self, item: P | Unreadable) -> None:
-        self._made += 1
-        self._items[f"{self._base.kind}{self._made}"] = item

@@ -6,21 +6,21 @@ import contextlib
 import inspect
 import logging
 import math
-from collections.abc import Callable, Mapping
-from concurrent.futures import CancelledError, Future
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Future
 from typing import Any
 
 from webviz.api.declared import Topic
-from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
-from webviz.api.ports import Output
-from webviz.api.status import Level, Status
+from webviz.api.status import Status
 from webviz.api.tool import Stroke, Tool, ToolContext, outputs
 from webviz.api.vehicle import Vehicle
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Command, Sender, SetToolProperty, UseTool
 from webviz.engine.driving import Helms
 from webviz.engine.parts.goals import GoalsPart
+from webviz.engine.parts.outlets import outlet_of
+from webviz.engine.parts.outlets import publish as publish_on
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.sources import Outlet
@@ -31,11 +31,8 @@ log = logging.getLogger("webviz")
 
 MAX_POINTS = 1000
 """Of a stroke."""
-DEPTH = 5
-"""Queue depth of a publisher, RViz's."""
 DRIVING_DEPTH = 1
 """Of velocity commands: only the newest counts."""
-Report = Callable[[Status], None]
 
 
 class ToolsPart(Part):
@@ -45,14 +42,22 @@ class ToolsPart(Part):
         core: shared by all parts.
         goals: takes the goals of tools.
         helms: of the vehicles that tools drive.
+        others: what else is to be advertised.
     """
 
     name = "Tools"
 
-    def __init__(self, core: Core, goals: GoalsPart, helms: Helms) -> None:
+    def __init__(
+        self,
+        core: Core,
+        goals: GoalsPart,
+        helms: Helms,
+        others: Callable[[], Collection[Outlet]],
+    ) -> None:
         super().__init__(core)
         self._goals = goals
         self._helms = helms
+        self._others = others
         self.list = PluginList(Tool)
         self._advertised: set[Outlet] = set()
 
@@ -72,11 +77,11 @@ class ToolsPart(Part):
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
         vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
-        wanted: set[Outlet] = set()
+        wanted = set(self._others())
         for id, tool in self.list.usable().items():
             if (vehicle := tool.vehicle) is None:
                 wanted.update(self._outlets(tool))
-            elif outlet := self._outlet(vehicle.type, vehicle.topic, DRIVING_DEPTH):
+            elif outlet := outlet_of(self.core, vehicle.type, vehicle.topic, DRIVING_DEPTH):
                 vehicles[id] = vehicle, outlet
         self._helms.equip(vehicles)
         wanted |= self._helms.outlets()
@@ -114,7 +119,7 @@ class ToolsPart(Part):
 
         def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
             output, topic = ports[name]
-            if self._publish(output, topic, payload, command.report):
+            if publish_on(self.core, output.type, topic, payload, command.report):
                 command.published(topic.name, output.type, values)
 
         def send_goal(request: GoalRequest) -> None:
@@ -125,16 +130,6 @@ class ToolsPart(Part):
             tool, core.frames, core.now_ns, publish, self._call, send_goal, report
         )
         tool.done(stroke, context)
-
-    def _publish(self, output: Output, topic: Topic, payload: bytes, report: Report) -> bool:
-        """Publish a message, and report the result; whether it may be published."""
-        outlet = self._outlet(output.type, topic)
-        if outlet is None:
-            report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
-            return False
-        sent = self.core.gate.publish(outlet, payload)
-        sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
-        return not self.core.gate.refusal(outlet.topic)
 
     def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         name = self.core.source.resolve(service)
@@ -151,24 +146,8 @@ class ToolsPart(Part):
 
     def _outlets(self, tool: Tool) -> list[Outlet]:
         """The outlets of a tool whose topics have valid names."""
-        found = [self._outlet(output.type, topic) for _, output, topic in outputs(tool)]
+        found = [outlet_of(self.core, output.type, topic) for _, output, topic in outputs(tool)]
         return [outlet for outlet in found if outlet]
-
-    def _outlet(self, type: str, topic: Topic, depth: int = DEPTH) -> Outlet | None:
-        """Where messages of a type are published; None if the topic has no valid name."""
-        try:
-            name = self.core.source.resolve(topic.name) if topic.name else ""
-        except ValueError:
-            return None
-        if not name:
-            return None
-        return Outlet(
-            name,
-            type,
-            "best_effort" if topic.reliability == "best_effort" else "reliable",
-            "transient_local" if topic.durability == "transient_local" else "volatile",
-            topic.depth or depth,
-        )
 
     def _set(self, command: SetToolProperty, sender: Sender) -> None:
         self.list.set(command.tool, command.path, command.value)
@@ -203,15 +182,3 @@ def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
         tool.several,
         tool,
     )
-
-
-def _outcome(topic: str, sent: Future[int]) -> Status:
-    """The result of publishing a message."""
-    try:
-        count = sent.result()
-    except (Error, CancelledError) as error:
-        return Status(Level.ERROR, str(error) or "The viewer has ended.")
-    if count == 0:
-        text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
-        return Status(Level.WARN, text)
-    return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

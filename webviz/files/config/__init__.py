@@ -18,12 +18,13 @@ from webviz.files.config.model import (
     all_tools,
     standard,
 )
-from webviz.files.config.reading import read, read_display, read_panel, read_tool
+from webviz.files.config.reading import MAX_PLUGINS, read, read_display, read_panel, read_tool
 from webviz.files.config.source import MAX_DEPTH, MAX_VALUES, Location, YamlDocument
 from webviz.files.config.writing import document, dump, dump_displays
 
 __all__ = [
     "MAX_DEPTH",
+    "MAX_PLUGINS",
     "MAX_VALUES",
     "STANDARD",
     "VERSION",

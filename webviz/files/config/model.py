@@ -109,9 +109,9 @@ def all_tools() -> list[ToolItem]:
 
 
 def all_panels() -> list[PanelItem]:
-    """The panels of plug-ins without a list of panels: every installed one, in order."""
+    """The panels without a list of panels: those installed ones that are not on request."""
     types = sorted(plugin_types(Panel).items(), key=lambda item: (item[1].place, item[0]))
-    return [make(cls, {}) for _, cls in types]
+    return [make(cls, {}) for _, cls in types if not cls.on_request]
 
 
 @dataclass

@@ -53,7 +53,9 @@ def schema(
     top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
     top["displays"] = _list_of(Display, "What is shown, in the order of the list.")
     top["tools"] = _list_of(Tool, "The toolbar; without this key, all tools that are installed.")
-    top["panels"] = _list_of(Panel, "Panels of plug-ins; without this key, all that are installed.")
+    top["panels"] = _list_of(
+        Panel, "Additional tabs; without this key, those of all installed plug-ins."
+    )
     made.add(Display, displays)
     made.add(Tool, tools)
     made.add(Panel, panels)

@@ -8,9 +8,10 @@ import { watch } from "../stores.js";
 import { maker } from "./displays/properties.js";
 import { makeWidget } from "./plugin_widgets.js";
 
-/** Calls `offer(panels)` with the panels of plug-ins whenever they change. */
-export function followPlugins(offer) {
-  watch("panels", (values) => {
+/** Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise. */
+export function followPlugins(offer, types) {
+  watch("panels", (values, changed) => {
+    if (changed.has("/types")) types(values.get("/types"));
     offer(values.get("/order").map((name) => ({
       name: `plugin-${name}`, title: values.get(name), open: (element) => open(element, name),
     })));
@@ -27,11 +28,8 @@ export function followPlugins(offer) {
 function open(element, name) {
   const failure = el("div", { class: "wv-plugin-failure", role: "alert", hidden: true, "data-level": "error" });
   const place = el("div", { class: "wv-plugin-widgets" });
-  const properties = el("div");
-  const settings = el("details", { class: "wv-tool-properties", hidden: true },
-    el("summary", {}, "Properties"), properties);
-  element.append(el("div", { class: "wv-plugin" }, failure, place), settings);
-  const endProperties = showProperties(settings, properties, name);
+  const [settings, endProperties] = properties(name);
+  element.append(el("div", { class: "wv-plugin" }, failure, place), ...settings);
   const drawn = new Map();
 
   const end = watch(`panel:${name}`, (values, changed) => {
@@ -55,20 +53,29 @@ function open(element, name) {
   };
 }
 
-function showProperties(settings, place, name) {
+// The elements with the properties of a panel, and what ends them.
+function properties(name) {
   let id = "";
   const send = (path, value) =>
     act("SetPanelProperty", { panel: id, path, value }, { quiet: true, errors: "caller" });
+  const place = el("div");
+  const settings = el("details", { class: "wv-tool-properties", hidden: true },
+    el("summary", {}, "Properties"), place);
+  const remove = el("button", {
+    type: "button", class: "wv-plugin-remove", hidden: true,
+    onclick: () => act("RemovePanel", { panel: id }),
+  }, "Remove panel");
   const made = maker(place, (declared, values) => {
     return form(declared, { send, name: `panel.${values.get("type")}` });
   });
   const end = watch(`panel_properties:${name}`, (values, changed) => {
     id = values.get("id") ?? "";
-    set(settings, { hidden: !id });
+    set(remove, { hidden: !id });
+    set(settings, { hidden: !values.get("declared")?.length });
     if (id) made.update(values, changed);
   });
-  return () => {
+  return [[settings, remove], () => {
     end();
     made.end();
-  };
+  }];
 }

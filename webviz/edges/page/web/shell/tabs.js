@@ -1,15 +1,23 @@
-// The tabs of the side: the panels of webviz, and those of plug-ins, which come and go.
+// The tabs of the side: the panels of webviz, and additional ones, which come and go.
 
+import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
+import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
+import { openMenu } from "./menu.js";
 
 /** Elements: the list of tabs, and what the open one shows. */
 export function tabs() {
   const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
   const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
   const buttons = new Map();
+  const add = el("button", {
+    type: "button", class: "wv-icon wv-tabs-add", hidden: true,
+    "aria-label": "Add a panel", "data-tip": "Add a panel", onclick: chooseType,
+  }, icon("plus"));
+  let types = [];
   let all = panels;
   let shown = null;
   let close = () => {};
@@ -77,7 +85,17 @@ export function tabs() {
     if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
   }
 
+  function chooseType() {
+    const { left, bottom } = add.getBoundingClientRect();
+    openMenu(left, bottom, types.map(({ type, title }) => ({
+      label: title, run: () => act("AddPanel", { type, values: {} }),
+    })));
+  }
+
   offer([]);
-  followPlugins(offer);
-  return [list, content];
+  followPlugins(offer, (known) => {
+    types = known;
+    set(add, { hidden: !types.length });
+  });
+  return [el("div", { class: "wv-tab-bar" }, list, add), content];
 }

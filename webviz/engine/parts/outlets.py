@@ -1,0 +1,56 @@
+"""How tools and panels publish: names, QoS, and the sentence on the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+
+from webviz.api.declared import Topic
+from webviz.api.errors import Error
+from webviz.api.status import Level, Status
+from webviz.engine.parts.part import Core
+from webviz.engine.sources import Outlet
+
+DEPTH = 5
+"""Queue depth of a publisher, RViz's."""
+Report = Callable[[Status], None]
+
+
+def outlet_of(core: Core, type: str, topic: Topic, depth: int = DEPTH) -> Outlet | None:
+    """Where messages of a type are published; None if the topic has no valid name."""
+    try:
+        name = core.source.resolve(topic.name) if topic.name else ""
+    except ValueError:
+        return None
+    if not name:
+        return None
+    return Outlet(
+        name,
+        type,
+        "best_effort" if topic.reliability == "best_effort" else "reliable",
+        "transient_local" if topic.durability == "transient_local" else "volatile",
+        topic.depth or depth,
+    )
+
+
+def publish(core: Core, type: str, topic: Topic, payload: bytes, report: Report) -> bool:
+    """Publish a message, and report the result; whether it may be published."""
+    outlet = outlet_of(core, type, topic)
+    if outlet is None:
+        report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
+        return False
+    sent = core.gate.publish(outlet, payload)
+    sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
+    return not core.gate.refusal(outlet.topic)
+
+
+def _outcome(topic: str, sent: Future[int]) -> Status:
+    """The result of publishing a message."""
+    try:
+        count = sent.result()
+    except (Error, CancelledError) as error:
+        return Status(Level.ERROR, str(error) or "The viewer has ended.")
+    if count == 0:
+        text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
+        return Status(Level.WARN, text)
+    return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

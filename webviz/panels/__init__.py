@@ -1,0 +1,1 @@
+"""Panels that are added on request; each is a plug-in like any other."""
