@@ -17,6 +17,9 @@ from webviz.edges.scene.adapter.wire import message_type
 from webviz.engine.commands import Command
 
 NOT_OF_PAGES = {
+    "CallService": "panels of the viewer send it",
+    "OpenPanels": "follows from the stores that pages watch",
+    "Publish": "panels of the viewer send it",
     "Command": "base class",
     "FileCommand": "base class",
     "ViewCommand": "base class",
