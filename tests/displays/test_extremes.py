@@ -13,6 +13,7 @@ import pytest
 from clouds import CLOUD, xyz_cloud
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from plain_scenes import PLAIN_MESSAGES
 
 from webviz import Display
 from webviz.api.display import inputs_of
@@ -47,8 +48,6 @@ Case = tuple[tuple[str | int, ...], Any]
 """Where in a message, and the value that is put there."""
 
 UNTURNED = {"w": 1.0}
-POSE = {"position": {"x": 1.0}, "orientation": UNTURNED}
-LINEAR_AND_ANGULAR = {"linear": {"x": 1.0}, "angular": {"z": 2.0}}
 GRID = {
     "info": {"width": 3, "height": 2, "resolution": 0.5, "origin": {"orientation": UNTURNED}},
     "data": [0, 30, 60, 98, 100, -1],
@@ -80,38 +79,7 @@ MESSAGES: dict[str, Values] = {
         "</geometry></visual></link><link name='arm'/><joint name='elbow' type='continuous'>"
         "<parent link='arm'/><child link='sensor'/></joint></robot>"
     },
-    "geometry_msgs/msg/PoseStamped": {"pose": POSE},
-    "geometry_msgs/msg/PoseWithCovarianceStamped": {
-        "pose": {"pose": POSE, "covariance": np.eye(6).ravel()}
-    },
-    "geometry_msgs/msg/PoseArray": {"poses": [POSE, {"orientation": UNTURNED}]},
-    "nav2_msgs/msg/ParticleCloud": {
-        "particles": [{"pose": POSE, "weight": weight} for weight in (0.25, 0.75)]
-    },
-    "geometry_msgs/msg/PointStamped": {"point": {"x": 1.0}},
-    "geometry_msgs/msg/PolygonStamped": {"polygon": {"points": [{"x": 1.0}, {"y": 1.0}]}},
-    "nav_msgs/msg/GridCells": {
-        "cell_width": 0.5,
-        "cell_height": 0.25,
-        "cells": [{"x": 1.0}, {"x": 2.0}],
-    },
-    "geometry_msgs/msg/WrenchStamped": {"wrench": {"force": {"x": 1.0}, "torque": {"z": 2.0}}},
-    "geometry_msgs/msg/TwistStamped": {"twist": LINEAR_AND_ANGULAR},
-    "geometry_msgs/msg/AccelStamped": {"accel": LINEAR_AND_ANGULAR},
-    "geometry_msgs/msg/Twist": LINEAR_AND_ANGULAR,
-    "sensor_msgs/msg/JointState": {"name": ["elbow"], "effort": [1.0]},
-    "sensor_msgs/msg/Range": {
-        "field_of_view": 0.5,
-        "min_range": 0.1,
-        "max_range": 4.0,
-        "range": 2.0,
-    },
-    "sensor_msgs/msg/Temperature": {"temperature": 20.0, "variance": 0.25},
-    "sensor_msgs/msg/FluidPressure": {"fluid_pressure": 1e5},
-    "sensor_msgs/msg/PointCloud": {
-        "points": [{"x": 1.0}, {"x": 2.0}],
-        "channels": [{"name": "intensity", "values": [1.0, 2.0]}],
-    },
+    **PLAIN_MESSAGES,
 }
 """A message of each type that draws something."""
 

@@ -61,6 +61,28 @@ def test_a_report_counts_what_is_carried(small: Path, capsys: pytest.CaptureFixt
     assert ["tools", "1", "of", "2", "50", "%"] in lines
 
 
+def test_several_files_are_checked_at_once(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    whole, bad = tmp_path / "whole.rviz", tmp_path / "bad.rviz"
+    whole.write_text("Visualization Manager:\n  Displays: []\n")
+    bad.write_text("a: 1")
+    assert convert("--check", small, whole) == 0
+    printed = capsys.readouterr().out
+    assert f"{small}: 1 of 2 displays, 1 of 1 properties\n  Mine: my_plugins/Laser" in printed
+    assert f"{whole}: complete\n" in printed
+    assert "Complete: 1 of 2 files, 50 %\n" in printed
+    assert convert("--check", bad, small) == 1
+    printed = capsys.readouterr()
+    assert f"{bad}: {bad} is not an RViz config" in printed.out
+    assert f"{small}: 1 of 2 displays" in printed.out
+    assert "1 of 2 files cannot be read." in printed.err
+    assert convert("--check", tmp_path / "a.yaml") == 2
+    assert "--check needs .rviz files" in capsys.readouterr().err
+    assert convert(small, whole, bad) == 2
+    assert "--check for several files" in capsys.readouterr().err
+
+
 def test_mistakes_are_one_sentence(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from webviz.api.declared import to_values
+from webviz.api.display import Display
 from webviz.files import rviz
 from webviz.files.config import Branch, Config, ConfigError, Unreadable, dump
 from webviz.files.opening import parse
@@ -377,3 +378,78 @@ def test_a_few_lines_that_unfold_without_end_are_refused() -> None:
         bomb += f"{name}: &{name} [{', '.join([f'*{before}'] * 10)}]\n"
     with pytest.raises(ConfigError, match="contains more than 50000 values"):
         rviz.read(bomb, "x.rviz")
+
+
+PLAIN = """\
+- Class: rviz_default_plugins/Temperature
+  Enabled: true
+  Name: Motor
+  Autocompute Intensity Bounds: false
+  Autocompute Value Bounds: {Max Value: 10, Min Value: -10, Value: true}
+  Axis: Z
+  Channel Name: temperature
+  Color: 255; 255; 255
+  Color Transformer: Intensity
+  Invert Rainbow: false
+  Max Intensity: 80
+  Size (m): 0.5
+  Topic: {Value: /motor, Reliability Policy: Best Effort}
+  Use Fixed Frame: true
+- Class: rviz_default_plugins/TwistStamped
+  Enabled: true
+  Name: Speed
+  Angular Arrow Scale: 3
+  Arrow Width: 0.25
+  Hide Small Values: true
+  History Length: 2
+  Linear Color: 1; 2; 3
+- Class: rviz_default_plugins/Wrench
+  Enabled: true
+  Name: Wrist
+  Accept NaN Values: true
+  Force Arrow Scale: 0.5
+- Class: rviz_default_plugins/PoseWithCovariance
+  Enabled: true
+  Name: Amcl
+  Shape: Axes
+  Axes Length: 0.5
+  Covariance: {Value: true, Position: {Value: false}}
+- Class: nav2_rviz_plugins/ParticleCloud
+  Enabled: true
+  Name: Particles
+  Shape: Arrow (3D)
+  Max Arrow Length: 0.5
+- Class: rviz_default_plugins/Effort
+  Enabled: true
+  Name: Arm
+  Robot Description: /arm/robot_description
+  TF Prefix: arm
+"""
+
+
+def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
+    config, report = opened(PLAIN)
+    assert said(report) == ""
+    values = {item.name: to_values(item) for item in config.displays if isinstance(item, Display)}
+    for each in values.values():
+        each.pop("name")
+    motor = {"invert_rainbow": False, "max_intensity": 80.0, "size": 0.5}
+    assert values["Motor"] == motor | {"topic": {"name": "/motor", "reliability": "best_effort"}}
+    assert values["Speed"] == {
+        "topic": "",
+        "angular_arrow_scale": 3.0,
+        "arrow_width": 0.25,
+        "hide_small_values": True,
+        "history_length": 2,
+        "linear_color": (1, 2, 3),
+    }
+    assert values["Wrist"] == {"topic": "", "accept_nan_values": True, "force_arrow_scale": 0.5}
+    amcl = {"topic": "", "shape": "Axes", "axes_length": 0.5}
+    assert values["Amcl"] == amcl | {"covariance": {"position": {"value": False}}}
+    particles = {"topic": "", "shape": "Arrow (3D)", "max_arrow_length": 0.5}
+    assert values["Particles"] == particles
+    assert values["Arm"] == {
+        "topic": "",
+        "robot_description": "/arm/robot_description",
+        "tf_prefix": "arm",
+    }

@@ -24,10 +24,19 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
 }
 """By key: RViz's default values, which need no support."""
 
+SCALARS = ("Temperature", "FluidPressure", "Illuminance", "RelativeHumidity")
+HIDDEN_OF_SCALARS = (
+    *("Position Transformer", "Color Transformer", "Channel Name", "Color", "Axis"),
+    *("Autocompute Intensity Bounds", "Autocompute Value Bounds", "Use Fixed Frame"),
+)
+"""Properties of point clouds that RViz's displays of one number hide, but write."""
+
 
 def is_without_effect(path: Path, tree: Tree) -> bool:
     """Whether the value at a path of a display has no effect on what RViz shows."""
     if any(key in ALWAYS for key in path):
+        return True
+    if path[0] in HIDDEN_OF_SCALARS and str(tree.get("Class")).rpartition("/")[2] in SCALARS:
         return True
     value: Any = tree
     for key in path:

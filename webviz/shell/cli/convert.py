@@ -10,6 +10,7 @@ from webviz.engine import plugins
 from webviz.files import config as config_file
 from webviz.files import opening, rviz
 from webviz.files.config import ConfigError
+from webviz.shell.cli.checking import print_check
 from webviz.shell.cli.options import File, Flag, Plugins, report_unsupported
 
 EXAMPLES = """\
@@ -17,43 +18,56 @@ Examples:
   webviz convert nav2.rviz nav2.yaml    list unsupported keys, and keep them
   webviz convert nav2.yaml nav2.rviz    convert back, with the keys that were kept
   webviz convert --report nav2.rviz     show how much of a file is supported
+  webviz convert --check *.rviz         list unsupported parts of each file, and a total
 """
 
 
-def check(source: Path, target: Path | None = None, *, report: bool = False, **_: object) -> None:
+def validate(
+    *, files: tuple[Path, ...] = (), report: bool = False, check: bool = False, **_: object
+) -> None:
     """Raise ValueError for an invalid combination of arguments."""
-    if target is None and not report:
+    if not files:
+        raise ValueError("Missing SOURCE. Give the file to read.")
+    if check:
+        if strange := [path for path in files if not config_file.is_rviz(path)]:
+            raise ValueError(f"--check needs .rviz files, got {strange[0]}.")
+        return
+    if len(files) > 2:
+        raise ValueError("Give one SOURCE and one TARGET, or --check for several files.")
+    if len(files) == 1 and not report:
         raise ValueError("Missing TARGET. Give the file to write, or --report.")
-    if report and not config_file.is_rviz(source):
+    if report and not config_file.is_rviz(files[0]):
         raise ValueError("--report needs a .rviz file.")
 
 
 app = App(
     "convert",
-    usage="Usage: webviz convert [OPTIONS] SOURCE [TARGET]",
+    usage="Usage: webviz convert [OPTIONS] SOURCE [TARGET]\n       webviz convert --check FILE ...",
     help_epilogue=EXAMPLES,
 )
 
 
-@app.default(validator=check)
+@app.default(validator=validate)
 def convert(
-    source: File,
-    target: File | None = None,
-    /,
-    *,
+    *files: File,
     report: Flag = False,
+    check: Flag = False,
     plugin: Plugins = (),
 ) -> None:
     """Convert a file and report unsupported parts.
 
     Args:
-        source: File to read.
-        target: File to write; overwritten if it exists.
+        files: File to read, and file to write; the latter is overwritten if it exists.
         report: Show how much of a .rviz file is supported.
+        check: List the unsupported parts of several .rviz files, and a total; writes nothing.
         plugin: Files with displays.
     """
     for path in plugin:
         plugins.load(path)
+    if check:
+        print_check(files)
+        return
+    source, target = files[0], files[1] if len(files) == 2 else None
     imported = None
     if config_file.is_rviz(source):
         config, imported = rviz.read(config_file.read_text(source), str(source))

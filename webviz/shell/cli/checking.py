@@ -1,0 +1,42 @@
+"""`webviz convert --check`: what is unsupported in several .rviz files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from webviz.files import config as config_file
+from webviz.files import rviz
+from webviz.files.config import ConfigError
+from webviz.files.rviz.report import percent
+
+COUNTED = ("displays", "properties")
+"""A file is complete if it has only supported ones."""
+
+
+def print_check(paths: Sequence[Path]) -> None:
+    """Print the unsupported parts of each file, and totals.
+
+    Raises:
+        ConfigError: some files cannot be read; the others are printed nevertheless.
+    """
+    whole, complete, unreadable = rviz.Report(), 0, 0
+    for path in paths:
+        try:
+            config, report = rviz.read(config_file.read_text(path), str(path))
+        except ConfigError as error:
+            print(f"{path}: {error}")
+            unreadable += 1
+            continue
+        whole.total += report.total
+        whole.carried += report.carried
+        is_complete = all(report.carried[kind] == report.total[kind] for kind in COUNTED)
+        complete += is_complete
+        counts = ", ".join(f"{report.carried[k]} of {report.total[k]} {k}" for k in COUNTED)
+        print(f"{path}: {'complete' if is_complete else counts}")
+        for sentence in config.report:
+            print(f"  {sentence}")
+    print(f"\nComplete: {complete} of {len(paths)} files, {percent(complete, len(paths)).strip()}")
+    print(whole.table())
+    if unreadable:
+        raise ConfigError(f"{unreadable} of {len(paths)} files cannot be read.")
