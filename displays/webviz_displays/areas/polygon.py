@@ -30,6 +30,7 @@ class Polygon(Display):
     """The outline of an area, such as the footprint of a robot."""
 
     rviz = "rviz_default_plugins/Polygon"
+    is_threaded = True
 
     topic: Annotated[
         Topic, Input("geometry_msgs/msg/PolygonStamped"), Prop(help="Topic of the polygons.")

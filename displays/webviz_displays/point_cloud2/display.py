@@ -84,7 +84,7 @@ class CloudDisplay(PointsDisplay):
     def depends(self, ctx: Context) -> int:
         """How many clouds share max_points: a power of two, so that it seldom changes."""
         state: _State = ctx.state
-        oldest = ctx.frames.now_ns - round(self.decay_time * 1e9)
+        oldest = ctx.frames.now_ns - round(min(self.decay_time * 1e9, 2**63))
         # A copy, as `draw` may add a cloud in its thread.
         for number in [n for n, received_ns in state.clouds.copy().items() if received_ns < oldest]:
             del state.clouds[number]

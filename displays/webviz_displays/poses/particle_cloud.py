@@ -9,6 +9,7 @@ import numpy as np
 from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
 from webviz.data.messages import PoseSequence
 from webviz_displays.poses.pose_set import Shape, is_invisible, pose_details, pose_set
+from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.history import HistoryLength
 
 SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 0.0435 / 2, 0.3043, 0.1304 / 2
@@ -48,10 +49,10 @@ class ParticleCloud(Display):
         ),
     ] = 1.0
     min_arrow_length: Annotated[
-        float, Prop(gt=0, unit="m", help="Length of a particle without weight.")
+        float, Prop(gt=0, le=LONGEST, unit="m", help="Length of a particle without weight.")
     ] = 0.02
     max_arrow_length: Annotated[
-        float, Prop(gt=0, unit="m", help="Length of a particle of weight 1.")
+        float, Prop(gt=0, le=LONGEST, unit="m", help="Length of a particle of weight 1.")
     ] = 0.3
     history_length: HistoryLength = 1
 

@@ -8,8 +8,9 @@ from typing import Annotated
 import numpy as np
 
 from webviz import Color, Context, Details, Display, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz.data.rotations import matrices
 from webviz.data.words import counted
-from webviz_displays.shared.geometry import is_drawable, origin_near, transformed
+from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
 
@@ -25,7 +26,7 @@ class PointStamped(Display):
     alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
         1.0
     )
-    radius: Annotated[float, Prop(gt=0, unit="m", help="Radius of the spheres.")] = 0.2
+    radius: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Radius of the spheres.")] = 0.2
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:
@@ -36,13 +37,13 @@ class PointStamped(Display):
         """Spheres, each where its frame was at its stamp."""
         if not samples:
             return
-        points = [sample.message.point for sample in samples]
-        ids = np.flatnonzero(is_drawable([(p.x, p.y, p.z) for p in points]))
+        given = [(each.message.point, each.pose) for each in samples]
+        points = np.array([(p.x, p.y, p.z) for p, _ in given])
+        ids = np.flatnonzero(is_drawable(points))
         if len(ids):
-            placed = [
-                (samples[i].pose, (points[i].x, points[i].y, points[i].z)) for i in ids.tolist()
-            ]
-            centers = np.concatenate([transformed(pose, [xyz]) for pose, xyz in placed])
+            turns = matrices([pose.wxyz for _, pose in given])[ids]
+            places = np.array([pose.position for _, pose in given])[ids]
+            centers = np.einsum("nij,nj->ni", turns, points[ids]) + places
             origin = origin_near(centers)
             group = ctx.follow(None, offset=Pose(origin))
             if self.alpha == 0:
@@ -59,10 +60,10 @@ class PointStamped(Display):
                     ids=ids,
                 )
         if len(samples) - 1 not in ids:
-            p = points[-1]
+            x, y, z = points[-1].tolist()
             ctx.error(
                 "Point",
-                f"The point ({p.x:g}, {p.y:g}, {p.z:g}) is not finite or farther than 1e9 m. "
+                f"The point ({x:g}, {y:g}, {z:g}) is not finite or farther than 1e9 m. "
                 "Fix the publisher.",
             )
 

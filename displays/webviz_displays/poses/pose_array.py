@@ -7,6 +7,7 @@ from typing import Annotated
 from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
 from webviz.data import messages
 from webviz_displays.poses.pose_set import Shape, is_invisible, pose_details, pose_set
+from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.history import HistoryLength
 
 BY_FLAT = ("shape", "Arrow (Flat)")
@@ -41,25 +42,25 @@ class PoseArray(Display):
         ),
     ] = 1.0
     arrow_length: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_FLAT, help="Length of flat arrows.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_FLAT, help="Length of flat arrows.")
     ] = 0.3
     shaft_length: Annotated[
-        float, Prop(ge=0, unit="m", when=BY_SOLID, help="Length of the shafts.")
+        float, Prop(ge=0, le=LONGEST, unit="m", when=BY_SOLID, help="Length of the shafts.")
     ] = 0.23
     shaft_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_SOLID, help="Radius of the shafts.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Radius of the shafts.")
     ] = 0.01
     head_length: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_SOLID, help="Length of the heads.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Length of the heads.")
     ] = 0.07
     head_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_SOLID, help="Radius of the heads.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Radius of the heads.")
     ] = 0.03
     axes_length: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_AXES, help="Length of each axis.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Length of each axis.")
     ] = 0.3
     axes_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=BY_AXES, help="Radius of each axis.")
+        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Radius of each axis.")
     ] = 0.01
     history_length: HistoryLength = 1
 

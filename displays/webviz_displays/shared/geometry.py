@@ -16,6 +16,9 @@ F64 = NDArray[np.float64]
 FARTHEST = 1e9
 """Metres; farther points are not measurements, and their squares overflow a GPU's float32."""
 
+LONGEST = 1e6
+"""Metres; larger sizes of arrows and other marks would overflow float32 with their scales."""
+
 
 def transformed(pose: Pose, xyz: ArrayLike) -> F64:
     """Points (N, 3) moved from the frame of `pose` to the frame it is given in."""

@@ -13,7 +13,7 @@ from webviz import Context, Details, Display, Frames, Hit, Input, Keep, Pose, Pr
 from webviz.data import messages
 from webviz.data.words import counted, listed
 from webviz_displays.shared.frame_names import prefixed
-from webviz_displays.shared.geometry import origin_near
+from webviz_displays.shared.geometry import LONGEST, origin_near
 from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.rings import Rings, add_rings
 from webviz_urdf import RobotDescriptionError, TurningJoint
@@ -76,9 +76,9 @@ class Effort(Display):
             "dark grey.",
         ),
     ] = 1.0
-    width: Annotated[float, Prop(gt=0, unit="m", help="Width of the rings.")] = 0.02
+    width: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Width of the rings.")] = 0.02
     scale: Annotated[
-        float, Prop(gt=0, unit="m", help="Diameter of the ring of the largest effort.")
+        float, Prop(gt=0, le=LONGEST, unit="m", help="Diameter of the ring of the largest effort.")
     ] = 1.0
     tf_prefix: Annotated[
         str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import matrices
-from webviz_displays.shared.geometry import FARTHEST, origin_near
+from webviz_displays.shared.geometry import FARTHEST, LONGEST, origin_near
 from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
 
 F64 = NDArray[np.float64]
@@ -49,7 +49,8 @@ class VectorDisplay(Display):
         ),
     ] = 1.0
     arrow_width: Annotated[
-        float, Prop(gt=0, unit="m", help="Width of the arrows; heads are 0.2 of it thick.")
+        float,
+        Prop(gt=0, le=LONGEST, unit="m", help="Width of the arrows; a head takes 0.2 of it."),
     ] = 0.5
 
     def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
