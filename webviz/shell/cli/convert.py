@@ -32,11 +32,12 @@ def validate(
         if strange := [path for path in files if not config_file.is_rviz(path)]:
             raise ValueError(f"--check needs .rviz files, got {strange[0]}.")
         return
-    if len(files) > 2:
+    source, *targets = files
+    if len(targets) > 1:
         raise ValueError("Give one SOURCE and one TARGET, or --check for several files.")
-    if len(files) == 1 and not report:
+    if not targets and not report:
         raise ValueError("Missing TARGET. Give the file to write, or --report.")
-    if report and not config_file.is_rviz(files[0]):
+    if report and not config_file.is_rviz(source):
         raise ValueError("--report needs a .rviz file.")
 
 
