@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import trimesh
 from PIL import Image
+from trimesh.visual import ColorVisuals
 
 from webviz.api.views import Orbit
 from webviz.shell.testing import Stage
@@ -100,7 +101,7 @@ def test_lists_meshes_and_textures(webviz_stage: Stages) -> None:
     ball = trimesh.creation.annulus(0.2, 0.4, 0.3)
     own = trimesh.creation.box((0.6, 0.6, 0.4))
     faces = np.repeat([(255, 80, 80), (80, 255, 80), (80, 80, 255)], 4, axis=0)
-    own.visual = trimesh.visual.ColorVisuals(own, face_colors=faces)
+    own.visual = ColorVisuals(own, face_colors=faces)
 
     def file(mesh: Any, kind: str) -> dict[str, Any]:
         data = mesh.export(file_type=kind)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,7 +85,12 @@ def _by_value(
 
 def _opaque(colors: F32) -> U8 | Rgb:
     """Colours (..., 4) blended with the background by their alpha; one if all are equal."""
-    mixed = faded(rgb(colors), opacities(colors[..., 3])[..., None])
-    flat = mixed.reshape(-1, 3)
-    first: Any = tuple(flat[0].tolist())
-    return first if (flat == flat[0]).all() else mixed
+    flat = colors.reshape(-1, 4)
+    if (flat == flat[0]).all():
+        red, green, blue = _mixed(flat[:1])[0].tolist()
+        return red, green, blue
+    return _mixed(colors)
+
+
+def _mixed(colors: F32) -> U8:
+    return faded(rgb(colors), opacities(colors[..., 3])[..., None])

@@ -76,9 +76,9 @@ def report_markers(
 def _report_total(store: Store, shown: int, is_on: Callable[[str], bool], ctx: Context) -> None:
     table = store.table
     total = len(table)
-    namespaces = {key[0] for key in table.rows}
+    namespaces = table.namespaces
     off = sorted(name for name in namespaces if not is_on(name))
-    hidden = sum(not is_on(key[0]) for key in table.rows) if off else 0
+    hidden = sum(namespaces[name] for name in off)
     waiting = sum(len(rows) for rows in store.waiting.values())
     if not total:
         ctx.warn("Markers", f"No markers.{_last_expired(store, ctx)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,7 @@ class Table:
     """Rows of markers; those that are freed are used again, the lowest first.
 
     Attributes:
+        namespaces: how many markers each has.
         wanted: the newest version of each marker, in its frame.
         shown: the version that is drawn, in the fixed frame; of a locked marker, in its frame.
         wanted_contents, shown_contents: the fields whose size varies.
@@ -44,6 +46,7 @@ class Table:
 
     def __init__(self) -> None:
         self.rows: dict[Key, int] = {}
+        self.namespaces: Counter[str] = Counter()
         self.keys: list[Key | None] = []
         self.frames: list[str] = []
         self.shown_frames: list[str] = []
@@ -77,6 +80,7 @@ class Table:
         self._serial += 1
         self.serials[row] = self._serial
         self.rows[key], self.keys[row] = row, key
+        self.namespaces[key[0]] += 1
         self.is_shown[row] = False
         self.wanted["expires_ns"][row] = FOREVER
         return row
@@ -85,6 +89,9 @@ class Table:
         """Free the row of a marker."""
         row = self.rows.pop(key)
         self.keys[row] = None
+        self.namespaces[key[0]] -= 1
+        if not self.namespaces[key[0]]:
+            del self.namespaces[key[0]]
         self.is_shown[row] = False
         self.wanted["expires_ns"][row] = FOREVER
         self.wanted_contents[row] = self.shown_contents[row] = NOTHING
