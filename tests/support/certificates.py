@@ -8,7 +8,7 @@ from pathlib import Path
 
 import trustme
 
-NAMES = ("localhost", "127.0.0.1", "robot.example")
+NAMES = ("localhost", "127.0.0.1", "robot.example", "robots.example")
 
 
 @cache

@@ -29,6 +29,7 @@ async function install() {
 const answer = (token) => channel.send({ type: "Answer", token });
 channel.on("Ask", ({ token }) => answer(token));
 
+viser.connectToFolder();
 const installed = install();
 const address = new URL("channel", import.meta.url).href.replace(/^http/, "ws");
 

@@ -53,6 +53,23 @@ export function missing() {
   return lacks;
 }
 
+/**
+ * Makes viser connect to the folder of the page, whose last slash it drops, and leave the address
+ * bar as it is. To be called before viser's own script.
+ */
+export function connectToFolder() {
+  const server = new URL("..", import.meta.url).href.replace(/^http/, "ws");
+  const { postMessage } = Worker.prototype;
+  Worker.prototype.postMessage = function (message, ...rest) {
+    const isServer = message?.type === "set_server";
+    postMessage.call(this, isServer ? { ...message, server } : message, ...rest);
+  };
+  const { replaceState } = history;
+  history.replaceState = function (state, title, ...rest) {
+    if (title !== "Viser") replaceState.call(this, state, title, ...rest);
+  };
+}
+
 /** Resolves when a condition holds, which is looked at before each frame. */
 export function until(condition) {
   return new Promise((resolve) => {
