@@ -59,6 +59,18 @@ def test_what_cannot_be_answered_is_refused_in_a_sentence(
     assert b"\r\nX-Content-Type-Options: nosniff" in head
 
 
+def test_one_who_sends_nothing_more_is_answered(
+    server: viser.ViserServer, caplog: pytest.LogCaptureFixture
+) -> None:
+    for path, status in ((b"/", b"200"), (b"/nothing", b"404")):
+        with socket.create_connection(("127.0.0.1", server.get_port()), timeout=60) as stranger:
+            stranger.sendall(b"GET " + path + b" HTTP/1.1\r\n" + HOST + b"\r\n")
+            stranger.shutdown(socket.SHUT_WR)
+            answer = b"".join(iter(lambda: stranger.recv(1 << 16), b""))
+        assert answer.startswith(b"HTTP/1.1 " + status)
+    assert caplog.messages == []
+
+
 def test_two_headers_of_one_name_are_no_error(ask: Ask) -> None:
     twice = b"Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"
     status, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + twice + b"\r\n")

@@ -10,6 +10,7 @@ from typing import Any
 
 import websockets.asyncio.server as websocket
 from websockets.frames import Frame, Opcode
+from websockets.protocol import State
 
 from webviz.edges.access.access import EVERYBODY, Grant
 from webviz.edges.access.roles import LIMITS, Role
@@ -28,6 +29,8 @@ MAX_WAIT = 5.0
 CLOSE_ONE = "Close another page of webviz."
 WHOLE = (Opcode.BINARY, Opcode.TEXT)
 """Frames that carry a whole message if they are final."""
+ANSWER_S = 0.05
+"""After which to look again whether a request is answered; most are at once."""
 FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
@@ -130,6 +133,9 @@ class Connection(websocket.ServerConnection):
 
     def __init__(self, gate: Gate, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
+        # websockets fails, and logs it, if a browser is gone before it is answered.
+        send_eof = self.protocol.send_eof
+        self.protocol.send_eof = lambda: None if self.protocol.eof_sent else send_eof()
         self.wants_head = False
         """Whether the request is for the headers only."""
         self.host = ""
@@ -198,6 +204,18 @@ class Connection(websocket.ServerConnection):
             return
         self.wants_head = is_head(head)
         super().data_received(as_get(head))
+
+    def eof_received(self) -> Any:  # True keeps the connection open
+        """Handles the end of a request after its answer, in between which websockets fails."""
+        is_asking = self._head is None and not self._is_refused and self.state is State.CONNECTING
+        if not is_asking or self.is_secure:  # with TLS, there is no way to wait
+            return super().eof_received()
+        self.loop.call_later(ANSWER_S, self._end)
+        return True
+
+    def _end(self) -> None:
+        if not self.transport.is_closing() and not self.eof_received():
+            self.transport.close()
 
     def process_event(self, event: Any) -> None:
         """Handles the request, or a frame on arrival."""
