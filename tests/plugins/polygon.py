@@ -3,7 +3,7 @@ from typing import Annotated
 from webviz import Color, Context, Display, Input, Prop, Sample, Topic
 
 
-class Polygon(Display):
+class Area(Display):
     """The outline of a polygon."""
 
     topic: Annotated[Topic, Input("geometry_msgs/msg/PolygonStamped")] = Topic("/polygon")
@@ -12,7 +12,7 @@ class Polygon(Display):
     def draw(self, sample: Sample, ctx: Context) -> None:
         corners = sample.message.polygon.points  # float32 (N, 3)
         if len(corners) < 3:
-            ctx.warn("Polygon", f"Expected at least 3 corners, got {len(corners)}.")
+            ctx.warn("Area", f"Expected at least 3 corners, got {len(corners)}.")
             return
         ctx.strip("outline", [*corners, corners[0]], self.color)
-        ctx.ok("Polygon", f"{len(corners)} corners.")
+        ctx.ok("Area", f"{len(corners)} corners.")

@@ -26,7 +26,7 @@ CONFIG = """\
 fixed_frame: map
 view: {distance: 8.0, yaw: -1.570796, pitch: 1.5697}
 displays:
-- {type: Polygon, name: Fence}
+- {type: Area, name: Fence}
 """
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 GREEN, MAGENTA = (25, 255, 0), (255, 0, 255)

@@ -34,8 +34,8 @@ def test_the_example_of_the_readme_is_the_one_tested_here() -> None:
 
 def test_a_display_of_a_file_is_one_like_any_other(plugin: Any) -> None:
     cls = plugin.load()
-    assert registry.display_types()["Polygon"] is cls
-    text = "version: 1\ndisplays:\n- type: Polygon\n  topic: /fence\n  color: [1, 2, 3]\n"
+    assert registry.display_types()["Area"] is cls
+    text = "version: 1\ndisplays:\n- type: Area\n  topic: /fence\n  color: [1, 2, 3]\n"
     config = parse(text, "x.yaml")
     assert type(config.displays[0]) is cls
     again: Any = parse(dump(config), "x.yaml").displays[0]
@@ -101,9 +101,9 @@ def test_a_mistake_is_one_sentence_with_its_line(plugin: Any, text: str, reason:
 
 def test_a_refused_file_leaves_the_module_of_the_last_good_one(plugin: Any) -> None:
     cls = plugin.load()
-    plugin.edit(("class Polygon(Display)", "class Grid(Display)"))
+    plugin.edit(("class Area(Display)", "class Grid(Display)"))
     refused(plugin.path)
-    assert sys.modules[cls.__module__].Polygon is cls
+    assert sys.modules[cls.__module__].Area is cls
 
 
 def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path) -> None:
@@ -111,7 +111,7 @@ def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path
     other = tmp_path / "other.py"
     other.write_text(plugin.path.read_text())
     sentence = refused(other)
-    assert sentence.startswith(f"{other} cannot be used: {plugin.path} has a display named Polygon")
+    assert sentence.startswith(f"{other} cannot be used: {plugin.path} has a display named Area")
 
 
 def test_a_save_is_noticed_once(plugin: Any) -> None:

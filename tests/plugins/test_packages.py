@@ -13,7 +13,7 @@ import pytest
 EXAMPLE = Path(__file__).with_name("polygon.py")
 ENTRY_POINTS = """\
 [webviz.displays]
-Fence = acme_displays.fence:Polygon
+Fence = acme_displays.fence:Area
 Gone = acme_displays.gone:Gone
 Torn = acme_displays.torn:Torn
 """
@@ -90,7 +90,7 @@ def test_a_display_that_does_not_load_says_why_and_harms_no_other(
         "for display in load(Path('x.yaml')).displays:\n"
         "    print(type(display).__name__, getattr(display, 'reason', ''))"
     ).splitlines()
-    assert fence.split() == ["Polygon"]
+    assert fence.split() == ["Area"]
     place = "x.yaml:4: displays[1].type"
     assert f"{place}: acme_displays.gone:Gone does not load: ModuleNotFoundError" in gone
     assert "Torn does not load: TypeError: Torn.sync: 'image' is not an input" in torn

@@ -51,9 +51,9 @@ def b(plugin: Any, bench: Callable[..., Any]) -> Any:
 
 
 def test_the_example_draws_the_outline_and_says_so(b: Any) -> None:
-    assert b.statuses()["Polygon"] == ("OK", "3 corners.")
+    assert b.statuses()["Area"] == ("OK", "3 corners.")
     publish(b, CORNERS[:2])
-    assert b.statuses()["Polygon"][0] == "WARN"
+    assert b.statuses()["Area"][0] == "WARN"
     assert outlines(b) == []
 
 
@@ -137,7 +137,7 @@ def test_a_value_that_no_longer_fits_is_dropped_and_the_others_stay(b: Any, plug
     [
         ("def draw(self", "def draw(self(", "is not valid Python"),
         ("from typing import", "import nowhere_at_all\nfrom typing import", "ModuleNotFoundError"),
-        ("class Polygon(Display)", "class Grid(Display)", "display named Grid. Rename the class"),
+        ("class Area(Display)", "class Grid(Display)", "display named Grid. Rename the class"),
     ],
 )
 def test_a_broken_save_keeps_the_picture_and_says_what_is_wrong(
@@ -151,7 +151,7 @@ def test_a_broken_save_keeps_the_picture_and_says_what_is_wrong(
     assert (level, reason in text) == ("ERROR", True)
     assert text in caplog.text
     publish(b, [*CORNERS, (1.0, 1.0)])
-    assert b.statuses()["Polygon"] == ("OK", "4 corners.")
+    assert b.statuses()["Area"] == ("OK", "4 corners.")
     plugin.edit((new, old))
     assert type(shown(b, plugin)) is not before
     assert "Plugin" not in b.statuses()
@@ -173,17 +173,17 @@ def test_a_deleted_file_keeps_the_picture_until_it_is_back(b: Any, plugin: Any) 
 
 
 def test_a_renamed_class_is_another_type_and_the_old_display_goes_on(b: Any, plugin: Any) -> None:
-    plugin.edit(("class Polygon", "class Fence"))
+    plugin.edit(("class Area", "class Fence"))
     old = type(shown(b, plugin))
     level, text = b.statuses()["Plugin"]
-    assert (level, "no longer has a display Polygon" in text) == ("ERROR", True)
+    assert (level, "no longer has a display Area" in text) == ("ERROR", True)
     assert outlines(b) == [(GREEN, 1.0)]
-    assert "type: Polygon" in dump(b.viewer.config())
+    assert "type: Area" in dump(b.viewer.config())
     b.viewer.enqueue(AddDisplay("Fence"))
-    b.viewer.enqueue(AddDisplay("Polygon"))  # there is no such type any more
+    b.viewer.enqueue(AddDisplay("Area"))  # there is no such type any more
     b.turn()
-    assert [type(d).__name__ for d in b.viewer.config().displays] == ["Polygon", "Fence"]
-    plugin.edit(("class Fence", "class Polygon"))
+    assert [type(d).__name__ for d in b.viewer.config().displays] == ["Area", "Fence"]
+    plugin.edit(("class Fence", "class Area"))
     assert type(shown(b, plugin)) is not old
     assert "Plugin" not in b.statuses(0)
     assert "no longer has a display Fence" in b.statuses(1)["Plugin"][1]
@@ -196,7 +196,7 @@ def test_code_that_raises_is_a_status_and_the_old_picture_stays(
         ("        ctx.strip", "        raise RuntimeError('out of ink')\n        ctx.strip")
     )
     shown(b, plugin)
-    assert b.statuses()["Display"] == ("ERROR", "Polygon failed: RuntimeError: out of ink")
+    assert b.statuses()["Display"] == ("ERROR", "Area failed: RuntimeError: out of ink")
     assert outlines(b) == [(GREEN, 1.0)]
     assert "out of ink" in caplog.text
     plugin.edit(("        raise RuntimeError('out of ink')\n", ""))
@@ -214,11 +214,11 @@ def test_any_hook_may_raise_or_return_nonsense_and_the_viewer_goes_on(
         shown(b, plugin)
         publish(b)
         if "raise" in body:
-            assert b.statuses()["Display"] == ("ERROR", "Polygon failed: RuntimeError: out of ink")
+            assert b.statuses()["Display"] == ("ERROR", "Area failed: RuntimeError: out of ink")
         plugin.path.write_text(text)
         shown(b, plugin)
         publish(b, [*CORNERS, (1.0, 1.0)])
-        assert b.statuses()["Polygon"] == ("OK", "4 corners.")
+        assert b.statuses()["Area"] == ("OK", "4 corners.")
         assert "Display" not in b.statuses()
 
 
@@ -226,7 +226,7 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
     plugin: Any, bench: Callable[..., Any]
 ) -> None:
     plugin.load()
-    text = "displays: [{type: Polygon, width: 7.0}, {type: Nowhere}]"
+    text = "displays: [{type: Area, width: 7.0}, {type: Nowhere}]"
     b = bench(*parse(text, "x.yaml").displays)
     assert "displays[0].width: unknown key" in b.statuses()["Config"][1]
     plugin.edit((COLOR, WIDTH + COLOR), ("self.color)", "self.color, self.width)"))
@@ -240,7 +240,7 @@ def test_an_entry_of_the_config_comes_to_life_with_its_property(
 def test_a_node_that_cannot_be_drawn_is_a_status(b: Any, plugin: Any) -> None:
     plugin.edit(("        ctx.ok", "        ctx.add('nothing', None)\n        ctx.ok"))
     shown(b, plugin)
-    assert b.statuses()["Display"][1] == "Polygon failed: TypeError: 'nothing' is not a node: None"
+    assert b.statuses()["Display"][1] == "Area failed: TypeError: 'nothing' is not a node: None"
     assert outlines(b) == [(GREEN, 1.0)]
 
 
