@@ -105,7 +105,7 @@ class Reader:
         """What the page says, then nothing more."""
         return self._said.pop(0) if self._said else await asyncio.Future()
 
-    async def send(self, message: str, /) -> None:
+    async def send(self, message: str | bytes, /) -> None:
         """Take it."""
 
     async def close(self, code: int = 1000, reason: str = "") -> None:

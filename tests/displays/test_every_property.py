@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import msgspec
 import numpy as np
+import photos
 import pytest
 import trimesh
 from clouds import CLOUD, xyz_cloud
@@ -95,6 +96,39 @@ def robot_frame(bench: Any) -> None:
     bench.turn()
 
 
+def images(bench: Any) -> None:
+    """Two depth images of different ranges."""
+    for depths in ([0.3, 0.6], [2.0, 5.0]):
+        data = np.array(depths, np.float32).view(np.uint8)
+        values = {"width": 2, "height": 1, "encoding": "32FC1", "step": 8, "data": data}
+        bench.send("sensor_msgs/msg/Image", values, frame="camera")
+        bench.turn()
+
+
+def camera_infos(bench: Any) -> None:
+    """A camera, and its image."""
+    bench.transform("map", "camera", (1.0, 0.0, 0.0))
+    bench.send(photos.INFO, photos.info(16, 12), frame="camera", topic="/camera/camera_info")
+    values = photos.raw(photos.room(16, 12)[0], "rgb8")
+    bench.send(photos.RAW, values, frame="camera", topic="/camera/image_raw")
+    bench.turn()
+    bench.settle()
+
+
+def depth_clouds(bench: Any) -> None:
+    """Depths with a camera info and a colour image, of a tilted camera."""
+    bench.transform("map", "camera", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
+    colors, depths = photos.room(16, 12)
+    for topic in ("/camera/depth/camera_info", "/info"):
+        bench.send(photos.INFO, photos.info(16, 12), frame="camera", topic=topic)
+    for scale in (0.5, 1.0):
+        values, topic = photos.raw(scale * depths, "32FC1"), "/camera/depth/image_rect_raw"
+        bench.send(photos.RAW, values, frame="camera", topic=topic)
+        bench.send(photos.RAW, photos.raw(colors, "rgb8"), frame="camera", topic="/color")
+        bench.turn(0.1)
+        bench.settle()
+
+
 def frames(bench: Any) -> None:
     """One frame that stands still and one that moved twice in a short time, 10 s ago."""
     bench.transform("map", "robot", (1.0, 2.0, 0.0))
@@ -170,7 +204,10 @@ def markers(bench: Any) -> None:
 
 SCENES: dict[str, Callable[[Any], None]] = {
     "Axes": robot_frame,
+    "CameraInfo": camera_infos,
+    "DepthCloud": depth_clouds,
     "Grid": robot_frame,
+    "Image": images,
     "LaserScan": scans,
     "Map": maps,
     "Marker": markers,
@@ -186,6 +223,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
 # drawn already.
 OF_THE_FUTURE = {
+    ("Image", "median_window"),
     ("Odometry", "angle_tolerance"),
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
@@ -220,6 +258,8 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
     ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
+    # Of 192 pixels.
+    ("DepthCloud", "max_points"): {"max_points": 40},
     # Of four points.
     ("PointCloud", "max_points"): {"max_points": 3},
     ("PointCloud2", "max_points"): {"max_points": 3},
@@ -296,7 +336,7 @@ def settle(bench: Any) -> None:
     """Let slow work finish."""
     deadline = time.monotonic() + 60
     bench.turn()
-    while "Loading" in bench.statuses():
+    while "Loading" in bench.statuses() or bench.runner.is_busy():
         assert time.monotonic() < deadline, bench.statuses()
         time.sleep(0.005)
         bench.turn()

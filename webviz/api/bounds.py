@@ -22,6 +22,7 @@ from webviz.api.nodes import (
     Mesh,
     Models,
     Node,
+    Pane,
     Points,
     Pose,
     Shape,
@@ -143,5 +144,6 @@ _EXTENTS: dict[type, Callable[[Any], Extents]] = {
     Instances: _of_instances,
     Models: _of_models,
     Glb: lambda node: _of_model(node.data),
+    Pane: lambda node: ([], 0.0),
     Image: lambda node: ([(0.0, 0.0, 0.0), (node.width, node.height, 0.0)], 0.0),
 }

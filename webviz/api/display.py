@@ -90,6 +90,8 @@ class Display(Declared, kw_only=True):
     `ctx.frames` nor `ctx.background`. The previous result stays until the new one is there, and
     `draw` skips messages for newer ones.
     """
+    has_pane: ClassVar[bool] = False
+    """Whether it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
     sync: ClassVar[Sync | None] = None
     """Inputs that are drawn together; others are drawn as their messages arrive."""
 

@@ -13,6 +13,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.api.pictures import Picture
+
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
 Ids = NDArray[Any]
@@ -254,11 +256,28 @@ class Image(_Node):
         return self.cells if self.palette is None else self.palette[self.cells]
 
 
-Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image
+@dataclass(frozen=True, eq=False)
+class Pane(_Node):
+    """A picture beside the scene; a display has one pane at most.
+
+    Args:
+        picture: of one message.
+        stamp_ns: of its message, 0 if it has none.
+        order: see `Context.order`.
+    """
+
+    picture: Picture
+    stamp_ns: int = 0
+    order: int = 0
+
+
+Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image | Pane
 
 
 def has_content(node: Node) -> bool:
     """Whether a node has any content."""
+    if isinstance(node, Pane):
+        return True
     content = getattr(node, fields(node)[0].name)
     return len(content) > 0
 

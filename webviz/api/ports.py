@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+TRANSPORTS = ("compressed", "compressedDepth", "theora", "ffmpeg", "foxglove", "zstd")
+"""Ends of the topics of image_transport."""
+
 
 @dataclass(frozen=True)
 class Input:
@@ -14,15 +17,44 @@ class Input:
             for the transform at their stamp.
         latched: subscribe transient local, whatever the known publishers offer.
         suffix: without a topic name, the input uses the first input's topic with this suffix.
+        beside: without a topic name, the input uses the topic of this name beside the first input's
+            topic, whatever transport that is: camera_info beside image_raw/compressed.
         optional: having no publisher is not a problem.
         every: take latched messages even if they equal the one before, as they may say it anew.
+        also: further message types that the display reads; the publishers of the topic decide, and
+            `Sample.type` names the type.
     """
 
     type: str
     latched: bool = False
     suffix: str = ""
+    beside: str = ""
     optional: bool = False
     every: bool = False
+    also: tuple[str, ...] = ()
+
+    @property
+    def follows(self) -> bool:
+        """Whether its topic follows from that of the first input."""
+        return bool(self.suffix or self.beside)
+
+    def named_after(self, first: str) -> str:
+        """Its topic without a name of its own, "" if it has none then.
+
+        Args:
+            first: full name of the first input's topic.
+        """
+        if not first or not self.beside:
+            return first + self.suffix if first and self.suffix else ""
+        folder, _, last = first.rpartition("/")
+        if last in TRANSPORTS:
+            folder = folder.rpartition("/")[0]
+        return f"{folder}/{self.beside}"
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """All message types, the preferred one first."""
+        return (self.type, *self.also)
 
 
 @dataclass(frozen=True)

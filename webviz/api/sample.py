@@ -22,6 +22,7 @@ class Sample:
         pose: of `frame` in the fixed frame at the stamp.
         input: name of the input: the property with its topic.
         synced: samples of the other inputs of the `Sync`, by input.
+        type: of the message.
     """
 
     message: Any
@@ -32,3 +33,4 @@ class Sample:
     pose: Pose
     input: str
     synced: Mapping[str, Sample] = field(default_factory=dict)
+    type: str = ""

@@ -44,8 +44,9 @@ def picks(
     for name, cls in displays.items():
         for input, spec in inputs_of(cls).items():
             # What comes beside another topic, such as updates of a map, is not shown by itself.
-            if not spec.suffix:
-                takers.setdefault(spec.type, []).append((name, input))
+            if not spec.follows:
+                for type_ in spec.types:
+                    takers.setdefault(type_, []).append((name, input))
     return sorted(
         Pick(topic, name, input, message)
         for topic, messages in topics.items()

@@ -20,6 +20,7 @@ from ruamel.yaml import YAML
 
 from webviz.api.declared import Color, Declared, P, Topic
 from webviz.api.display import Display, inputs_of
+from webviz.api.ports import Input
 from webviz.api.properties import FIRST, Property, properties_of, value_at
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
@@ -177,10 +178,17 @@ def inputs_table(cls: type[Display]) -> list[str]:
     """A table of the subscriptions of a display."""
     rows = []
     for name, declared in inputs_of(cls).items():
-        topic = value_at(cls(), name).name or f"the first topic + `{declared.suffix}`"
+        topic = value_at(cls(), name).name or _default_topic(declared)
         qos = "transient local, always" if declared.latched else "as its publishers offer"
-        rows.append((f"`{name}`", f"`{declared.type}`", topic, qos))
+        rows.append((f"`{name}`", ", ".join(f"`{type_}`" for type_ in declared.types), topic, qos))
     return [*table(("input", "message", "default topic", "QoS"), rows), ""] if rows else []
+
+
+def _default_topic(declared: Input) -> str:
+    """What an input without a topic of its own subscribes to."""
+    if declared.beside:
+        return f"`{declared.beside}` beside the first topic"
+    return f"the first topic + `{declared.suffix}`" if declared.suffix else "none"
 
 
 def properties_table(cls: type[Declared]) -> list[str]:

@@ -93,6 +93,7 @@ class PointStyle(Display):
         ctx: Context,
         box_wxyz: ArrayLike | None = None,
         ids: NDArray[Any] | None = None,
+        size: float | None = None,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -104,16 +105,16 @@ class PointStyle(Display):
             box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
                 their sides along its axes.
             ids: (N,), index of each in the message; None if all are drawn.
+            size: edge or diameter in metres; None is the property.
         """
+        size = self.size if size is None else size
         too_many = len(xyz) > SOLIDS_LIMIT
         if self.style in _SOLIDS and not too_many:
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
             # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
             is_data = shape == "sphere"
-            group.instances(
-                "solids", shape, xyz, self.size, colors, wxyzs, self.alpha, is_data, ids
-            )
+            group.instances("solids", shape, xyz, size, colors, wxyzs, self.alpha, is_data, ids)
             return
         if isinstance(colors, tuple):
             colors = faded_color(colors, self.alpha)
@@ -134,7 +135,7 @@ class PointStyle(Display):
             )
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
-        group.points("points", xyz, colors, self.size, outline, ids)
+        group.points("points", xyz, colors, size, outline, ids)
 
 
 class PointsDisplay(PointStyle):

@@ -1,16 +1,19 @@
 """Images: every encoding of sensor_msgs to pixels, and values to colours."""
 
+from webviz.data.images.camera_model import CameraModel, optical_problem
 from webviz.data.images.color_maps import COLOR_MAPS
 from webviz.data.images.compressed import CompressedInfo, inspect_compressed, read_png16
 from webviz.data.images.compressed_depth import decode_depth
 from webviz.data.images.encodings import ENCODINGS, Layout, layout_of
 from webviz.data.images.errors import ImageError
 from webviz.data.images.raw import RawImage, remarks, values
+from webviz.data.images.render import jpeg, render
 from webviz.data.images.tone import Tone, to_rgb, value_range
 
 __all__ = [
     "COLOR_MAPS",
     "ENCODINGS",
+    "CameraModel",
     "CompressedInfo",
     "ImageError",
     "Layout",
@@ -18,9 +21,12 @@ __all__ = [
     "Tone",
     "decode_depth",
     "inspect_compressed",
+    "jpeg",
     "layout_of",
+    "optical_problem",
     "read_png16",
     "remarks",
+    "render",
     "to_rgb",
     "value_range",
     "values",

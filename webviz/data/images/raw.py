@@ -74,6 +74,14 @@ class RawImage:
             )
         return RawImage(width, height, message.encoding, step, bool(message.is_bigendian), data)
 
+    @staticmethod
+    def from_values(encoding: str, pixels: NDArray[Any]) -> RawImage:
+        """An image of numbers (H, W) of an encoding with one channel."""
+        height, width = pixels.shape
+        data = np.ascontiguousarray(pixels).view(np.uint8).reshape(-1)
+        step = width * pixels.itemsize
+        return RawImage(width, height, encoding, step, _NATIVE_BIG, data)
+
     @property
     def layout(self) -> Layout:
         """Of its encoding."""

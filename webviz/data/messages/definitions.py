@@ -1,7 +1,7 @@
 """Definitions of common messages that rosbags does not include.
 
-Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map
-and vision_msgs in ROS 2 Jazzy, in the order of the wire.
+Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
+vision_msgs, foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
 DEFINITIONS = {
@@ -67,6 +67,20 @@ DEFINITIONS = {
     "nav2_msgs/msg/ParticleCloud": """
         std_msgs/Header header
         nav2_msgs/Particle[] particles""",
+    "foxglove_msgs/msg/CompressedVideo": """
+        builtin_interfaces/Time timestamp
+        string frame_id
+        uint8[] data
+        string format""",
+    "ffmpeg_image_transport_msgs/msg/FFMPEGPacket": """
+        std_msgs/Header header
+        int32 width
+        int32 height
+        string encoding
+        uint64 pts
+        uint8 flags
+        bool is_bigendian
+        uint8[] data""",
     "octomap_msgs/msg/Octomap": """
         std_msgs/Header header
         bool binary

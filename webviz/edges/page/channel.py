@@ -60,7 +60,7 @@ class Connection(Protocol):
         """The next message."""
         ...
 
-    async def send(self, message: str, /) -> None:
+    async def send(self, message: str | bytes, /) -> None:
         """Sends a message, and waits while the page does not read."""
         ...
 
@@ -106,6 +106,21 @@ class Channel:
                 if browser in (None, id_):
                     outbox.put(message)
         self._wake_soon()
+
+    def send_bytes(self, data: bytes, key: str, browser: int) -> None:
+        """Sends bytes to one page after its messages; they replace those of the same key that wait.
+
+        From any thread, without waiting. The sender limits the number of keys.
+        """
+        with self._lock:
+            if (outbox := self._outboxes.get(browser)) is not None:
+                outbox.bulk[key] = data
+        self._wake_soon()
+
+    def browsers(self) -> set[int]:
+        """The ids of all pages."""
+        with self._lock:
+            return set(self._outboxes)
 
     def show(self, store: str, values: Mapping[str, Any]) -> None:
         """Makes these the values of a store, and sends pages that watch it what is new.
@@ -210,14 +225,16 @@ class Channel:
             while True:
                 outbox.filled.clear()
                 while (message := self._next(outbox)) is not None:
-                    await connection.send(message.decode())
+                    await connection.send(message)
                 await outbox.filled.wait()
 
-    def _next(self, outbox: _Outbox) -> bytes | None:
+    def _next(self, outbox: _Outbox) -> str | bytes | None:
         with self._lock:
             if (values := outbox.watched.next(self._stores)) is not None:
-                return msgspec.json.encode(values)
-            return outbox.waiting.pop(next(iter(outbox.waiting))) if outbox.waiting else None
+                return msgspec.json.encode(values).decode()
+            if outbox.waiting:
+                return outbox.waiting.pop(next(iter(outbox.waiting))).decode()
+            return outbox.bulk.pop(next(iter(outbox.bulk))) if outbox.bulk else None
 
     def _hear(self, browser: int, text: str, connection: Connection) -> None:
         log = connection.logger
@@ -282,6 +299,8 @@ class _Outbox:
         self.abort: Callable[[], None] = lambda: None
         """Ends the connection of the page, if it has one."""
         self.waiting: dict[object, bytes] = {}
+        self.bulk: dict[str, bytes] = {}
+        """Bytes that wait until there are no messages, by key."""
         self.watched = Watched()
         self.is_full = False
         """Whether something did not fit any more."""

@@ -123,6 +123,48 @@ class ViewReport(FromPage, frozen=True):
     height: float
 
 
+Width = Annotated[int, msgspec.Meta(ge=0, le=1 << 16)]
+"""Of a picture on a screen in pixels."""
+DisplayId = Annotated[str, msgspec.Meta(max_length=200)]
+
+
+class ShowPictures(FromPage, frozen=True):
+    """Says which displays' pictures a page shows now, and how wide.
+
+    Args:
+        widths: by id of the display, in pixels of the screen.
+    """
+
+    widths: Annotated[dict[DisplayId, Width], msgspec.Meta(max_length=64)]
+
+
+class FramesShown(FromPage, frozen=True):
+    """Says that a page can take the next pictures.
+
+    Args:
+        numbers: of the newest picture it has shown, by id of the display.
+    """
+
+    numbers: Annotated[dict[DisplayId, Number], msgspec.Meta(max_length=64)]
+
+
+class ReadPixel(FromPage, frozen=True):
+    """Asks for the value of a pixel of the newest picture of a display."""
+
+    display: DisplayId
+    x: Number
+    y: Number
+
+
+class PixelValue(ToPage, frozen=True):
+    """Answers a `ReadPixel`; the text is "" if the value is not known."""
+
+    display: str
+    x: int
+    y: int
+    text: str
+
+
 class SaveImage(ToPage, frozen=True):
     """Lets a page download what it shows as a PNG of that name, "" for one made of the time."""
 

@@ -20,6 +20,7 @@ from webviz.api.nodes import (
     Mesh,
     Models,
     Node,
+    Pane,
     Points,
     Pose,
     Rgb,
@@ -34,6 +35,7 @@ from webviz.edges.scene.labels import LabelsDrawn
 from webviz.edges.scene.lines import ArrowsDrawn, LinesDrawn
 from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn, ModelsDrawn
 from webviz.edges.scene.names import ROOT, node_path
+from webviz.edges.scene.panes import PaneDrawn
 from webviz.edges.scene.points import PointsDrawn, keep_shaders
 from webviz.edges.scene.server import set_background
 
@@ -48,6 +50,7 @@ _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Models: ModelsDrawn,
     Glb: GlbDrawn,
     Image: ImageDrawn,
+    Pane: PaneDrawn,
 }
 
 _IDENTITY = Pose()
@@ -204,6 +207,8 @@ class _Group:
             except Exception as error:
                 error.add_note(f"while drawing {key!r} of {self._name!r}")
                 raise
+        for pane in self._panes():
+            pane.set_visible(self.visible)
 
     def _send_node(self, link: Adapter, key: str) -> None:
         wanted, sent = self.nodes.get(key), self._drawn.get(key)
@@ -226,8 +231,13 @@ class _Group:
             link.set_orientation(path, pose.wxyz)
         self._drawn[key] = (node, pose, drawn)
 
+    def _panes(self) -> list[PaneDrawn]:
+        return [drawn for _, _, drawn in self._drawn.values() if isinstance(drawn, PaneDrawn)]
+
     def remove(self, link: Adapter) -> None:
         link.late.drop(self._path)
+        for pane in self._panes():  # all others are below the frame of the group
+            pane.remove()
         if self._handle is not None:
             self._handle.remove()
             link.count_removals(1 + len(self._drawn))

@@ -179,7 +179,7 @@ class Holder:
             return None  # the buffer was cleared meanwhile
         raw = arrival.raw
         try:
-            message = decode(intake.spec.type, raw.cdr)
+            message = decode(intake.type, raw.cdr)
         except MessageError as error:
             intake.refuse(str(error))
             return None
@@ -187,5 +187,12 @@ class Holder:
         duration_ns = self._guard("duration", self._display.duration_ns, message)
         intake.measure(duration_ns if isinstance(duration_ns, int) else 0)
         return Sample(
-            message, arrival.frame, arrival.stamp_ns, raw.received_ns, arrival.number, pose, name
+            message,
+            arrival.frame,
+            arrival.stamp_ns,
+            raw.received_ns,
+            arrival.number,
+            pose,
+            name,
+            type=intake.type,
         )

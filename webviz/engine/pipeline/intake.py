@@ -54,7 +54,9 @@ class Intake:
         self.spec = spec
         self.topic = topic
         self.name = name
-        self._reception = Reception(path, spec.type, name, problem)
+        self.type = spec.type
+        """Of the messages: the one of `spec.types` that is published."""
+        self._reception = Reception(path, spec.types, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
         self._durations: deque[int] = deque(maxlen=10)
@@ -76,7 +78,7 @@ class Intake:
 
     def subscription(self) -> Subscription:
         """The subscription of the topic."""
-        return Subscription(self.spec.type, self.topic, self.spec.latched, self._asked)
+        return Subscription(self.type, self.topic, self.spec.latched, self._asked)
 
     def take(
         self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
@@ -93,7 +95,8 @@ class Intake:
         arrivals: list[Arrival] = []
         reception = self._reception
         first_new = reception.count
-        if offer and offer.type not in ("", self.spec.type):
+        self._follow(offer)
+        if offer and offer.type not in ("", self.type):
             raws = ()  # another display reads the topic as another type
         is_latched = bool(offer and offer.requested and offer.requested[1] == "transient_local")
         for raw in raws:
@@ -103,7 +106,7 @@ class Intake:
                 continue  # delivered again, by a second publisher or a new subscription
             reception.note(raw, clock)
             try:
-                header = peek_header(self.spec.type, raw.cdr)
+                header = peek_header(self.type, raw.cdr)
             except MessageError as error:
                 self.refuse(str(error))
                 continue
@@ -128,6 +131,15 @@ class Intake:
         elif self._waiting_since is None and self._filter.is_stuck:
             self._waiting_since = clock
         return arrivals
+
+    def _follow(self, offer: Offer | None) -> None:
+        """Read the topic as what is published there, if the display can."""
+        published = {publisher.type for publisher in offer.publishers} if offer else set()
+        if len(self.spec.types) > 1 and published and self.type not in published:
+            fitting = (type for type in self.spec.types if type in published)
+            if (type := next(fitting, self.type)) != self.type:
+                self.type = self._reception.type = type
+                self.reset()
 
     @property
     def duration_ns(self) -> int:
@@ -197,7 +209,7 @@ def intakes_of(display: Display, resolve: Callable[[str], str]) -> dict[str, Int
     for name, spec, topic in inputs(display):
         full, problem = "", ""
         first = next(iter(result.values()), None)
-        wish = topic.name or (first.name + spec.suffix if first and spec.suffix else "")
+        wish = topic.name or (spec.named_after(first.name) if first else "")
         try:
             full = resolve(wish) if wish else ""
             problem = "" if full else "No topic. Choose one."

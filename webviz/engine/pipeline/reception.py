@@ -16,16 +16,17 @@ class Reception:
 
     Args:
         path: of the input among the properties of the display.
-        type: of its messages.
+        types: of the messages that the display reads; the first until another one is published.
         name: the full name of the topic, "" if it has none.
         problem: why it has none.
     """
 
-    def __init__(self, path: str, type: str, name: str, problem: str) -> None:
+    def __init__(self, path: str, types: tuple[str, ...], name: str, problem: str) -> None:
         self.count = 0
         self.last: Raw | None = None
         self._path = path
-        self._type = type
+        self.type = types[0]
+        self._types = types
         self._name = name
         self._problem = problem
         self._times: deque[float] = deque(maxlen=50)
@@ -55,19 +56,19 @@ class Reception:
         offer = offers.get(self._name)
         if offer and offer.problem:
             return Status(Level.ERROR, f"{self._name}: {offer.problem}")
-        if offer and offer.type not in ("", self._type):
+        if offer and offer.type not in ("", self.type):
             return Status(
                 Level.ERROR,
                 f"Another display reads {self._name} as {offer.type}, this one shows "
-                f"{self._type}. A topic has only one type: change one of the displays.",
+                f"{self.type}. A topic has only one type: change one of the displays.",
             )
         publishers = offer.publishers if offer else ()
-        matching = [p for p in publishers if p.type == self._type]
+        matching = [p for p in publishers if p.type == self.type]
         if publishers and not matching:
             return Status(
                 Level.ERROR,
                 f"{self._name} has the type {publishers[0].type}, this display shows "
-                f"{self._type}. Choose another topic or another display.",
+                f"{' or '.join(self._types)}. Choose another topic or another display.",
             )
         if not publishers:
             return self._no_publisher(offers, clock)
@@ -113,7 +114,7 @@ class Reception:
             others = (
                 topic
                 for topic, offer in offers.items()
-                if any(p.type == self._type for p in offer.publishers)
+                if any(p.type in self._types for p in offer.publishers)
             )
             alike = difflib.SequenceMatcher(b=self._name)
             self._others = (

@@ -10,6 +10,7 @@ from webviz.api.views import View
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
+from webviz.shell.pictures.dock import with_panes
 
 if TYPE_CHECKING:
     import playwright.sync_api as playwright
@@ -97,4 +98,4 @@ class Studio:
             TimeoutError, BrowserDied: as `settle`.
         """
         self.settle()
-        return self.page.pixels(transparent)
+        return with_panes(self.page.pixels(transparent), self.scene.link.pictures.panes())

@@ -14,6 +14,7 @@ from webviz.edges.page.content.clock import clock
 from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.goals import goals, routes
 from webviz.edges.page.content.history import history
+from webviz.edges.page.content.panes import panes
 from webviz.edges.page.content.properties import properties, statuses, topics_of
 from webviz.edges.page.content.scene import legend, watchers
 from webviz.edges.page.content.selection import picking, selected, selection
@@ -37,6 +38,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "history": history,
     "legend": legend,
     "message": message,
+    "panes": panes,
     "picking": picking,
     "properties": properties,
     "rate": rate,

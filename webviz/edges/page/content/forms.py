@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 import msgspec.inspect as inspect
 
+from webviz.api.ports import Input, Output
 from webviz.api.properties import Property, properties_of
 
 MAX_TEXT = 100_000
@@ -75,12 +76,17 @@ def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
         "unit": each.unit,
         "choices": each.choices,
         "when": each.when,
-        "type": each.port.type if each.port else "",
+        "type": _message_types(each.port),
         "items": _items(each.type),
         "otherwise": each.otherwise,
         **_bounds(each.type),
     }
     return known | {key: value for key, value in more.items() if value or value == 0.0}
+
+
+def _message_types(port: Input | Output | None) -> str:
+    """What a topic may carry, as `topics_of` reads it."""
+    return ",".join(port.types) if isinstance(port, Input) else port.type if port else ""
 
 
 def _kind(each: Property) -> str:

@@ -41,21 +41,27 @@ def statuses(state: State, id_: str) -> Mapping[str, Any]:
     return lines(row.statuses) if row else {}
 
 
-def topics_of(state: State, type_: str) -> Mapping[str, Any]:
-    """The live topics of a message type by name, each with its rate and who has to do with it."""
+def topics_of(state: State, types: str) -> Mapping[str, Any]:
+    """The live topics of message types by name, each with its rate and who has to do with it.
+
+    Args:
+        state: of the viewer.
+        types: separated by commas.
+    """
+    wanted = types.split(",")
     shown: dict[str, list[str]] = {}
     for row in state.rows:
         for _, _, topic in inputs(row.display) if row.display else ():
             shown.setdefault(topic.name, []).append(str(sendable(row.name)))
     return {
         str(sendable(name)): {
-            "publishers": sum(each.type == type_ for each in offer.publishers),
+            "publishers": sum(each.type in wanted for each in offer.publishers),
             "rate": _rate(name, state),
             "shown": shown.get(name, []),
             "problem": sendable(offer.problem),
         }
         for name, offer in state.offers.items()
-        if any(each.type == type_ for each in offer.publishers)
+        if any(each.type in wanted for each in offer.publishers)
     }
 
 

@@ -23,7 +23,7 @@ def types(state: State, _: str) -> Mapping[str, Any]:
 @functools.cache
 def _about(name: str, cls: type[Display]) -> Mapping[str, Any]:
     text = (cls.__doc__ or "").strip()
-    shown = [spec.type for spec in inputs_of(cls).values() if not spec.suffix]
+    shown = [type_ for spec in inputs_of(cls).values() if not spec.follows for type_ in spec.types]
     return {
         "help": " ".join(text.split("\n\n")[0].split()),
         "topics": list(dict.fromkeys(shown)),

@@ -1,9 +1,10 @@
-// The channel to the server: JSON objects whose `type` says what they are.
+// The channel to the server: JSON objects whose `type` says what they are, and bytes from there.
 
 const MAX_UNSENT = 100;
 
 const listeners = new Map();
 const openers = [];
+let takeBytes = () => {};
 let socket = null;
 let unsent = [];
 
@@ -15,6 +16,11 @@ export function on(type, listener) {
 /** Calls `act` whenever the channel has been opened, before anything else is sent. */
 export function onOpen(act) {
   openers.push(act);
+}
+
+/** Calls `listener(buffer)` with whatever is not JSON. */
+export function onBytes(listener) {
+  takeBytes = listener;
 }
 
 export const isOpen = () => socket?.readyState === WebSocket.OPEN;
@@ -37,7 +43,9 @@ export function open(url, key) {
     messages.forEach(send);
   };
   // When it ends, the server ends viser's connection too: that is made anew, and brings a new key.
+  mine.binaryType = "arraybuffer";
   mine.onmessage = ({ data }) => {
+    if (typeof data !== "string") return takeBytes(data);
     const message = JSON.parse(data);
     for (const listener of listeners.get(message.type) ?? []) listener(message);
   };

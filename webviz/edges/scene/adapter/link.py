@@ -11,6 +11,7 @@ import viser
 from numpy.typing import NDArray
 from viser import _messages as wire
 
+from webviz.edges.page.pictures import Pictures
 from webviz.edges.scene.adapter.acknowledging import Acknowledgements, Marker
 from webviz.edges.scene.adapter.hints import evaluate_hints_once
 from webviz.edges.scene.adapter.poses import (
@@ -42,6 +43,8 @@ class Adapter:
         self.server = server
         self.channel = server.channel
         """To the modules of the pages."""
+        self.pictures = Pictures(server.channel)
+        """In panes beside the scene."""
         self.late = Late()
         """Messages that are slow to make, and are sent later."""
         self._socket = server._websock_server

@@ -2,6 +2,7 @@
 
 import * as channel from "../channel.js";
 import { el } from "../dom.js";
+import * as dock from "../images/dock.js";
 import * as actions from "./actions.js";
 import * as commands from "./commands.js";
 import * as displayCommands from "./display_commands.js";
@@ -47,6 +48,7 @@ function build() {
   side.append(header.build(), ...tabs(), layout.border(side));
   const shade = el("div", { class: "wv-shade", onclick: () => layout.fold(true) });
   const page = el("div", { id: "webviz" }, scene, shade, side, places.time);
+  dock.install(page);
   document.body.append(page);
   document.body.classList.add("wv-on");
   tooltips.install(page);

@@ -3,6 +3,7 @@
 const ICONS = {
   Axes: "axes",
   Grid: "grid",
+  Image: "camera",
   Group: "folder",
   LaserScan: "laser",
   Map: "map",

@@ -1,0 +1,101 @@
+"""Points and colours of depth images."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.pictures import Encoded
+from webviz.api.stills import opened
+from webviz.data.images import CameraModel, ImageError, RawImage, Tone, to_rgb, values
+from webviz_displays.image.transports import Job
+
+NEAREST_M, FARTHEST_M = 1e-6, 1e6
+
+
+class DepthPoints(NamedTuple):
+    """What a depth image and a colour image show.
+
+    Args:
+        xyz: float32 (N, 3), metres in the optical frame.
+        colors: uint8 (N, 3), None without a colour image.
+        ids: (N,), index of the pixel of each in its image.
+        pixels: number of pixels of the depth image.
+        spacing: distance of neighbouring points at the median depth, metres.
+        remark: why colours or sizes do not fit, "" if they do.
+    """
+
+    xyz: NDArray[np.float32]
+    colors: NDArray[np.uint8] | None
+    ids: NDArray[np.intp]
+    pixels: int
+    spacing: float
+    remark: str
+
+
+def depth_points(
+    depth: RawImage | Encoded | Job,
+    color: RawImage | Encoded | Job | None,
+    model: CameraModel,
+    most: int,
+) -> DepthPoints:
+    """The points of a depth image, evenly thinned out to `most` at most; 0 is all.
+
+    Raises:
+        ImageError: it is not a depth image, or of another size than the camera info.
+    """
+    image = depth.run() if isinstance(depth, Job) else depth
+    if isinstance(image, Encoded) or image.layout.channels != 1 or not image.layout.unit:
+        name = image.mime if isinstance(image, Encoded) else image.encoding
+        raise ImageError(f"Expected depths as 16UC1 (mm) or 32FC1 (m), got {name}.")
+    if (image.width, image.height) != (model.width, model.height):
+        raise ImageError(
+            f"The depth image has {image.width} x {image.height} pixels, the camera info "
+            f"{model.width} x {model.height}. Choose the camera info of the depth camera."
+        )
+    count = image.width * image.height
+    step = max(1, math.ceil(math.sqrt(count / most))) if most else 1
+    numbers = values(image)[::step, ::step]
+    depths = numbers.astype(np.float32)
+    if image.layout.unit == "mm":
+        depths *= np.float32(0.001)
+    with np.errstate(invalid="ignore"):
+        is_valid = (depths > NEAREST_M) & (depths < FARTHEST_M)
+    xyz = model.points(depths, step)[is_valid]
+    rows, columns = np.nonzero(is_valid)
+    ids = rows * step * image.width + columns * step
+    middle = float(np.median(depths[is_valid])) if len(xyz) else 0.0
+    colors, remark = _colors(color, image, step, is_valid)
+    return DepthPoints(xyz, colors, ids, count, step * middle / model.fx, remark)
+
+
+def _colors(
+    color: RawImage | Encoded | Job | None,
+    depth: RawImage,
+    step: int,
+    is_valid: NDArray[np.bool_],
+) -> tuple[NDArray[np.uint8] | None, str]:
+    """Colours of the valid pixels, and why there are none."""
+    if color is None:
+        return None, ""
+    try:
+        image = color.run() if isinstance(color, Job) else color
+        pixels: NDArray[Any]
+        if isinstance(image, Encoded):
+            pixels = np.asarray(opened(image))
+        else:
+            pixels = to_rgb(values(image), image.layout, Tone(0.0, 65535.0))
+    except ImageError as error:
+        return None, str(error)
+    if pixels.shape[:2] != (depth.height, depth.width):
+        return None, (
+            f"The colour image has {pixels.shape[1]} x {pixels.shape[0]} pixels, the depth image "
+            f"{depth.width} x {depth.height}. Choose the one that is registered to the depths."
+        )
+    thinned = pixels[::step, ::step]
+    if thinned.ndim == 2:
+        thinned = np.repeat(thinned[..., None], 3, axis=2)
+    return np.ascontiguousarray(thinned[is_valid]), ""

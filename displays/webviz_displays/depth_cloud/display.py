@@ -1,0 +1,193 @@
+"""The DepthCloud display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Group, Input, Pose, Prop, Rgb, Sample, Sync, Topic
+from webviz.data.images import CameraModel, ImageError, optical_problem
+from webviz.data.words import counted
+from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
+from webviz_displays.image import transports
+from webviz_displays.image.newest import Newest
+from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
+
+U8 = NDArray[np.uint8]
+
+
+@dataclass
+class _State:
+    """Kept between messages.
+
+    Args:
+        newest: computes the points of images.
+        clouds: points by the number of their image.
+        poses: of these images in the fixed frame, as far as they were known last.
+    """
+
+    newest: Newest[tuple[int, DepthPoints]] = field(default_factory=Newest[tuple[int, DepthPoints]])
+    clouds: dict[int, DepthPoints] = field(default_factory=dict)
+    poses: dict[int, Pose] = field(default_factory=dict)
+
+
+class DepthCloud(PointsDisplay):
+    """The points of a depth image, in the colours of an image if there is one."""
+
+    rviz = "rviz_default_plugins/DepthCloud"
+    sync = Sync("topic", "color_topic", slop=0.05)
+
+    topic: Annotated[
+        Topic,
+        Input(transports.RAW, also=(transports.COMPRESSED,)),
+        Prop(rviz="Depth Map Topic", help="Topic of the depth images; raw or compressedDepth."),
+    ] = Topic("/camera/depth/image_rect_raw")
+    camera_info_topic: Annotated[
+        Topic,
+        Input("sensor_msgs/msg/CameraInfo", beside="camera_info"),
+        Prop(help="Topic of the depth camera's info; empty is camera_info beside the depths."),
+    ] = Topic()
+    color_topic: Annotated[
+        Topic,
+        Input(transports.RAW, also=(transports.COMPRESSED,), optional=True),
+        Prop(
+            rviz="Color Image Topic",
+            help="Topic of colour images that are registered to the depths; empty for none.",
+        ),
+    ] = Topic()
+    color_transformer: Annotated[
+        Literal["Auto", "RGB8", "Intensity", "AxisColor", "FlatColor"],
+        Prop(help="How points are coloured; Auto is by the colour image, or by an axis."),
+    ] = "Auto"
+    channel_name: Annotated[
+        Literal["z", "x", "y"],
+        Prop(when=BY_INTENSITY, help="Coordinate in the optical frame; z is the depth."),
+    ] = "z"
+    auto_size: Annotated[
+        bool, Prop(help="Make points as large as the distance of neighbours, at the median depth.")
+    ] = True
+    size: Annotated[
+        float,
+        Prop(
+            gt=0,
+            unit="m",
+            rviz="Size (m)",
+            when=("auto_size", False),
+            help="Edge or diameter of each point.",
+        ),
+    ] = 0.01
+    auto_size_factor: Annotated[
+        float, Prop(gt=0, when=("auto_size", True), help="Times that distance.")
+    ] = 1.0
+    max_points: Annotated[
+        int,
+        Prop(ge=0, help="Limit of points shown, evenly sampled; 0 shows all."),
+    ] = 100_000
+
+    def new_state(self) -> _State:
+        """Without a message."""
+        return _State()
+
+    def listens(self, name: str) -> bool:
+        """Colours only if there is a topic."""
+        return name != "color_topic" or bool(self.color_topic.name)
+
+    def waits(self, name: str) -> bool:
+        """The camera info is used whatever its stamp; its frame is that of the images."""
+        return name != "camera_info_topic"
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw the points of the newest image, and of those before it within the decay time."""
+        infos = [each for each in samples if each.input == "camera_info_topic"]
+        images = [each for each in samples if each.input == "topic"]
+        try:
+            model = CameraModel.of(infos[-1].message) if infos else None
+        except ImageError as error:
+            ctx.error("Camera Info", str(error))
+            return
+        if not images:
+            return
+        if model is None:
+            ctx.warn(
+                "Camera Info",
+                "No camera info yet, without which depths have no place. See the status "
+                "Topic (camera_info_topic).",
+            )
+            return
+        try:
+            newest = self._points(images[-1], model, ctx)
+        except ImageError as error:
+            ctx.error("Points", str(error))
+            return
+        if newest is None:
+            ctx.warn("Points", "Computing the points of the first image.")
+            return
+        self._hold(*newest, images, ctx.state)
+        for number, points in ctx.state.clouds.items():
+            pose = ctx.state.poses[number]
+            self._draw_points(points, pose, ctx.follow(None, offset=pose, key=str(number)), ctx)
+        self._report(newest[1], images[-1].frame, ctx)
+
+    def _points(
+        self, sample: Sample, model: CameraModel, ctx: Context
+    ) -> tuple[int, DepthPoints] | None:
+        """The points of an image and its number; of an earlier one until they are ready."""
+        colored = sample.synced.get("color_topic") if self.color_topic.name else None
+        number, most = sample.number, self.max_points
+        depth = transports.read(sample)
+        color = transports.read(colored) if colored else None
+        return ctx.state.newest.of(
+            (number, most, model, colored and colored.number),
+            lambda: (number, depth_points(depth, color, model, most)),
+            ctx,
+        )
+
+    def _hold(
+        self, number: int, points: DepthPoints, images: Sequence[Sample], state: _State
+    ) -> None:
+        """Hold the newest points, and those of images that are held."""
+        state.poses |= {each.number: each.pose for each in images}
+        held = {each.number for each in images} if self.decay_time else set()
+        state.clouds[number] = points
+        state.clouds = {n: each for n, each in state.clouds.items() if n in held | {number}}
+        newest = images[-1].number
+        kept = {number, newest} | held
+        state.poses = {n: pose for n, pose in state.poses.items() if n in kept or n > number}
+
+    def _draw_points(self, points: DepthPoints, pose: Pose, group: Group, ctx: Context) -> None:
+        """Draw points where their image was taken."""
+        if self.alpha == 0:
+            return
+        colors = self._colors(points, pose, ctx)
+        size = self.size
+        if self.auto_size and points.spacing > 0:
+            size = self.auto_size_factor * points.spacing
+        self.draw_points(points.xyz, colors, group, ctx, ids=points.ids, size=size)
+
+    def _colors(self, points: DepthPoints, pose: Pose, ctx: Context) -> U8 | Rgb:
+        if points.colors is not None and self.color_transformer in ("Auto", "RGB8"):
+            return points.colors
+        if self.color_transformer == "Auto":
+            ctx.ok("Color", "By an axis, because there is no colour image.")
+        if self.color_transformer in ("Auto", "AxisColor"):
+            return self.axis_colors(points.xyz, Pose(), pose, ctx)
+        if self.color_transformer == "Intensity":
+            return self.intensity_colors(points.xyz[:, "xyz".index(self.channel_name)], ctx)
+        return self.color if self.color_transformer == "FlatColor" else (255, 255, 255)
+
+    def _report(self, points: DepthPoints, frame: str, ctx: Context) -> None:
+        if self.alpha == 0:
+            ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.")
+        elif not len(points.xyz):
+            ctx.warn("Points", "No pixel has a depth. Check the camera.")
+        elif points.remark:
+            ctx.warn("Points", points.remark)
+        elif problem := optical_problem(frame):
+            ctx.warn("Points", problem)
+        else:
+            count = counted(len(points.xyz), "point")
+            ctx.ok("Points", f"{count} of {points.pixels} pixels.")

@@ -1,0 +1,45 @@
+"""Images by any transport: what a message holds, and what has to be decompressed first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Sample
+from webviz.api.pictures import Encoded
+from webviz.data.images import RawImage, decode_depth, inspect_compressed, read_png16
+
+RAW, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
+
+
+@dataclass(frozen=True)
+class Job:
+    """An image that has to be decompressed; `run` raises ImageError."""
+
+    run: Callable[[], RawImage]
+
+
+def read(sample: Sample) -> RawImage | Encoded | Job:
+    """The image of a sensor_msgs/Image or a sensor_msgs/CompressedImage.
+
+    Raises:
+        ImageError: it cannot be shown.
+    """
+    message = sample.message
+    if sample.type != COMPRESSED:
+        return RawImage.of(message)
+    data = np.asarray(message.data, np.uint8)
+    if "compressedDepth" in message.format:
+        return Job(lambda: _depth(message.format, data))
+    info = inspect_compressed(message.format, data)
+    if info.is_16_bit:
+        encoding = info.encoding if info.encoding in ("16UC1", "mono16") else "mono16"
+        return Job(lambda: RawImage.from_values(encoding, read_png16(data)))
+    return Encoded(info.mime, data, info.width, info.height, info.swaps_red_and_blue)
+
+
+def _depth(format_: str, data: NDArray[np.uint8]) -> RawImage:
+    return RawImage.from_values(*decode_depth(format_, data))

@@ -1,0 +1,164 @@
+"""CameraInfo and DepthCloud, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import photos
+import pytest
+
+from webviz import Topic
+from webviz_displays.camera_info import CameraInfo
+from webviz_displays.depth_cloud import DepthCloud
+
+Benches = Callable[..., Any]
+COLORS, DEPTHS = photos.room(16, 12)
+FACING_X = (-0.5, 0.5, -0.5, 0.5)
+"""Of an optical frame that looks along x of its parent."""
+DEPTH, INFO, COLOR = "/depth/image/compressedDepth", "/depth/camera_info", "/color"
+
+
+def send_info(at: Any, topic: str = "", frame: str = "camera", **changes: Any) -> None:
+    at.send(photos.INFO, photos.info(16, 12, **changes), frame=frame, topic=topic)
+
+
+def test_a_pyramid_reaches_from_the_camera_to_the_far_end(bench: Benches) -> None:
+    at = bench(CameraInfo(far_clip=2.0))
+    at.transform("map", "camera", (1.0, 0.0, 0.0), FACING_X)
+    send_info(at)
+    at.turn()
+    corners = at.xyz("polygons")
+    np.testing.assert_allclose(corners[0], (1.0, 0.0, 0.0), atol=1e-6)
+    # 16 pixels at a focal length of 16 are 2 m wide at 2 m; 12 are 1.5 m high.
+    np.testing.assert_allclose(corners[1], (3.0, 1.0, 0.75), atol=1e-6)
+    np.testing.assert_allclose(corners[3], (3.0, -1.0, -0.75), atol=1e-6)
+    assert at.statuses()["Camera Info"] == ("OK", "16 x 12, focal length 16 px.")
+
+
+def test_the_image_lies_at_the_far_end(bench: Benches) -> None:
+    at = bench(CameraInfo(far_clip=2.0, show_image=True))
+    at.transform("map", "camera")
+    at.send(photos.RAW, photos.raw(COLORS, "rgb8"), frame="camera", topic="/camera/image_raw")
+    at.turn()
+    assert at.statuses()["Image"][0] == "WARN"
+    send_info(at, "/camera/camera_info")
+    at.turn()
+    at.settle()
+    image, pose = at.nodes()["image"], at.poses()["image"]
+    assert (image.width, image.height) == pytest.approx((2.0, 1.5))
+    np.testing.assert_array_equal(image.cells[..., :3], COLORS)
+    assert at.statuses()["Image"] == ("OK", "16 x 12.")
+    # The corner of the upper left pixel, 8 and 6 pixels from the middle.
+    assert pose.position == pytest.approx((-1.0, -0.75, 2.0))
+    send_info(at, "/camera/camera_info", binning_x=2)
+    at.turn()
+    at.settle()
+    assert "belong to different cameras" in at.statuses()["Image"][1]
+
+
+@pytest.mark.parametrize(
+    ("frame", "changes", "level", "told"),
+    [
+        ("camera", {"p": [0.0] * 12, "k": [0.0] * 9}, "ERROR", "not calibrated"),
+        ("camera_link", {}, "WARN", "'camera_optical_frame'"),
+        ("camera", {"p": [1e-300, *[0.0] * 4, 1e-300, *[0.0] * 6]}, "ERROR", "wider than"),
+    ],
+)
+def test_a_camera_that_cannot_be_right_is_named(
+    bench: Benches, frame: str, changes: dict[str, Any], level: str, told: str
+) -> None:
+    at = bench(CameraInfo())
+    at.transform("map", frame)
+    send_info(at, frame=frame, **changes)
+    at.turn()
+    assert at.statuses()["Camera Info"][0] == level
+    assert told in at.statuses()["Camera Info"][1]
+
+
+def cloud(bench: Benches, **values: Any) -> Any:
+    at = bench(DepthCloud(topic=Topic(DEPTH), **values))
+    at.transform("map", "camera", (1.0, 0.0, 0.0), FACING_X)
+    return at
+
+
+def send_depth(at: Any, depths: Any, encoding: str = "32FC1", **options: Any) -> None:
+    at.send(photos.RAW, photos.raw(depths, encoding), frame="camera", topic=DEPTH, **options)
+
+
+@pytest.mark.parametrize(("encoding", "scale"), [("32FC1", 1.0), ("16UC1", 1000.0)])
+def test_depths_are_points_where_the_camera_sees_them(
+    bench: Benches, encoding: str, scale: float
+) -> None:
+    at = cloud(bench)
+    depths = np.zeros((12, 16))
+    depths[3, 10] = 2.0
+    send_info(at, INFO)
+    send_depth(at, (depths * scale).astype("f4" if scale == 1.0 else "u2"), encoding)
+    at.turn()
+    at.settle()
+    # Right of the middle by (10 - 7.5) / 16 · 2 m, above it by (5.5 - 3) / 16 · 2 m.
+    np.testing.assert_allclose(at.xyz("points"), [(3.0, -0.3125, 0.3125)], atol=1e-5)
+    assert at.statuses()["Points"] == ("OK", "1 point of 192 pixels.")
+
+
+def test_a_missing_camera_info_is_named_and_helps_at_once(bench: Benches) -> None:
+    at = cloud(bench)
+    send_depth(at, DEPTHS)
+    at.turn()
+    at.settle()
+    assert "No camera info yet" in at.statuses()["Camera Info"][1]
+    assert INFO in at.statuses()["Topic (camera_info_topic)"][1]
+    send_info(at, INFO)
+    at.turn()
+    at.settle()
+    assert len(at.xyz("points")) == np.isfinite(DEPTHS).sum()
+    spread = np.ptp(at.xyz("points")[:, 1])
+    p = photos.info(16, 12)["p"]
+    send_info(at, INFO, p=[p[0] / 2, *p[1:]])
+    at.turn()
+    at.settle()
+    assert np.ptp(at.xyz("points")[:, 1]) == pytest.approx(2 * spread, rel=1e-5)
+
+
+def test_points_have_the_colors_of_the_image_of_their_stamp(bench: Benches) -> None:
+    at = cloud(bench, color_topic=Topic(COLOR))
+    send_info(at, INFO)
+    for value, late in ((10, 0.0), (20, 0.02)):
+        at.turn(1.0)
+        colors = np.full_like(COLORS, value)
+        stamp_ns = at.now_ns + round(late * 1e9)
+        values = photos.jpeg(colors)
+        at.send(photos.COMPRESSED, values, frame="camera", topic=COLOR, stamp_ns=stamp_ns)
+        send_depth(at, DEPTHS)
+        at.turn(0.1)
+        at.settle()
+        assert abs(int(at.nodes()["points"].colors[0, 0]) - value) <= 2
+    values = photos.jpeg(np.zeros((6, 8, 3), np.uint8))
+    at.send(photos.COMPRESSED, values, frame="camera", topic=COLOR)
+    send_depth(at, DEPTHS)
+    at.turn()
+    at.settle()
+    assert "8 x 6 pixels, the depth image 16 x 12" in at.statuses()["Points"][1]
+
+
+@pytest.mark.parametrize(
+    ("depths", "encoding", "told"),
+    [
+        (COLORS, "rgb8", "Expected depths as 16UC1 (mm) or 32FC1 (m), got rgb8"),
+        (DEPTHS[:6], "32FC1", "has 16 x 6 pixels, the camera info 16 x 12"),
+        (np.full((12, 16), np.nan, np.float32), "32FC1", "No pixel has a depth"),
+        (np.full((12, 16), 1e38, np.float32), "32FC1", "No pixel has a depth"),
+        (np.full((12, 16), -1.0, np.float32), "32FC1", "No pixel has a depth"),
+    ],
+)
+def test_what_is_no_depth_image_is_named(
+    bench: Benches, depths: Any, encoding: str, told: str
+) -> None:
+    at = cloud(bench)
+    send_info(at, INFO)
+    send_depth(at, depths, encoding)
+    at.turn()
+    at.settle()
+    assert told in at.statuses()["Points"][1]

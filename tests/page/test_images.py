@@ -1,0 +1,258 @@
+"""Images beside the scene, in a real browser."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import photos
+import pytest
+from numpy.typing import NDArray
+
+from webviz.api.nodes import Pane
+from webviz.api.pictures import Encoded, Packet, Pixels, Video
+from webviz.api.status import Level, Status
+from webviz.data.images import RawImage, Tone
+from webviz.edges.page.pictures import Pictures
+from webviz.engine.state import Row
+from webviz_displays.image import Image
+
+COLORS, DEPTHS = photos.room(160, 120)
+
+
+@pytest.fixture(scope="module")
+def pictures(server: Any) -> Pictures:
+    return Pictures(server.channel)
+
+
+@pytest.fixture
+def tab(tab: Any, pictures: Pictures) -> Iterator[Any]:
+    """The tab with two images."""
+    rows = [Row(name, "Image", Image(name=name), name, {}) for name in ("Color", "Depth")]
+    tab.loop.show(*rows)
+    pictures.show("Color", pixels(COLORS, "rgb8"))
+    pictures.show("Depth", pixels(DEPTHS, "32FC1", Tone(0.5, 4.0, "Turbo")))
+    tab.wait_for(lambda: shown(tab, "Color") and shown(tab, "Depth"))
+    yield tab
+    pictures.remove("Color")
+    pictures.remove("Depth")
+
+
+def pixels(values: NDArray[Any], encoding: str, tone: Tone | None = None, stamp: int = 1) -> Pane:
+    height, width = values.shape[:2]
+    data = np.frombuffer(np.ascontiguousarray(values).tobytes(), np.uint8)
+    image = RawImage(width, height, encoding, len(data) // height, False, data)
+    return Pane(Pixels(image, tone or Tone()), stamp * 10**9)
+
+
+def pane(tab: Any, name: str) -> Any:
+    return tab.page.get_by_label(f"Image {name}", exact=True)
+
+
+def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
+    """The colour of a place in a picture, empty as long as there is none."""
+    script = """(pane, [x, y]) => {
+      const canvas = pane.querySelector("canvas");
+      if (!pane.dataset.stamp) return [];
+      const place = [Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1];
+      return [...canvas.getContext("2d").getImageData(...place).data.slice(0, 3)];
+    }"""
+    return pane(tab, name).evaluate(script, list(at)) if pane(tab, name).count() else []
+
+
+def near(color: list[int], wanted: Any, tolerance: int = 12) -> bool:
+    return len(color) == 3 and bool(np.abs(np.subtract(color, wanted)).max() <= tolerance)
+
+
+def hover(tab: Any, name: str, x: float, y: float) -> str:
+    box = pane(tab, name).locator("canvas").bounding_box()
+    scale = min(box["width"] / 160, box["height"] / 120)
+    left = box["x"] + (box["width"] - 160 * scale) / 2 + (x + 0.5) * scale
+    top = box["y"] + (box["height"] - 120 * scale) / 2 + (y + 0.5) * scale
+    tab.page.mouse.move(left, top)
+    return pane(tab, name).locator(".wv-pane-value").inner_text()
+
+
+def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
+    assert near(shown(tab, "Color"), COLORS[108, 80])
+    assert near(shown(tab, "Depth", (0.02, 0.02)), (0, 0, 0))  # no measurement
+    tab.wait_for(lambda: f"x 40 · y 100 · {DEPTHS[100, 40]:.3f} m" in hover(tab, "Depth", 40, 100))
+    tab.wait_for(lambda: "no measurement" in hover(tab, "Depth", 2, 2))
+    red, green, blue = COLORS[72, 96]
+    tab.wait_for(lambda: f"{red} {green} {blue}" in hover(tab, "Color", 96, 72))
+    assert "0.5 m" in pane(tab, "Depth").locator(".wv-pane-legend").inner_text()
+    assert not pane(tab, "Color").locator(".wv-pane-legend").is_visible()
+
+
+def test_only_what_is_shown_is_sent_and_only_the_newest(tab: Any, pictures: Pictures) -> None:
+    sent: list[str] = []
+    send = pictures._channel.send_bytes
+    pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
+        sent.append(key),
+        send(data, key, browser),
+    )[1]
+    try:
+        pane(tab, "Depth").get_by_role("button", name="Collapse Depth").click()
+        tab.wait_for(lambda: "Depth" not in looks(pictures))
+        for stamp in range(2, 102):
+            color = np.full_like(COLORS, stamp)
+            pictures.show("Color", pixels(color, "rgb8", stamp=stamp))
+            pictures.show("Depth", pixels(DEPTHS, "32FC1", stamp=stamp))
+        tab.wait_for(lambda: near(shown(tab, "Color"), (101, 101, 101), 3))
+        assert "Depth" not in sent
+        assert sent.count("Color") < 100
+        pane(tab, "Depth").get_by_role("button", name="Expand Depth").click()
+        tab.wait_for(lambda: "Depth" in sent)
+    finally:
+        del pictures._channel.send_bytes
+
+
+def looks(pictures: Pictures) -> set[str]:
+    with pictures._lock:
+        return {display for each in pictures._looks.values() for display in each}
+
+
+def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any, pictures: Pictures) -> None:
+    data = photos.jpeg(np.full((120, 160, 3), (200, 60, 20), np.uint8))["data"]
+    pictures.show("Color", Pane(Encoded("image/jpeg", data, 160, 120)))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 60, 20)))
+    tab.wait_for(lambda: "rgb 20" in hover(tab, "Color", 5, 5).replace("rgb 199", "rgb 200"))
+    pictures.show("Color", Pane(Encoded("image/jpeg", data, 160, 120, True)))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (20, 60, 200)))
+    damaged = data.copy()
+    damaged[:300] = 0
+    pictures.show("Color", Pane(Encoded("image/jpeg", damaged, 160, 120)))
+    problem = pane(tab, "Color").locator(".wv-pane-problem")
+    tab.wait_for(
+        lambda: problem.is_visible() and "cannot decode this image/jpeg" in problem.inner_text()
+    )
+    pictures.show("Color", pixels(COLORS, "rgb8"))
+    tab.wait_for(lambda: near(shown(tab, "Color"), COLORS[108, 80]) and not problem.is_visible())
+
+
+def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
+    missing = Status(Level.WARN, "No publisher on /camera. Start it.")
+    rows = [
+        *tab.loop.state.rows,
+        Row("Gone", "Image", Image(name="Gone"), "Gone", {"Topic": missing}),
+    ]
+    tab.loop.show(*rows)
+    tab.wait_for(lambda: "No publisher on /camera" in tab.text())
+    tab.loop.show(*rows[:2])
+    tab.wait_for(lambda: pane(tab, "Gone").count() == 0)
+
+
+def test_panes_fill_the_window_and_leave_it(tab: Any) -> None:
+    canvas = pane(tab, "Color").locator("canvas")
+    before = canvas.bounding_box()["width"]
+    canvas.dblclick()
+    tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
+    tab.page.keyboard.press("Escape")
+    tab.wait_for(lambda: canvas.bounding_box()["width"] == before)
+    button = pane(tab, "Color").get_by_role("button", name="Full size of Color")
+    button.click()
+    tab.wait_for(lambda: canvas.bounding_box()["width"] > 800)
+    button.click()
+    tab.wait_for(lambda: canvas.bounding_box()["width"] == before)
+    border = tab.page.get_by_label("Size of the images")
+    border.focus()
+    tab.page.keyboard.press("ArrowLeft")
+    tab.wait_for(lambda: canvas.bounding_box()["width"] > before)
+    tab.page.keyboard.press("ArrowRight")
+    root = tab.page.locator("#root")
+
+    def is_beside() -> bool:
+        scene, box = root.bounding_box(), canvas.bounding_box()
+        return scene["width"] > 100 and scene["x"] + scene["width"] <= box["x"]
+
+    tab.wait_for(is_beside)
+
+
+def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
+    size = tab.page.viewport_size
+    tab.page.set_viewport_size({"width": 400, "height": 800})
+    root, canvas = tab.page.locator("#root"), pane(tab, "Color").locator("canvas")
+
+    def is_below() -> bool:
+        scene, box = root.bounding_box(), canvas.bounding_box()
+        return scene["width"] == 400 and box["y"] >= scene["y"] + scene["height"] > 100
+
+    tab.wait_for(is_below)
+    tab.page.set_viewport_size(size)
+    tab.wait_for(lambda: root.bounding_box()["width"] < size["width"] - 600)
+
+
+RECORD = """async (codec) => {
+  const supported = await VideoEncoder.isConfigSupported({codec, width: 160, height: 120});
+  if (!supported.supported) return null;
+  const packets = [];
+  const encoder = new VideoEncoder({
+    output: (chunk) => {
+      const data = new Uint8Array(chunk.byteLength);
+      chunk.copyTo(data);
+      packets.push([...data]);
+    },
+    error: () => {},
+  });
+  encoder.configure({codec, width: 160, height: 120, latencyMode: "realtime"});
+  const canvas = new OffscreenCanvas(160, 120);
+  const context = canvas.getContext("2d");
+  for (let i = 0; i < 5; i++) {
+    context.fillStyle = `rgb(${40 * (i + 1)} 40 40)`;
+    context.fillRect(0, 0, 160, 120);
+    const frame = new VideoFrame(canvas, {timestamp: i * 33000});
+    encoder.encode(frame, {keyFrame: i === 0});
+    frame.close();
+  }
+  await encoder.flush();
+  return packets;
+}"""
+
+
+def test_video_is_decoded_by_the_page(tab: Any, pictures: Pictures) -> None:
+    recorded = tab.page.evaluate(RECORD, "vp09.00.10.08")
+    assert recorded is not None
+    packets = tuple(
+        Packet(number, np.array(data, np.uint8)) for number, data in enumerate(recorded)
+    )
+    pictures.show("Color", Pane(Video("vp9", packets[:2])))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (80, 40, 40), 25))
+    pictures.show("Color", Pane(Video("vp9", packets)))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 40, 40), 25))
+    pictures.show("Color", Pane(Video("h264", (Packet(9, np.zeros(50, np.uint8)),))))
+    problem = pane(tab, "Color").locator(".wv-pane-problem")
+
+    def again() -> bool:
+        pictures.show("Color", Pane(Video("h264", (Packet(10, np.zeros(50, np.uint8)),))))
+        return problem.is_visible()
+
+    tab.wait_for(again)
+    pictures.show("Color", Pane(Video("vp9", packets)))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 40, 40), 25) and not problem.is_visible())
+
+
+def test_two_pages_and_a_flood_leave_no_queue(
+    tab: Any, pictures: Pictures, open_tab: Callable[..., Any]
+) -> None:
+    other = open_tab()
+    other.wait_for(lambda: shown(other, "Color") and shown(other, "Depth"))
+    flood = threading.Thread(target=_flood, args=(pictures,))
+    flood.start()
+    tab.wait_for(lambda: not flood.is_alive())
+    for each in (tab, other):
+        each.wait_for(lambda each=each: near(shown(each, "Color"), (7, 7, 7), 3))
+    with pictures._lock:
+        waiting = [
+            len(look.waiting) for looks in pictures._looks.values() for look in looks.values()
+        ]
+    assert max(waiting) <= 2
+
+
+def _flood(pictures: Pictures) -> None:
+    for _ in range(2000):
+        pictures.show("Color", pixels(COLORS, "rgb8"))
+        time.sleep(0.0002)
+    pictures.show("Color", pixels(np.full_like(COLORS, 7), "rgb8"))

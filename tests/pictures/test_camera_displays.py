@@ -1,0 +1,40 @@
+"""Cameras and depths in the scene as people see them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import photos
+
+from webviz.api.views import Orbit
+from webviz.shell.testing import Stage
+from webviz_displays.camera_info import CameraInfo
+from webviz_displays.depth_cloud import DepthCloud
+from webviz_displays.grid import Grid
+
+Stages = Callable[..., Stage]
+
+VIEW = Orbit(distance=5.5, yaw=-2.2, pitch=0.5, focal_point=(1.5, 0.0, 0.5))
+FACING_X = (-0.5, 0.5, -0.5, 0.5)
+
+
+def test_a_camera_has_a_pyramid_with_its_image(webviz_stage: Stages) -> None:
+    camera = CameraInfo(far_clip=2.0, show_image=True, edge_color=(85, 255, 255))
+    seen = webviz_stage(camera, Grid(plane_cell_count=6), view=VIEW)
+    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    seen.publish(camera.topic.name, photos.INFO, photos.info(), frame="camera")
+    values = photos.raw(photos.room()[0], "rgb8")
+    seen.publish(camera.image_topic.name, photos.RAW, values, frame="camera")
+    seen.turn()
+    seen.check_picture("camera_info/default")
+
+
+def test_depths_are_points_in_color(webviz_stage: Stages) -> None:
+    cloud = DepthCloud()
+    seen = webviz_stage(cloud, Grid(plane_cell_count=6), view=VIEW)
+    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    seen.publish("/camera/depth/camera_info", photos.INFO, photos.info(), frame="camera")
+    _, depths = photos.room()
+    seen.publish(cloud.topic.name, photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
+    seen.turn()
+    seen.check_picture("depth_cloud/default")

@@ -1,0 +1,120 @@
+"""How a camera sees: sensor_msgs/CameraInfo for rectified images (REP 104)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.data.images.errors import ImageError
+
+F64 = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CameraModel:
+    """A camera without distortion, in its optical frame: x to the right, y down, z ahead.
+
+    Args:
+        width, height: of its images in pixels, with the region of interest and binning applied.
+        fx, fy, cx, cy: focal lengths and principal point of these images, in pixels.
+        center: of projection in metres; the right camera of a stereo pair is beside its frame.
+    """
+
+    width: int
+    height: int
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    center: tuple[float, float] = (0.0, 0.0)
+
+    @staticmethod
+    def of(info: Any) -> CameraModel:
+        """The camera of a sensor_msgs/CameraInfo: P, or K if P is empty.
+
+        Raises:
+            ImageError: it is not calibrated, or its numbers are invalid.
+        """
+        p, k = [float(each) for each in info.p], [float(each) for each in info.k]
+        fx, fy, cx, cy, tx, ty = p[0], p[5], p[2], p[6], p[3], p[7]
+        if not any(p):
+            fx, fy, cx, cy, tx, ty = k[0], k[4], k[2], k[5], 0.0, 0.0
+        if not any(p) and not any(k):
+            raise ImageError(
+                "The camera is not calibrated: K and P are all zero. Calibrate it, or load its "
+                "calibration file in the driver."
+            )
+        if not all(map(math.isfinite, (fx, fy, cx, cy, tx, ty))) or not (fx > 0 and fy > 0):
+            raise ImageError(
+                f"The focal lengths {fx:g} and {fy:g} px of P are invalid. Calibrate the camera."
+            )
+        roi = info.roi
+        width, height = int(roi.width) or int(info.width), int(roi.height) or int(info.height)
+        if not width or not height:
+            raise ImageError(
+                f"The camera info has a size of {info.width} x {info.height} pixels. Set width and "
+                "height in the driver."
+            )
+        bx, by = max(int(info.binning_x), 1), max(int(info.binning_y), 1)
+        left, top = int(roi.x_offset), int(roi.y_offset)
+        center = -tx / fx, -ty / fy
+        if not max(map(abs, center)) < 1e6:
+            raise ImageError("The last column of P puts the camera farther away than 1000 km.")
+        return CameraModel(
+            max(width // bx, 1),
+            max(height // by, 1),
+            fx / bx,
+            fy / by,
+            (cx - left) / bx,
+            (cy - top) / by,
+            center,
+        )
+
+    def rays(self, columns: F64, rows: F64) -> F64:
+        """Directions (..., 3) of places in the image, 1 m ahead; (0, 0) is the corner of a pixel.
+
+        The centre of the first pixel is at 0, 0 of P, hence its corner at -0.5, -0.5.
+        """
+        x = (columns - 0.5 - self.cx) / self.fx
+        y = (rows - 0.5 - self.cy) / self.fy
+        return np.stack(np.broadcast_arrays(x, y, np.ones_like(x)), axis=-1)
+
+    def corners(self, distance: float) -> F64:
+        """The corners of the image (4, 3) at a distance, around from the upper left one."""
+        columns = np.array([0.0, self.width, self.width, 0.0])
+        rows = np.array([0.0, 0.0, self.height, self.height])
+        return self.rays(columns, rows) * distance + (*self.center, 0.0)
+
+    def points(self, depths: NDArray[np.floating[Any]], step: int) -> NDArray[np.float32]:
+        """Points (H, W, 3) of every `step`-th pixel.
+
+        Args:
+            depths: (H, W) of these pixels, in metres along z.
+            step: of rows and columns.
+        """
+        rows, columns = depths.shape
+        x = ((np.arange(columns) * step - self.cx) / self.fx).astype(np.float32)
+        y = ((np.arange(rows) * step - self.cy) / self.fy).astype(np.float32)
+        z = depths.astype(np.float32, copy=False)
+        points = np.empty((rows, columns, 3), np.float32)
+        np.multiply(z, x, out=points[..., 0])
+        np.multiply(z, y[:, None], out=points[..., 1])
+        points[..., 2] = z
+        points[..., :2] += np.asarray(self.center, np.float32)
+        return points
+
+
+def optical_problem(frame: str) -> str:
+    """Why a camera's frame is hardly its optical one, "" if it may be."""
+    name = frame.rpartition("/")[2].lower()
+    if "optical" in name or not name.endswith(("link", "frame", "base")):
+        return ""
+    return (
+        f"'{frame}' looks like the frame of a camera's body, whose x points ahead; images need its "
+        "optical frame, whose z does. Set frame_id in the driver, such as "
+        f"'{frame.removesuffix('_link').removesuffix('_frame')}_optical_frame'."
+    )

@@ -1,0 +1,197 @@
+"""Sends pictures to the pages that show them: only those, at their size, and only the newest."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+from webviz.api.nodes import Pane
+from webviz.api.pictures import Pixels, Video
+from webviz.api.stills import File, factor_for, file_of
+from webviz.data.images import ImageError
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.frames import frame
+from webviz.edges.page.messages import FramesShown, PixelValue, ReadPixel, ShowPictures
+from webviz.edges.page.pixel_values import pixel_text
+
+MAX_IN_FLIGHT = 2
+"""Pictures of a pane that a page has not shown yet: one on its way, one being decoded."""
+MAX_PANES = 64
+"""That one page may show."""
+
+log = logging.getLogger("webviz")
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """What a display shows now, and the number of it."""
+
+    number: int
+    pane: Pane
+
+
+@dataclass
+class _Look:
+    """A page that shows the picture of a display.
+
+    Args:
+        width: of it on the screen in pixels.
+        sent: number of the newest picture that was sent.
+        packet: number of the newest packet of a video that was sent.
+        waiting: numbers of pictures that were sent, and are not shown yet.
+        is_busy: whether the next picture is being made.
+    """
+
+    width: int
+    sent: int = 0
+    packet: int = -1
+    waiting: deque[int] = field(default_factory=deque)
+    is_busy: bool = False
+
+
+class Pictures:
+    """The pictures of all displays, and the pages that show them.
+
+    `show` and `remove` belong to one thread; pages are heard on the event loop; pictures are made
+    in threads.
+
+    Args:
+        channel: to the pages.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+        self._lock = threading.Lock()
+        self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-pictures")
+        self._shown: dict[str, _Shown] = {}
+        self._looks: dict[int, dict[str, _Look]] = {}
+        self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
+        """By display and factor, of the newest picture: pages of one size share it."""
+        self._reading: dict[int, Future[None]] = {}
+        self._number = 0
+        channel.on(ShowPictures, self._look)
+        channel.on(FramesShown, self._advance)
+        channel.on(ReadPixel, self._read)
+
+    def show(self, display: str, pane: Pane) -> None:
+        """Make this the picture of a display."""
+        with self._lock:
+            self._number += 1
+            self._shown[display] = _Shown(self._number, pane)
+            for browser, looks in self._looks.items():
+                if display in looks:
+                    self._continue(browser, display, looks[display])
+
+    def remove(self, display: str) -> None:
+        """Forget the picture of a display."""
+        with self._lock:
+            self._shown.pop(display, None)
+            for key in [key for key in self._made if key[0] == display]:
+                del self._made[key]
+
+    def panes(self) -> list[Pane]:
+        """What is shown now, in the order of the displays."""
+        with self._lock:
+            return sorted((each.pane for each in self._shown.values()), key=lambda pane: pane.order)
+
+    # Called on the event loop
+
+    def _look(self, browser: int, message: ShowPictures) -> None:
+        with self._lock:
+            before = self._looks.pop(browser, {})
+            looks = {
+                display: before.get(display) or _Look(width)
+                for display, width in list(message.widths.items())[:MAX_PANES]
+            }
+            for gone in self._looks.keys() - self._channel.browsers():
+                del self._looks[gone]
+            if not looks:
+                return
+            self._looks[browser] = looks
+            for display, look in looks.items():
+                if look.width != message.widths[display]:
+                    look.width, look.sent = message.widths[display], 0
+                self._continue(browser, display, look)
+
+    def _advance(self, browser: int, message: FramesShown) -> None:
+        with self._lock:
+            looks = self._looks.get(browser, {})
+            for display, number in message.numbers.items():
+                if (look := looks.get(display)) is not None:
+                    while look.waiting and look.waiting[0] <= number:
+                        look.waiting.popleft()
+                    self._continue(browser, display, look)
+
+    def _read(self, browser: int, message: ReadPixel) -> None:
+        with self._lock:
+            before = self._reading.get(browser)
+            shown = self._shown.get(message.display)
+            if (before and not before.done()) or shown is None:
+                return
+            self._reading[browser] = self._pool.submit(self._answer, browser, message, shown.pane)
+
+    # Internal
+
+    def _continue(self, browser: int, display: str, look: _Look) -> None:
+        """Make the next picture for a page, if there is one that the page can take."""
+        shown = self._shown.get(display)
+        is_new = shown is not None and shown.number != look.sent
+        if is_new and not look.is_busy and len(look.waiting) < MAX_IN_FLIGHT:
+            look.is_busy = True
+            self._pool.submit(self._send, browser, display, look)
+
+    def _send(self, browser: int, display: str, look: _Look) -> None:
+        """Send the newest picture, in a thread."""
+        with self._lock:
+            shown = self._shown.get(display)
+            packet = look.packet
+        data, last = b"", packet
+        if shown is not None:
+            try:
+                data, last = frame(
+                    display, shown.number, shown.pane, self._file(shown, display, look), packet
+                )
+            except Exception:
+                log.exception("A picture of %r could not be made", display)
+        with self._lock:
+            look.is_busy = False
+            if shown is None or self._looks.get(browser, {}).get(display) is not look:
+                return
+            look.sent, look.packet = shown.number, last
+            if data:
+                look.waiting.append(shown.number)
+                self._channel.send_bytes(data, display, browser)
+            self._continue(browser, display, look)
+
+    def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:
+        """What a page decodes, None of a video; made once for all pages that show it as large."""
+        picture = shown.pane.picture
+        if isinstance(picture, Video):
+            return None
+        factor = factor_for(picture, look.width)
+        if not isinstance(picture, Pixels):
+            return file_of(picture, factor)
+        key = display, factor
+        with self._lock:
+            number, made = self._made.get(key, (0, None))
+            if made is not None and number == shown.number:
+                mine = None
+            else:
+                mine = made = Future()
+                self._made[key] = shown.number, made
+        if mine is not None:
+            try:
+                mine.set_result(file_of(picture, factor))
+            except Exception as error:
+                mine.set_exception(error)
+        return made.result()
+
+    def _answer(self, browser: int, message: ReadPixel, pane: Pane) -> None:
+        try:
+            text = pixel_text(pane.picture, message.x, message.y)
+        except ImageError:
+            return
+        self._channel.send(PixelValue(message.display, message.x, message.y, text), browser)

@@ -1,0 +1,91 @@
+// The dock beside the scene, below it on a phone: a pane for each display with a picture.
+
+import { el, setChildren } from "../dom.js";
+import { recall, remember } from "../remember.js";
+import { watch } from "../stores.js";
+import * as frames from "./frames.js";
+import { makePane } from "./pane.js";
+
+const STANDARD = 360;
+const MIN_SIZE = 120;
+const MAX_SHARE = 0.75;
+const STEP = 16;
+const FOLDED = 34;
+
+const narrow = matchMedia("(max-width: 640px)");
+
+export function install(page) {
+  const panes = new Map();
+  const list = el("div", { class: "wv-panes" });
+  const border = el("div", {
+    class: "wv-dock-border", role: "separator", tabindex: 0, "aria-label": "Size of the images",
+    onpointerdown: (event) => border.setPointerCapture(event.pointerId),
+    onpointermove: drag,
+    onpointerup: keep,
+    onkeydown: step,
+    ondblclick: () => {
+      resize(STANDARD);
+      keep();
+    },
+  });
+  const dock = el("aside", { class: "wv-dock", "aria-label": "Images", hidden: true }, list, border);
+  page.append(dock);
+  let size = recall("dock", STANDARD);
+
+  watch("panes", (rows) => {
+    for (const [id, pane] of panes) {
+      if (rows.get("order")?.includes(id)) continue;
+      pane.close();
+      panes.delete(id);
+    }
+    const order = rows.get("order") ?? [];
+    for (const id of order) {
+      if (!panes.has(id)) panes.set(id, makePane(id, layOut));
+      panes.get(id).update(rows.get(id));
+    }
+    setChildren(list, order.map((id) => panes.get(id).element));
+    layOut();
+  });
+  narrow.addEventListener("change", layOut);
+  window.addEventListener("resize", layOut);
+  new ResizeObserver(frames.refresh).observe(list);
+
+  function layOut() {
+    const open = [...panes.values()].some((pane) => !pane.isFolded());
+    dock.hidden = !panes.size;
+    const most = MAX_SHARE * (narrow.matches ? innerHeight : innerWidth);
+    const wanted = Math.max(MIN_SIZE, Math.min(size, most));
+    const low = open ? wanted : Math.min(wanted, FOLDED * panes.size);
+    const style = document.documentElement.style;
+    const isShown = panes.size > 0;
+    style.setProperty("--wv-dock-width", `${isShown && !narrow.matches ? wanted : 0}px`);
+    style.setProperty("--wv-dock-height", `${isShown && narrow.matches ? low : 0}px`);
+    border.setAttribute("aria-orientation", narrow.matches ? "horizontal" : "vertical");
+    frames.refresh();
+  }
+
+  function drag(event) {
+    if (!border.hasPointerCapture(event.pointerId)) return;
+    const box = dock.getBoundingClientRect();
+    resize(narrow.matches ? box.bottom - event.clientY : box.right - event.clientX);
+  }
+
+  function step(event) {
+    const keys = narrow.matches ? ["ArrowUp", "ArrowDown"] : ["ArrowLeft", "ArrowRight"];
+    const change = { [keys[0]]: STEP, [keys[1]]: -STEP }[event.key];
+    if (!change) return;
+    event.preventDefault();
+    event.stopPropagation(); // viser's camera turns by them
+    resize(size + change);
+    keep();
+  }
+
+  function resize(pixels) {
+    size = Math.max(MIN_SIZE, Math.round(pixels));
+    layOut();
+  }
+
+  function keep() {
+    remember("dock", size);
+  }
+}

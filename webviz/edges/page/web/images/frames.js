@@ -1,0 +1,71 @@
+// Pictures from the server: a header as JSON behind its length, and the files it describes.
+
+import * as channel from "../channel.js";
+
+const COARSE = 64;
+const SETTLE_MS = 100;
+
+const panes = new Map();
+const shown = new Map();
+let asked = "{}";
+let timer = 0;
+let isDue = false;
+
+channel.onBytes((buffer) => {
+  const length = new DataView(buffer).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const data = new Uint8Array(buffer, 4 + length);
+  const pane = panes.get(header.display);
+  const done = () => confirm(header.display, header.number);
+  if (pane) pane.take(header, data).then(done, done);
+});
+
+channel.onOpen(() => {
+  asked = "{}";
+  ask();
+});
+document.addEventListener("visibilitychange", ask);
+
+/**
+ * Shows the pictures of a display. `pane.width()` is how wide they are shown in pixels of the
+ * screen, 0 for not at all; `pane.take(header, data)` resolves when the next picture can come.
+ */
+export function open(display, pane) {
+  panes.set(display, pane);
+  refresh();
+}
+
+export function close(display) {
+  panes.delete(display);
+  refresh();
+}
+
+/** Tells the server soon which pictures are shown, and how wide. */
+export function refresh() {
+  clearTimeout(timer);
+  timer = setTimeout(ask, SETTLE_MS);
+}
+
+function ask() {
+  const widths = {};
+  for (const [display, pane] of document.hidden ? [] : panes) {
+    const width = pane.width();
+    if (width > 0) widths[display] = Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16);
+  }
+  const wanted = JSON.stringify(widths);
+  if (wanted === asked) return;
+  asked = wanted;
+  if (channel.isOpen()) channel.send({ type: "ShowPictures", widths });
+}
+
+// All panes in one message per frame that the browser draws.
+function confirm(display, number) {
+  shown.set(display, number);
+  if (isDue) return;
+  isDue = true;
+  requestAnimationFrame(() => {
+    isDue = false;
+    channel.send({ type: "FramesShown", numbers: Object.fromEntries(shown) });
+    shown.clear();
+  });
+}

@@ -1,0 +1,172 @@
+// A pane: the picture of one display, what it is called, and what is under the mouse.
+
+import * as channel from "../channel.js";
+import { el, set, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { plain } from "../plain.js";
+import { recall, remember } from "../remember.js";
+import * as frames from "./frames.js";
+import { makePicture } from "./picture.js";
+
+const READ_MS = 100;
+const RATE_MS = 1000;
+
+const readers = new Map();
+channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
+
+/** The pane of a display; `changed()` is called when it takes more or less room. */
+export function makePane(id, changed) {
+  const canvas = el("canvas", { class: "wv-pane-picture", role: "img", ondblclick: toggleFull });
+  const picture = makePicture(canvas, { drawn, fail });
+  const name = el("b");
+  const facts = el("span", { class: "wv-quiet" });
+  const problem = el("div", { class: "wv-pane-problem" });
+  const value = el("div", { class: "wv-pane-value" });
+  const bar = el("div", { class: "wv-legend-bar" });
+  const bounds = [el("span"), el("span")];
+  const legend = el("div", { class: "wv-pane-legend", hidden: true }, bounds[0], bar, bounds[1]);
+  const fold = el("button", { class: "wv-icon wv-pane-fold", type: "button", onclick: toggle }, icon("chevron"));
+  const full = el("button", { class: "wv-icon", type: "button", onclick: toggleFull }, icon("fullscreen"));
+  const head = el("header", { class: "wv-pane-head" }, fold, name, facts, full);
+  const body = el("div", { class: "wv-pane-body" }, canvas, problem, value, legend);
+  const element = el("section", { class: "wv-pane", tabindex: -1 }, head, body);
+
+  let title = "";
+  let isFolded = false;
+  let said = "";
+  let failed = "";
+  let mouse = null;
+  let last = {};
+  let asked = 0;
+  let times = [];
+  let scale = null;
+  let size = "";
+
+  function toggle() {
+    isFolded = !isFolded;
+    remember(`pane.${title}`, { ...recall(`pane.${title}`, {}), isFolded });
+    if (isFolded) setFull(false);
+    mark();
+    changed();
+  }
+
+  function toggleFull() {
+    setFull(!element.classList.contains("wv-pane-full"));
+    if (isFolded) toggle();
+    changed();
+  }
+
+  function setFull(wanted) {
+    element.classList.toggle("wv-pane-full", wanted);
+    if (wanted) element.focus(); // for Escape
+    mark();
+  }
+
+  element.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !element.classList.contains("wv-pane-full")) return;
+    event.stopPropagation();
+    setFull(false);
+    changed();
+  });
+
+  function mark() {
+    const isFull = element.classList.contains("wv-pane-full");
+    element.classList.toggle("wv-pane-folded", isFolded);
+    set(fold, { "aria-expanded": String(!isFolded), "aria-label": `${isFolded ? "Expand" : "Collapse"} ${title}` });
+    set(full, { "aria-pressed": String(isFull), "aria-label": `Full size of ${title}`, "data-tip": isFull ? "Leave full size (Esc)" : "Full size" });
+    set(element, { "aria-label": `Image ${title}` });
+    set(canvas, { "aria-label": title });
+    setText(name, title);
+    setText(problem, failed || said);
+    problem.hidden = !(failed || said);
+  }
+
+  function tellRate() {
+    const now = performance.now();
+    times = times.filter((time) => time > now - RATE_MS);
+    const [width, height] = picture.size();
+    const facts_ = width ? `${width} × ${height} · ${times.length} Hz` : "";
+    setText(facts, facts_);
+  }
+  const ticking = setInterval(tellRate, RATE_MS);
+
+  function showLegend(wanted) {
+    legend.hidden = !wanted;
+    if (!wanted) return;
+    const { low, high, unit, colors } = wanted;
+    setText(bounds[0], `${low}${unit && ` ${unit}`}`);
+    setText(bounds[1], `${high}${unit && ` ${unit}`}`);
+    const stops = colors.map((rgb) => `rgb(${rgb.join()})`).join();
+    if (stops !== scale) bar.style.background = `linear-gradient(to right, ${stops})`;
+    scale = stops;
+  }
+
+  function read() {
+    const pixel = mouse && picture.pixelAt(mouse);
+    value.hidden = !pixel;
+    if (!pixel) return;
+    if (!last.readable) return tell(pixel, `rgb ${picture.colorAt(pixel).join(" ")}`);
+    const now = performance.now();
+    if (now - asked < READ_MS) return;
+    asked = now;
+    channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
+  }
+
+  const tell = ([x, y], text) => setText(value, `x ${x} · y ${y}${text && ` · ${text}`}`);
+  readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
+  canvas.addEventListener("pointermove", (event) => {
+    mouse = { clientX: event.clientX, clientY: event.clientY };
+    read();
+  });
+  canvas.addEventListener("pointerleave", () => {
+    mouse = null;
+    value.hidden = true;
+  });
+  value.hidden = true;
+
+  function drawn() {
+    times.push(performance.now());
+    if (failed) fail("");
+    if (picture.size().join() === size) return;
+    size = picture.size().join();
+    tellRate();
+    frames.refresh();
+  }
+
+  function fail(sentence) {
+    failed = sentence;
+    mark();
+  }
+
+  async function take(header, data) {
+    try {
+      await picture.take(header, data);
+      last = header;
+      element.dataset.stamp = header.stamp;
+      showLegend(header.legend);
+      read();
+    } catch (error) {
+      fail(error.message);
+    }
+  }
+
+  frames.open(id, { width: () => (isFolded || !canvas.clientWidth ? 0 : picture.width()), take });
+  return {
+    element,
+    isFolded: () => isFolded,
+    update(row) {
+      const wanted = plain(row.name, 100);
+      if (wanted !== title) isFolded = recall(`pane.${wanted}`, {}).isFolded ?? false;
+      title = wanted;
+      said = plain(row.problem);
+      element.classList.toggle("wv-pane-empty", !row.has_picture);
+      mark();
+    },
+    close() {
+      clearInterval(ticking);
+      readers.delete(id);
+      picture.close();
+      frames.close(id);
+    },
+  };
+}

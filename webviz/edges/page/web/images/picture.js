@@ -1,0 +1,78 @@
+// The canvas of a pane: draws still pictures and video, and knows which pixel is under the mouse.
+
+import { makeVideo } from "./video.js";
+
+const SHARP = 2;
+
+/** `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged. */
+export function makePicture(canvas, { drawn, fail }) {
+  const context = canvas.getContext("2d");
+  let size = [0, 0];
+  let video = null;
+
+  async function still({ mime, size: full, swaps }, data) {
+    let bitmap = null;
+    try {
+      bitmap = await createImageBitmap(new Blob([data], { type: mime }));
+    } catch {
+      throw new Error(`The browser cannot decode this ${mime}: the data is damaged.`);
+    }
+    draw(bitmap, full);
+    bitmap.close();
+    if (swaps) swapRedAndBlue();
+  }
+
+  function draw(image, full) {
+    const [width, height] = [image.displayWidth ?? image.width, image.displayHeight ?? image.height];
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    context.drawImage(image, 0, 0);
+    size = full ?? [width, height];
+    canvas.style.imageRendering = canvas.clientWidth > SHARP * width ? "pixelated" : "auto";
+    drawn();
+  }
+
+  function swapRedAndBlue() {
+    const pixels = context.getImageData(0, 0, canvas.width, canvas.height);
+    const { data } = pixels;
+    for (let i = 0; i < data.length; i += 4) [data[i], data[i + 2]] = [data[i + 2], data[i]];
+    context.putImageData(pixels, 0, 0);
+  }
+
+  return {
+    size: () => size,
+    /** Shows a picture; fails with a sentence if it cannot be decoded. */
+    async take(header, data) {
+      if (!header.video) {
+        video?.close();
+        video = null;
+        return still(header, data);
+      }
+      video ??= makeVideo(draw, fail);
+      return video.take(header, data);
+    },
+    /** Width of the picture on the screen, in its pixels; it is letter-boxed. */
+    width() {
+      const { clientWidth, clientHeight } = canvas;
+      const aspect = size[1] ? size[0] / size[1] : clientWidth / Math.max(clientHeight, 1);
+      return Math.min(clientWidth, clientHeight * aspect) * devicePixelRatio;
+    },
+    /** Column and row of the full picture under a pointer, null beside it. */
+    pixelAt({ clientX, clientY }) {
+      const box = canvas.getBoundingClientRect();
+      if (!size[0] || !box.width) return null;
+      const scale = Math.min(box.width / size[0], box.height / size[1]);
+      const x = Math.floor((clientX - box.left - (box.width - size[0] * scale) / 2) / scale);
+      const y = Math.floor((clientY - box.top - (box.height - size[1] * scale) / 2) / scale);
+      return x >= 0 && y >= 0 && x < size[0] && y < size[1] ? [x, y] : null;
+    },
+    /** Red, green and blue of a pixel as it is drawn. */
+    colorAt([x, y]) {
+      const column = Math.floor((x * canvas.width) / size[0]);
+      const row = Math.floor((y * canvas.height) / size[1]);
+      return [...context.getImageData(column, row, 1, 1).data.slice(0, 3)];
+    },
+    close() {
+      video?.close();
+    },
+  };
+}

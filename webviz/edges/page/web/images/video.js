@@ -1,0 +1,66 @@
+// Video by the decoder of the browser (WebCodecs).
+
+// What the packets need: baseline strings, since the streams carry their own parameters.
+const CODECS = {
+  h264: "avc1.640033", h265: "hev1.1.6.L153.B0", vp9: "vp09.00.50.08", av1: "av01.0.12M.08",
+};
+const NAMES = { h264: "H.264", h265: "H.265", vp9: "VP9", av1: "AV1" };
+const MAX_QUEUED = 30;
+
+/**
+ * Calls `draw(frame)` with each picture, and `fail(sentence)` if the video is damaged. `take` fails
+ * with a sentence if there is no decoder.
+ */
+export function makeVideo(draw, fail) {
+  let decoder = null;
+  let codec = null;
+  let time = 0;
+  let failure = null;
+
+  function close() {
+    if (decoder && decoder.state !== "closed") decoder.close(); // an error closes it, too
+    decoder = null;
+  }
+
+  async function open(wanted) {
+    close();
+    failure = null;
+    codec = wanted;
+    if (!window.VideoDecoder) {
+      throw new Error("Browsers decode video on pages from localhost or by https only.");
+    }
+    const config = { codec: CODECS[codec], optimizeForLatency: true };
+    const { supported } = await VideoDecoder.isConfigSupported(config);
+    if (!supported) throw new Error(`This browser has no decoder for ${NAMES[codec]} video.`);
+    decoder = new VideoDecoder({
+      output(frame) {
+        draw(frame);
+        frame.close();
+      },
+      error(error) {
+        failure = error;
+        fail(`The video is damaged: ${error.message}`);
+      },
+    });
+    decoder.configure(config);
+  }
+
+  return {
+    async take({ video, sizes, starts }, data) {
+      if (failure && !starts) return; // until the next key frame
+      if (video !== codec || (starts && (failure || !decoder))) await open(video);
+      if (!decoder) throw new Error(`This browser has no decoder for ${NAMES[codec]} video.`);
+      let at = 0;
+      for (const [index, size] of sizes.entries()) {
+        const type = starts && index === 0 ? "key" : "delta";
+        decoder.decode(new EncodedVideoChunk({ type, timestamp: time++, data: data.subarray(at, at + size) }));
+        at += size;
+      }
+      // A decoder that falls behind makes the server wait, too.
+      while (decoder.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
+        await new Promise((resolve) => decoder.addEventListener("dequeue", resolve, { once: true }));
+      }
+    },
+    close,
+  };
+}
