@@ -21,6 +21,7 @@ setup(
             "Group = webviz.api.group:DisplayGroup",
             "Illuminance = webviz_displays.sensors:Illuminance",
             "Image = webviz_displays.image:Image",
+            "InteractiveMarkers = webviz_displays.interactive_markers:InteractiveMarkers",
             "LaserScan = webviz_displays.laser_scan:LaserScan",
             "Map = webviz_displays.map:Map",
             "Marker = webviz_displays.markers:Marker",

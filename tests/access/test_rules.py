@@ -23,6 +23,7 @@ NOT_OF_PAGES = {
     "Command": "base class",
     "FileCommand": "base class",
     "ViewCommand": "base class",
+    "GripHandle": "a page sends a Gripped",
     "InspectSelections": "follows from the stores that pages watch",
     "InspectTopic": "of programs",
     "InspectTopics": "follows from the stores that pages watch",

@@ -10,18 +10,19 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from remembering_graph import RememberingGraph
 
 from webviz import Display, Frames, Pose, Status
 from webviz.api.display import inputs
 from webviz.api.nodes import Node
-from webviz.data.messages import encode
+from webviz.data.messages import encode, interfaces
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.engine.sources import Gate, Offer, Publisher, Raw, Rights
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
-from webviz.shell.testing.source import SECOND
+from webviz.shell.testing.source import SECOND, HandFedSource
 from webviz_displays.shared.geometry import transformed
 
 PATIENCE_S = 60.0
@@ -46,7 +47,9 @@ class Bench:
         self.buffer = TransformBuffer()
         self.scene = RecordingScene()
         self.now_ns = START
-        services = Services(self.scene, workers, lambda topic: topic, strict=True)
+        self.graph = RememberingGraph()
+        gate = Gate(HandFedSource(graph=self.graph), Rights(), lambda: ("/*",))
+        services = Services(self.scene, workers, lambda topic: topic, strict=True, gate=gate)
         self.runner = Runner("display", display, services)
         self._batches: dict[str, list[Raw]] = {}
         self._offers: dict[str, Offer] = {}
@@ -91,6 +94,16 @@ class Bench:
         publisher = Publisher("/test", type_name, "reliable", "volatile")
         self._offers[topic] = Offer((publisher,), ("reliable", "volatile"))
         self._batches.setdefault(topic, []).append(Raw(cdr, self.now_ns))
+
+    def serve(self, service: str, type: str, values: Mapping[str, Any]) -> None:
+        """Answer a service with these values from now on."""
+        self.graph.responses[service] = encode(interfaces.service(type).response, values)
+
+    def offer(self, topic: str, type_name: str, publishers: int = 1) -> None:
+        """Publish a topic that the display finds at run time."""
+        publisher = Publisher("/test", type_name, "reliable", "volatile")
+        known = Offer((publisher,) * publishers, ("reliable", "volatile"), type=type_name)
+        self._offers[topic] = known
 
     def set(self, path: str, value: Any) -> None:
         """Change a property, and draw."""

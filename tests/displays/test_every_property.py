@@ -202,12 +202,26 @@ def markers(bench: Any) -> None:
     bench.turn()
 
 
+def interactive_markers(bench: Any) -> None:
+    """A marker with an arrow, if the display has a namespace."""
+    bench.transform("map", "robot")
+    bench.offer("/arm/update", "visualization_msgs/msg/InteractiveMarkerUpdate")
+    control = {"interaction_mode": 3, "name": "along x"}
+    marker = {"header": {"frame_id": "robot"}, "description": "Hand", "controls": [control]}
+    response = {"markers": [marker]}
+    service = "visualization_msgs/srv/GetInteractiveMarkers"
+    bench.serve("/arm/get_interactive_markers", service, response)
+    for _ in range(3):
+        bench.turn(0.1)
+
+
 SCENES: dict[str, Callable[[Any], None]] = {
     "Axes": robot_frame,
     "CameraInfo": camera_infos,
     "DepthCloud": depth_clouds,
     "Grid": robot_frame,
     "Image": images,
+    "InteractiveMarkers": interactive_markers,
     "LaserScan": scans,
     "Map": maps,
     "Marker": markers,
@@ -255,6 +269,16 @@ WRENCH_PROPERTIES = (
 
 # What must be set besides what `when` tells.
 BESIDES: dict[tuple[str, str], dict[str, Any]] = {
+    **{
+        ("InteractiveMarkers", name): {"interactive_markers_namespace": "/arm"}
+        for name in (
+            "show_descriptions",
+            "show_axes",
+            "show_visual_aids",
+            "enable_transparency",
+            "enabled",
+        )
+    },
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
     ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
@@ -345,7 +369,7 @@ def settle(bench: Any) -> None:
 def picture(bench: Any) -> tuple[Any, ...]:
     """Everything a user sees but counts and ages of messages."""
     said = {k: v for k, v in bench.statuses().items() if not k.startswith(("Topic", "Message"))}
-    return bench.nodes(), bench.poses(), said
+    return bench.nodes(), bench.poses(), bench.runner.handles(), said
 
 
 @pytest.mark.parametrize(("cls", "path", "hint", "condition"), list(properties()))

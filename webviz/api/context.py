@@ -33,6 +33,8 @@ class Placement:
         offset: pose of the group in `frame`.
         keep_last: without a transform, stay at the last pose instead of being hidden.
         interval_s: minimum time between moves; 0 moves on every turn of the frame loop.
+        is_rigid: the group keeps its own pose in the fixed frame, too, where otherwise the nodes
+            are sent in coordinates of that frame; for what browsers move.
     """
 
     frame: str | None = None
@@ -40,6 +42,7 @@ class Placement:
     offset: Pose = Pose()
     keep_last: bool = False
     interval_s: float = 0.0
+    is_rigid: bool = False
 
 
 @dataclass(frozen=True)
@@ -246,20 +249,21 @@ class Context(Group):
         offset: Pose = Pose(),
         keep_last: bool = False,
         interval_s: float = 0.0,
+        is_rigid: bool = False,
         key: str = "",
     ) -> Group:
         """A group of nodes that moves with a frame; see `Placement`.
 
         Args:
             frame: frame id; None or "" is the fixed frame.
-            when, offset, keep_last, interval_s: see `Placement`.
+            when, offset, keep_last, interval_s, is_rigid: see `Placement`.
             key: distinguishes groups of one frame.
 
         Raises:
             ValueError: the offset is not finite or out of reach.
         """
         _checked(offset, f"{frame or 'the fixed frame'} {key}".rstrip())
-        placement = Placement(frame or None, when, offset, keep_last, interval_s)
+        placement = Placement(frame or None, when, offset, keep_last, interval_s, is_rigid)
         return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
 
     def ok(self, key: str, text: str) -> None:

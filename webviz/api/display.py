@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import msgspec
 
 from webviz.api.declared import Declared, Topic
+from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input
 from webviz.api.properties import properties_of
@@ -31,6 +32,7 @@ from webviz.api.properties import properties_of
 if TYPE_CHECKING:
     from webviz.api.context import Context
     from webviz.api.sample import Sample
+    from webviz.api.wire import Wire
 
 
 @dataclass(frozen=True, init=False)
@@ -169,6 +171,23 @@ class Display(Declared, kw_only=True):
 
     def tick(self, ctx: Context) -> None:
         """Draw what depends on transforms or time; called on every turn of the frame loop."""
+
+    def talk(self, wire: Wire, ctx: Context) -> None:
+        """Follow a protocol of its own, such as that of a server that has to be asked first.
+
+        Called on every turn of the frame loop while a browser is connected, before the hooks that
+        draw; nodes and statuses added to `ctx` are ignored.
+        """
+
+    def handles(self, ctx: Context) -> Mapping[str, Handle]:
+        """What browsers can grip, by key; the same mapping until something changes.
+
+        Called on every turn of the frame loop, after `talk`.
+        """
+        return {}
+
+    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
+        """Take up what a browser does with a handle. One at a time holds it."""
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """What is known of something that was selected; None if it does not exist any more.

@@ -19,6 +19,7 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
+from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.plugins import PluginsPart
@@ -88,7 +89,9 @@ class FrameLoop:
         rights = Rights(may_publish, config.settings.publish)
         gate = Gate(source, rights, lambda: self._settings.settings.publish)
         core = self._core = Core(source, gate, scene, self._guard, clock)
-        services = Services(scene, self._workers, source.resolve, strict, clock)
+        services = Services(
+            scene, self._workers, source.resolve, strict, clock, gate=gate, wake=self._wake
+        )
         self._tracer = services.tracer
         transforms = TransformsPart(core)
         self._time = TimePart(core, lambda: self._parts.reset())
@@ -99,7 +102,7 @@ class FrameLoop:
         self.helms = Helms(gate, source.now_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
         panels = PanelsPart(core)
-        tools = ToolsPart(core, goals, self.helms, panels.outlets)
+        tools = ToolsPart(core, goals, self.helms, lambda: {*displays.outlets(), *panels.outlets()})
         files = self._files = FilesPart(
             core, displays, settings, views, tools.list, panels.list, config, path
         )
@@ -118,6 +121,7 @@ class FrameLoop:
             history,
             TopicsPart(core),
             SelectionPart(core, displays),
+            HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *(make(core) for make in parts),

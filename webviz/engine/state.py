@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
+from webviz.api.handles import Handle
 from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
 from webviz.api.tool import Gesture, Tool
@@ -296,6 +297,8 @@ class State:
         panels: of plug-ins, in the order of their tabs.
         goals: that tools sent to actions, oldest first.
         driving: the vehicles that browsers attend to, by id of their tool.
+        handles: what browsers can grip, by id of the display and key, each with the id of the
+            browser that holds it.
         history: what can be undone and redone.
         selected: ids of what each browser has selected, each with that of its display, and
             whether it moves.
@@ -321,6 +324,7 @@ class State:
     panels: tuple[PanelTab, ...] = ()
     goals: tuple[GoalProgress, ...] = ()
     driving: Mapping[str, Driving] = field(default_factory=dict)
+    handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = field(default_factory=dict)
     history: UndoHistory = UndoHistory()
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)

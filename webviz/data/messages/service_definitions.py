@@ -20,6 +20,9 @@ action_msgs/GoalInfo goal_info
 ---
 int8 return_code
 action_msgs/GoalInfo[] goals_canceling""",
+    "visualization_msgs/srv/GetInteractiveMarkers": """---
+uint64 sequence_number
+visualization_msgs/InteractiveMarker[] markers""",
     "nav2_msgs/srv/ManageLifecycleNodes": """uint8 STARTUP=0
 uint8 PAUSE=1
 uint8 RESUME=2

@@ -56,6 +56,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "Do": None,
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,
+    "Gripped": Role.OPERATOR,
     "Hello": Role.WATCHER,
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,

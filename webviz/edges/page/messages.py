@@ -6,6 +6,8 @@ from typing import Annotated, Any, ClassVar
 
 import msgspec
 
+from webviz.api.handles import GripKind
+
 Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
 """What both JavaScript and JSON can hold."""
 
@@ -274,6 +276,39 @@ class Helm(ToPage, frozen=True):
     beat: Number
     driver: int | None
     problem: str
+
+
+class Gripped(FromPage, frozen=True):
+    """Something that a page does with a handle; see `webviz.api.handles.Grip`.
+
+    Args:
+        display: id of the display that has the handle.
+        position, wxyz: of the handle in its frame, both or neither.
+    """
+
+    display: str
+    handle: str
+    control: Number
+    kind: GripKind
+    position: tuple[float, float, float] | None = None
+    wxyz: tuple[float, float, float, float] | None = None
+    turned: float = 0.0
+    point: tuple[float, float, float] | None = None
+    entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0
+
+
+class GripRefused(ToPage, frozen=True):
+    """Says why the viewer does not do what a page has done with a handle.
+
+    Args:
+        handle: id of its display and its key, as in the store `handles`.
+        kind: of the grip.
+        text: a sentence.
+    """
+
+    handle: str
+    kind: str
+    text: str
 
 
 class Shell(ToPage, frozen=True):

@@ -10,6 +10,7 @@ from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.driving import Driving, Steer
+from webviz.edges.page.gripping import Gripping
 from webviz.edges.page.messages import Ping, Pong, Shell
 from webviz.edges.page.plugin_panels import PluginPanels
 from webviz.edges.page.reading import Reading
@@ -43,6 +44,7 @@ class Pages:
         self._toolbar = Toolbar(channel, enqueue)
         self._acts = Acts(channel, enqueue)
         self._driving = Driving(channel, steer)
+        self._gripping = Gripping(channel, enqueue)
         self._wishes = Wishes(enqueue)
         self._panels = panels = PluginPanels(channel, enqueue)
         self._of_panels = {

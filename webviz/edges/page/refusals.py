@@ -7,6 +7,8 @@ from webviz.edges.page.messages import (
     Done,
     Drive,
     FromPage,
+    Gripped,
+    GripRefused,
     Helm,
     Result,
     StrokeDone,
@@ -27,6 +29,8 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
             return Done(message.number, "error", reason, "")
         case StrokeDone():
             return Result(message.number, "error", reason)
+        case Gripped():
+            return GripRefused(f"{message.display}/{message.handle}", message.kind, reason)
         case Drive():
             return Helm(message.tool, 0, None, reason)
         case _:

@@ -12,6 +12,7 @@ from webviz.engine.commands.displays import (
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
 from webviz.engine.commands.goals import CancelGoal, DismissGoal
+from webviz.engine.commands.handles import GripHandle
 from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import (
     AddPanel,
@@ -56,6 +57,7 @@ __all__ = [
     "FileCommand",
     "FocusDisplay",
     "FocusFrame",
+    "GripHandle",
     "Identify",
     "InspectSelections",
     "InspectTopic",

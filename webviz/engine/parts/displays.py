@@ -26,7 +26,7 @@ from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.display_rows import rows
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline import Runner, Services
-from webviz.engine.sources import Subscription, merged
+from webviz.engine.sources import Outlet, Subscription, merged
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
 
 
@@ -61,6 +61,10 @@ class DisplaysPart(Part):
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The subscriptions of the displays. The first decides on type and QoS of a topic."""
         return merged(runner.subscriptions() for runner in self.list.active())
+
+    def outlets(self) -> set[Outlet]:
+        """What the displays publish."""
+        return {outlet for runner in self.list.active() for outlet in runner.outlets()}
 
     def take(self, batches: Batches) -> None:
         """Pass messages to the displays."""

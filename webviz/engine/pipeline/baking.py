@@ -51,7 +51,8 @@ def bake(group: Group, former: Position) -> Position:
     Returns:
         The origin of the coordinates, which is the offset of the group then.
     """
-    if group.placement.frame is not None or not all(map(can_bake, group.nodes.values())):
+    place = group.placement
+    if place.frame is not None or place.is_rigid or not all(map(can_bake, group.nodes.values())):
         return former
     offset = group.placement.offset
     origin = origin_near(offset.position, former)

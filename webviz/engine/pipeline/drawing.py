@@ -109,6 +109,9 @@ class Drawing:
             name, drawn = self._name(scope, key), before.get(key)
             if drawn is None:
                 drawn = _Drawn(group)
+            elif drawn.group is group:  # as it was drawn before
+                after[key] = drawn
+                continue
             else:
                 for old in drawn.group.nodes.keys() - group.nodes.keys():
                     self._scene.remove(name, old)

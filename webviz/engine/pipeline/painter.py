@@ -73,11 +73,8 @@ class Painter:
 
     def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
         """Call the hooks that have something new to draw, and move groups with their frames."""
-        if self._state is _NO_STATE:
-            self._state = guard("new_state", display.new_state)
-            if self._state is CRASHED:
-                self._state = _NO_STATE
-                return
+        if not self._has_state(display, guard):
+            return
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
         self._version += self.is_stale
@@ -182,6 +179,16 @@ class Painter:
     def color_scale(self) -> ColorScale | None:
         """Which values colours stand for, as the hooks said when they were last called."""
         return next((scale for scale in self._scales.values() if scale is not None), None)
+
+    def context(self, display: Display, guard: Guard, frames: Frames) -> Context | None:
+        """A context for hooks that do not draw; None without a state."""
+        return self._context(frames) if self._has_state(display, guard) else None
+
+    def _has_state(self, display: Display, guard: Guard) -> bool:
+        if self._state is _NO_STATE:
+            state = guard("new_state", display.new_state)
+            self._state = _NO_STATE if state is CRASHED else state
+        return self._state is not _NO_STATE
 
     def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
         if not overrides(display, "depends"):

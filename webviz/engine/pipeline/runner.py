@@ -9,15 +9,17 @@ from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
+from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
 from webviz.api.status import Level, Status, worst
 from webviz.engine.commands import Picks
+from webviz.engine.pipeline.gripping import Gripping
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.holder import Holder
 from webviz.engine.pipeline.painter import Painter
 from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.services import Services
-from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.engine.sources import Offer, Outlet, Raw, Subscription, merged
 
 NOTHING_TO_DRAW = Status(
     Level.WARN,
@@ -42,6 +44,7 @@ class Runner:
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
         self._painter = Painter(id, services.scene, services.workers)
+        self._gripping = Gripping(id, services)
         self._guard = self._new_guard()
         self._holder = self._new_holder()
 
@@ -90,21 +93,28 @@ class Runner:
     def hide(self) -> None:
         """Draw nothing until the next call of `draw`; messages are kept."""
         self._painter.hide()
+        self._gripping.hide()
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic, none while the display is disabled."""
         if not self.display.enabled:
             return {}
-        return self._holder.inputs.subscriptions()
+        return merged([self._holder.inputs.subscriptions(), self._gripping.subscriptions()])
+
+    def outlets(self) -> list[Outlet]:
+        """What the display publishes, none while it is disabled."""
+        return self._gripping.outlets() if self.display.enabled else []
 
     def reset(self) -> None:
         """Discard all messages, such as after a jump of time."""
         self._holder.reset()
         self._services.tracer.forget(self.id)
         self._painter.forget()
+        self._gripping.hide()
 
     def close(self) -> None:
         """Remove everything from the scene, and end the slow work."""
+        self._gripping.hide()
         self._painter.close()
         self._services.tracer.forget(self.id)
 
@@ -116,6 +126,7 @@ class Runner:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
             self._guard("take", self._holder.take, batches, frames, offers)
+            self._gripping.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
         """Update the scene."""
@@ -132,11 +143,24 @@ class Runner:
 
     def followed(self) -> set[str]:
         """The frames whose poses `draw` needs."""
-        return self._painter.followed() if self.display.enabled else set()
+        if not self.display.enabled:
+            return set()
+        return self._painter.followed() | self._gripping.followed()
 
     def color_scale(self) -> ColorScale | None:
         """Which values colours stand for, None if nothing of them can be seen."""
         return None if self._painter.is_empty() else self._painter.color_scale()
+
+    # Handles
+
+    def handles(self) -> Mapping[str, Handle]:
+        """What browsers can grip, by key; another object only after a change."""
+        return self._gripping.handles
+
+    def grip(self, grip: Grip, frames: Frames) -> None:
+        """Let the display take up what a browser does with a handle."""
+        if context := self._painter.context(self.display, self._guard, frames):
+            self._gripping.grip(grip, self.display, self._guard, context)
 
     # Selection
 
@@ -186,6 +210,8 @@ class Runner:
 
     def _draw(self, frames: Frames) -> None:
         self._painter.is_stale |= self._holder.prepare(frames)
+        if context := self._painter.context(self.display, self._guard, frames):
+            self._gripping.talk(self.display, self._guard, context)
         self._painter.draw(self.display, self._guard, self._holder.histories, frames)
         if self._services.tracer.wants(self.id) and not self._painter.busy_with:
             self._services.tracer.drawn(self.id)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import Scene
+from webviz.engine.sources import Gate
 from webviz.engine.trace import Tracer
 
 
@@ -22,6 +23,8 @@ class Services:
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages.
         tracer: traces samples on request.
+        gate: for displays that follow a protocol of their own; None if they cannot.
+        wake: makes the frame loop turn again soon.
     """
 
     scene: Scene
@@ -30,3 +33,5 @@ class Services:
     strict: bool = False
     clock: Callable[[], float] = time.monotonic
     tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
+    gate: Gate | None = None
+    wake: Callable[[], None] = lambda: None

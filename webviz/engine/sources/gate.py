@@ -97,6 +97,10 @@ class Gate:
         """Call a service; the serialised response."""
         return self._graph(service).call(service, type, request, timeout_s)
 
+    def query(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        """Call a service that changes nothing, whatever the rights; the serialised response."""
+        return self._source.graph.call(service, type, request, timeout_s)
+
     def send_goal(
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:

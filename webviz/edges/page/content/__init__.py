@@ -13,6 +13,7 @@ from typing import Any
 from webviz.edges.page.content.clock import clock
 from webviz.edges.page.content.displays import displays, rate
 from webviz.edges.page.content.goals import goals, routes
+from webviz.edges.page.content.handles import handles
 from webviz.edges.page.content.history import history
 from webviz.edges.page.content.panes import panes
 from webviz.edges.page.content.properties import properties, statuses, topics_of
@@ -35,6 +36,7 @@ MAKERS: Mapping[str, Callable[[State, str], Mapping[str, Any]]] = {
     "frames": frames,
     "goals": goals,
     "graph": graph,
+    "handles": handles,
     "history": history,
     "legend": legend,
     "message": message,

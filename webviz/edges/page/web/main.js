@@ -3,6 +3,7 @@
 import * as channel from "./channel.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
+import * as handles from "./handles/handles.js";
 import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
@@ -22,7 +23,7 @@ async function install() {
   await viser.until(viser.hasScene);
   for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, saveImage, overlay]) part.install();
+  for (const part of [view, mouse, handles, saveImage, overlay]) part.install();
   toolbar.install(shell.places);
 }
 

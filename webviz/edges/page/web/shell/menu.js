@@ -10,11 +10,12 @@ const GAP = 4;
  * Opens a menu with its corner at (x, y), in pixels of the window, or beside that if it does not
  * fit.
  *
- * `items`: `{label, icon, key, run, disabled, danger, checked}`, or null for a line; `checked` is
- * true or false for an item that shows a choice. `run` is called when the menu is closed and the
- * focus is back where it was. Returns what closes the menu.
+ * `items`: `{label, icon, key, run, disabled, danger, checked, tip, items}`, or null for a line;
+ * `checked` is true or false for an item that shows a choice, `tip` says more about it, and `items`
+ * are those of its submenu. `run` is called when the menu is closed and the focus is back where it
+ * was. Returns what closes the menu. `outer` is the menu that a submenu belongs to.
  */
-export function openMenu(x, y, items) {
+export function openMenu(x, y, items, outer = null) {
   const before = document.activeElement;
   const menu = el(
     "div",
@@ -24,10 +25,11 @@ export function openMenu(x, y, items) {
     ),
   );
   const entries = [...menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")];
+  let inner = null; // the entry whose submenu is open, and what closes that
 
-  function entry({ label, icon: name, key, run, disabled, danger, checked }) {
+  function entry({ label, icon: name, key, run, disabled, danger, checked, tip, items: below }) {
     const isChoice = checked !== undefined;
-    return el(
+    const element = el(
       "div",
       {
         class: `wv-menu-item${danger ? " wv-danger" : ""}`,
@@ -35,13 +37,32 @@ export function openMenu(x, y, items) {
         role: isChoice ? "menuitemradio" : "menuitem",
         "aria-checked": isChoice ? checked : null,
         "aria-disabled": disabled ? "true" : null,
-        onclick: () => disabled || choose(run),
-        onpointermove: (event) => event.currentTarget.focus({ preventScroll: true }),
+        "aria-haspopup": below ? "menu" : null,
+        "data-tip": tip || null,
+        onclick: () => disabled || (below ? openBeside(element, below) : choose(run)),
+        onpointermove: () => hover(element, disabled ? null : below),
       },
       el("span", { class: "wv-menu-icon" }, checked ? icon("check") : name ? icon(name) : null),
       el("span", { class: "wv-menu-label" }, label),
       key ? el("kbd", {}, keyText(key)) : null,
+      below ? el("span", { class: "wv-menu-more", "aria-hidden": "true" }, "▸") : null,
     );
+    return element;
+  }
+
+  function hover(element, below) {
+    if (inner?.element === element) return;
+    element.focus({ preventScroll: true });
+    inner?.close();
+    inner = null;
+    if (below) openBeside(element, below);
+  }
+
+  function openBeside(element, below) {
+    const { right, top } = element.getBoundingClientRect();
+    element.focus({ preventScroll: true });
+    const wrapped = below.map((item) => item && { ...item, run: () => choose(item.run) });
+    inner = { element, close: openMenu(right, top, wrapped, menu) };
   }
 
   function close() {
@@ -56,7 +77,10 @@ export function openMenu(x, y, items) {
   function onKey(event) {
     const at = entries.indexOf(document.activeElement);
     const step = { ArrowDown: at + 1, ArrowUp: at < 0 ? -1 : at - 1, Home: 0, End: -1 }[event.key];
+    const isMore = document.activeElement.getAttribute("aria-haspopup") === "menu";
     if (event.key === "Escape" || event.key === "Tab") close();
+    else if (event.key === "ArrowLeft" && outer) close();
+    else if (event.key === "ArrowRight" && isMore) entries[at]?.click();
     else if (event.key === "Enter" || event.key === " ") entries[at]?.click();
     else if (step !== undefined) entries.at(step % entries.length)?.focus();
     else startingWith(event.key, at)?.focus();
@@ -82,8 +106,8 @@ export function openMenu(x, y, items) {
       before?.focus();
     menu.remove();
   });
-  // In a dialog, what is outside of it cannot be clicked.
-  (before?.closest?.("dialog") ?? document.getElementById("webviz")).append(menu);
+  // In a dialog, what is outside of it cannot be clicked; a submenu leaves the outer one open.
+  (outer ?? before?.closest?.("dialog") ?? document.getElementById("webviz")).append(menu);
   menu.showPopover();
   const { width, height } = menu.getBoundingClientRect();
   menu.style.left = `${Math.max(GAP, Math.min(x, innerWidth - width - GAP))}px`;

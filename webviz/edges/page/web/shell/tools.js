@@ -1,6 +1,8 @@
 // The tools in the toolbar: their buttons and keys, and the pointer while one is active.
 
 import { el, set, setChildren } from "../dom.js";
+import * as gesture from "../handles/gesture.js";
+import * as glow from "../handles/glow.js";
 import { icon } from "../icons.js";
 import { focusCamera, interact, moveCamera } from "../tools/camera.js";
 import * as goals from "../tools/goals.js";
@@ -34,6 +36,8 @@ export function install() {
   registry.onChange(update);
   registry.setDefault(interact);
   registry.provide("page", [interact, moveCamera, selecting.select, focusCamera, measure]);
+  gesture.install();
+  glow.install();
   selecting.install();
   history.install();
   strokes.install();

@@ -1,12 +1,13 @@
 // The tools that leave the pointer to the camera, and the one that aims the camera.
 
+import { leave, pointer } from "../handles/gesture.js";
 import { focusOn } from "../scene/mouse.js";
 import { clicks } from "./clicks.js";
 import { select } from "./registry.js";
 
 export const interact = {
   id: "interact", name: "Interact", shortcut: "i", icon: "hand", order: 0, isLean: true,
-  tooltip: "Interact with objects, and move the camera elsewhere.", hint: "",
+  tooltip: "Interact with objects, and move the camera elsewhere.", hint: "", pointer, leave,
 };
 
 export const moveCamera = {

@@ -14,15 +14,15 @@ const BEHIND = 1e-3; // how much farther pictures count, for what lies on them; 
  * The thing under a point of the window, or null: `{group, key, number, at, color}` as the server knows
  * it, `point` in three.js' coordinates, and `object`, `name`, `ordinal` and `item` of what draws it.
  *
- * What the pointer is on comes first, the nearest of several; then lines and points next to it. A
+ * Only things that are wanted count, and those within `reach` pixels. What the pointer is on comes first, the nearest of several; then lines and points next to it. A
  * picture, such as a map, comes last of what is not behind it.
  */
-export function pickAt(xy) {
+export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
   const caster = casterAt(xy);
   let [on, near, flat] = [null, null, null];
   for (const thing of things()) {
-    const hit = hitOf(thing, at, caster);
+    const hit = isWanted(thing) ? hitOf(thing, at, caster, reach) : null;
     if (!hit) continue;
     const found = { ...thing, ...hit, rank: rankOf(thing.object) };
     if (found.layer !== undefined) flat = isOver(found, flat) ? found : flat;
@@ -50,9 +50,9 @@ export function pickIn({ left, top, right, bottom }, most) {
   return { picks, total };
 }
 
-function hitOf({ object, name }, at, caster) {
-  if (object.isPoints) return pointAt(object, at, NEAR_PX);
-  if (object.isLineSegments2) return lineAt(object, at, NEAR_PX);
+function hitOf({ object, name }, at, caster, reach) {
+  if (object.isPoints) return pointAt(object, at, reach);
+  if (object.isLineSegments2) return lineAt(object, at, reach);
   const [hit] = caster.intersectObject(object, false).sort((a, b) => a.distance - b.distance);
   if (!hit) return null;
   // Not the point of the hit, which is wrong for instanced meshes.

@@ -1,0 +1,194 @@
+"""Interactive markers as their servers mean them: what they leave out is filled in.
+
+Rules and sizes are those of interactive_markers' tools.cpp, which clients of ROS apply as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from webviz import Pose
+from webviz.api.handles import Facing, MenuEntry, Mode
+from webviz.data.messages.markers import Marker, MarkerSequence
+from webviz.data.rotations import normalized
+from webviz_displays.interactive_markers.handles import handles_of
+from webviz_displays.interactive_markers.menus import menu_of
+
+MODES: tuple[Mode, ...] = (
+    "none",
+    "menu",
+    "button",
+    "move_axis",
+    "move_plane",
+    "rotate_axis",
+    "move_rotate",
+    "move_3d",
+    "rotate_3d",
+    "move_rotate_3d",
+)
+"""By the constants of visualization_msgs/InteractiveMarkerControl."""
+FACINGS: tuple[Facing, ...] = ("inherit", "fixed", "view_facing")
+MAX_CONTROLS = 200
+MAX_SHAPES = 2000
+"""Markers of a control."""
+
+Wxyz = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A control with all that it needs.
+
+    Args:
+        name: unique in its marker.
+        mode, facing: see `webviz.api.handles.Control`.
+        wxyz: its orientation in the marker.
+        is_independent: whether its shapes keep the orientation of the marker.
+        is_always_visible: whether it is shown while another tool is active.
+        help: what it does.
+        shapes: to draw.
+    """
+
+    name: str
+    mode: Mode
+    facing: Facing
+    wxyz: Wxyz
+    is_independent: bool
+    is_always_visible: bool
+    help: str
+    shapes: MarkerSequence
+
+
+@dataclass(frozen=True, eq=False)
+class Completed:
+    """An interactive marker with all that it needs.
+
+    Args:
+        name: unique on its server.
+        frame, stamp_ns: of its header.
+        pose: in that frame.
+        description: its title.
+        scale: size of generated handles.
+        parts: its controls.
+        menu: its entries.
+        problems: what is wrong with it, in sentences.
+    """
+
+    name: str
+    frame: str
+    stamp_ns: int
+    pose: Pose
+    description: str
+    scale: float
+    parts: tuple[Part, ...]
+    menu: tuple[MenuEntry, ...]
+    problems: tuple[str, ...]
+
+
+def completed(message: Any) -> Completed | str:
+    """A visualization_msgs/InteractiveMarker, or why it cannot be shown: a sentence."""
+    pose, scale = pose_of(message.pose), float(message.scale)
+    if pose is None or not np.isfinite(scale):
+        return "Its pose or scale is not finite. Correct the server."
+    scale = scale or 1.0
+    menu, problems = menu_of(message.menu_entries)
+    if len(message.controls) > MAX_CONTROLS:
+        problems.append(f"Only {MAX_CONTROLS} of {len(message.controls)} controls are shown.")
+    controls = message.controls[:MAX_CONTROLS]
+    names = list(unique_names([str(control.name) for control in controls]))
+    parts = []
+    for name, control in zip(names, controls, strict=True):
+        try:
+            parts.append(_part(name, control, scale))
+        except _Invalid as error:
+            problems.append(f"Control '{name}' {error} Correct the server.")
+    return Completed(
+        name=str(message.name),
+        frame=str(message.header.frame_id).removeprefix("/"),
+        stamp_ns=message.header.stamp_ns,
+        pose=pose,
+        description=str(message.description),
+        scale=scale,
+        parts=tuple(parts),
+        menu=menu,
+        problems=tuple(problems),
+    )
+
+
+def pose_of(message: Any) -> Pose | None:
+    """A geometry_msgs/Pose with a unit quaternion; None if it is not finite.
+
+    A quaternion of length zero becomes the identity.
+    """
+    at, wxyz = message.position, _wxyz(message.orientation)
+    position = float(at.x), float(at.y), float(at.z)
+    if wxyz is None or not np.isfinite(position).all():
+        return None
+    return Pose(position, wxyz)
+
+
+def unique_names(names: Sequence[str]) -> Iterator[str]:
+    """Names, of which repeated ones get `_u0`, `_u1` and so on; feedback has them like that."""
+    taken: set[str] = set()
+    count = 0
+    for name in names:
+        unique = name
+        while unique in taken:
+            unique = f"{name}_u{count}"
+            count += 1
+        taken.add(unique)
+        yield unique
+
+
+class _Invalid(Exception):
+    """Of a control; what is wrong follows its name."""
+
+
+def _part(name: str, control: Any, scale: float) -> Part:
+    wxyz = _wxyz(control.orientation)
+    if wxyz is None:
+        raise _Invalid("has an orientation that is not finite.")
+    if control.interaction_mode >= len(MODES):
+        raise _Invalid(f"has an unknown interaction mode, {control.interaction_mode}.")
+    if control.orientation_mode >= len(FACINGS):
+        raise _Invalid(f"has an unknown orientation mode, {control.orientation_mode}.")
+    mode, facing = MODES[control.interaction_mode], FACINGS[control.orientation_mode]
+    is_independent = bool(control.independent_marker_orientation)
+    shapes: MarkerSequence = control.markers
+    if not len(shapes):
+        shapes = MarkerSequence.of(handles_of(mode, wxyz, scale, str(control.description)))
+        if mode == "menu":
+            facing, is_independent = "view_facing", False
+    elif len(shapes) > MAX_SHAPES:
+        raise _Invalid(f"has {len(shapes)} markers; the limit is {MAX_SHAPES}.")
+    return Part(
+        name=name,
+        mode=mode,
+        facing=facing,
+        wxyz=wxyz,
+        is_independent=is_independent,
+        is_always_visible=bool(control.always_visible),
+        help=str(control.description),
+        shapes=_with_sizes(shapes),
+    )
+
+
+def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:
+    """Shapes whose sizes of zero are one, but for the heads of arrows, where zero has a meaning."""
+    is_zero = shapes.scales == 0.0
+    has_points = np.array([len(each.points) == 2 for each in shapes.contents], bool)
+    is_zero[(shapes.types == Marker.ARROW) & has_points, 2] = False
+    return replace(shapes, scales=np.where(is_zero, 1.0, shapes.scales))
+
+
+def _wxyz(quaternion: Any) -> Wxyz | None:
+    """A unit quaternion, None if it is not finite; of length zero it becomes the identity."""
+    wxyz = quaternion.w, quaternion.x, quaternion.y, quaternion.z
+    if not np.isfinite(wxyz).all():
+        return None
+    ((w, x, y, z),) = normalized([wxyz])[0].tolist()
+    return w, x, y, z

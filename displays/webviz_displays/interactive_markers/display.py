@@ -1,0 +1,194 @@
+"""The InteractiveMarkers display."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from webviz import Context, Details, Display, Hit, Prop, Sample, Status
+from webviz.api.handles import Grip, Handle
+from webviz.api.wire import Wire
+from webviz_displays.interactive_markers.drawing import Look
+from webviz_displays.interactive_markers.feedback import (
+    BUTTON_CLICK,
+    DEPTH,
+    FEEDBACK,
+    KEEP_ALIVE,
+    MENU_SELECT,
+    MOUSE_DOWN,
+    MOUSE_UP,
+    POSE_UPDATE,
+    values_of,
+)
+from webviz_displays.interactive_markers.inspecting import details, part_of
+from webviz_displays.interactive_markers.menus import can_choose
+from webviz_displays.interactive_markers.server import Server
+from webviz_displays.interactive_markers.statuses import report
+
+NO_NAMESPACE = "No namespace. Choose that of an interactive marker server."
+
+
+@dataclass
+class _State:
+    """What is kept between calls.
+
+    Args:
+        server: None without a valid namespace.
+        problem: why there is none, a sentence.
+        refusal: why nothing may be sent to it, a sentence; "" if it may.
+        token: tells viewers with nodes of one name apart.
+    """
+
+    server: Server | None = None
+    problem: str = NO_NAMESPACE
+    refusal: str = ""
+    token: str = field(default_factory=lambda: secrets.token_hex(4))
+    reported: tuple[object, Mapping[str, Status]] = (None, {})
+    """The last statuses, and when they were made of what."""
+
+
+class InteractiveMarkers(Display):
+    """Objects of a server that people move, turn and click, such as goals for a robot arm."""
+
+    rviz = "rviz_default_plugins/InteractiveMarkers"
+
+    interactive_markers_namespace: Annotated[
+        str,
+        Prop(
+            rviz="Interactive Markers Namespace",
+            help="Namespace of the server, such as /basic_controls.",
+        ),
+    ] = ""
+    show_descriptions: Annotated[bool, Prop(help="Write the title of each marker above it.")] = True
+    show_axes: Annotated[bool, Prop(help="Draw the axes of each marker.")] = False
+    show_visual_aids: Annotated[
+        bool, Prop(help="Draw the axis along which, or about which, a marker is dragged.")
+    ] = False
+    enable_transparency: Annotated[
+        bool, Prop(help="Draw controls as transparent as their server says, else opaque.")
+    ] = True
+
+    def new_state(self) -> _State:
+        """Not connected."""
+        return _State()
+
+    def talk(self, wire: Wire, ctx: Context) -> None:
+        """Follow the server, and send it what people do."""
+        state: _State = ctx.state
+        namespace = self.interactive_markers_namespace.rstrip("/")
+        if not namespace:
+            state.server, state.problem = None, NO_NAMESPACE
+            return
+        if state.server is None or state.server.client.namespace != namespace:
+            state.server = Server(namespace, f"{wire.node}_{state.token}")
+        server, topic = state.server, f"{namespace}/feedback"
+        try:
+            news = server.client.step(wire)
+            state.refusal = wire.advertise(topic, FEEDBACK, DEPTH)
+        except ValueError as error:
+            state.server, state.problem = None, f"{error}. Correct the namespace."
+            return
+        server.take(news)
+        if (values := server.outgoing.next()) is not None:
+            wire.publish(topic, values)
+        if server.outgoing:
+            wire.wake()
+
+    def depends(self, ctx: Context) -> object:
+        """The markers, and the transforms that some of them wait for."""
+        state: _State = ctx.state
+        server = state.server
+        if server is None:
+            return state.problem
+        frames = ctx.frames
+        transforms = frames.buffer.version if server.is_waiting else 0
+        return server, server.version, frames.fixed_frame, transforms
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """All markers, each in groups that move with its frame."""
+        state: _State = ctx.state
+        if (server := state.server) is None:
+            return
+        look = Look(self.show_descriptions, self.show_axes, self.enable_transparency)
+        server.is_waiting = False
+        for name, marker in server.markers.items():
+            if (place := marker.place(ctx.frames)) is not None:
+                server.shown[name].draw(marker, place, look, ctx)
+            server.is_waiting |= place is None or bool(server.shown[name].lost)
+
+    def tick(self, ctx: Context) -> None:
+        """How the connection is, and what is wrong with markers."""
+        state: _State = ctx.state
+        if (server := state.server) is None:
+            ctx.warn("Server", state.problem)
+            return
+        # Explanations contain times, so they are renewed, but not on every turn.
+        moment = server, server.version, server.client.state, state.refusal, ctx.frames.fixed_frame
+        second = ctx.frames.now_ns // 500_000_000
+        if state.reported[0] != (moment, second):
+            report(server, state.refusal, ctx)
+            state.reported = (moment, second), dict(ctx.statuses)
+        ctx.statuses.update(state.reported[1])
+
+    def handles(self, ctx: Context) -> Mapping[str, Handle]:
+        """All markers."""
+        state: _State = ctx.state
+        if state.server is None:
+            return {}
+        return state.server.handles(ctx.frames, self.show_visual_aids, state.refusal)
+
+    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
+        """Move a marker, and report it to the server as RViz does."""
+        state: _State = ctx.state
+        server = state.server
+        marker = server.find(grip.handle) if server else None
+        if server is None or marker is None or grip.control >= len(marker.made.parts):
+            return
+        part, frames = marker.made.parts[grip.control], ctx.frames
+        if part.mode == "none" or (
+            grip.kind == "choose" and not can_choose(marker.made.menu, grip.entry)
+        ):
+            return
+
+        def send(event: int, *, is_placed: bool = True, entry: int = 0) -> None:
+            point = grip.point if is_placed else None
+            values = values_of(event, marker, part.name, frames, server.client_id, point, entry)
+            if values is not None:
+                server.outgoing.add(values)
+
+        if grip.kind == "press":
+            marker.press()
+        is_moved = grip.pose is not None and _moves(part.mode) and marker.is_held
+        if is_moved and grip.pose is not None:
+            is_moved = marker.drag(part.name, grip.pose, grip.turned, frames)
+            server.version += is_moved
+        if grip.kind == "press":
+            send(POSE_UPDATE, is_placed=False)
+            send(MOUSE_DOWN)
+        elif grip.kind == "move" and is_moved:
+            send(POSE_UPDATE, is_placed=False)
+        elif grip.kind == "hold":
+            send(KEEP_ALIVE, is_placed=False)
+        elif grip.kind == "release":
+            if part.mode == "button":
+                send(BUTTON_CLICK)
+            send(POSE_UPDATE, is_placed=False)
+            send(MOUSE_UP)
+            marker.release()
+            server.version += 1
+        elif grip.kind == "choose":
+            send(MENU_SELECT, entry=grip.entry)
+        wire.wake()
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A marker and its control: where it is and what it can do."""
+        state: _State = ctx.state
+        found = part_of(hit.key)
+        marker = state.server.find(found[0]) if state.server and found else None
+        return None if marker is None or found is None else details(marker, found[1])
+
+
+def _moves(mode: str) -> bool:
+    return mode.startswith(("move", "rotate"))

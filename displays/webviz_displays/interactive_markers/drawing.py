@@ -1,0 +1,202 @@
+"""The groups of the scene that show an interactive marker."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import msgspec
+import numpy as np
+
+from webviz import Axes, Context, Frames, Group, Instances, Labels, Node, Pose, compose
+from webviz.data.messages.markers import Content, Marker, MarkerSequence
+from webviz.data.rotations import conjugate, from_axis_angle, matrices, multiply_many
+from webviz.data.transforms.geometry import REACH_M
+from webviz_displays.interactive_markers.completion import Part
+from webviz_displays.interactive_markers.tracked import Place, Tracked
+from webviz_displays.markers.batch import Batch, batch_of
+from webviz_displays.markers.nodes import nodes_of
+
+TITLE_AT = 1.4
+TITLE_HEIGHT = 0.15
+AXES_RADIUS = 0.05
+"""Sizes are multiples of the scale of the marker."""
+LETTER = 0.5
+"""Width of a letter, as a multiple of its height."""
+TITLE = "title"
+"""Ends the key of the group with the title."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is drawn besides controls.
+
+    Args:
+        titles, axes: whether they are.
+        is_transparent: whether controls are as transparent as the server says; else opaque.
+    """
+
+    titles: bool
+    axes: bool
+    is_transparent: bool
+
+
+class Shown:
+    """The groups of one interactive marker, made anew only if something changes."""
+
+    def __init__(self) -> None:
+        self.lost: str = ""
+        """Why a shape is missing, a sentence."""
+        self._of: object = None
+        self._parts: tuple[Part, ...] = ()
+        self._nodes: list[dict[str, Node]] = []
+        self._look: Look | None = None
+        self._pinned: dict[tuple[int, int], Pose] = {}
+        self._groups: dict[str, Group] = {}
+
+    def draw(self, marker: Tracked, place: Place, look: Look, ctx: Context) -> None:
+        """Add the groups to a context."""
+        same = marker.version, place, look
+        if self._of != same or self.lost:
+            self._of = same
+            before = set(ctx.groups)
+            self._make(marker, place, look, ctx)
+            self._groups = {key: ctx.groups[key] for key in ctx.groups.keys() - before}
+        else:
+            ctx.groups.update(self._groups)
+
+    def _make(self, marker: Tracked, place: Place, look: Look, ctx: Context) -> None:
+        made = marker.made
+        if self._parts is not made.parts or self._look != look or self.lost:
+            self._renew(marker, place, look, ctx.frames)
+        whole = self._group(ctx, place, marker.key, place.pose.wxyz)
+        whole.lines(f"place/{marker.key}", (), (0, 0, 0))  # for pages, even if it is empty
+        for index, (part, nodes) in enumerate(zip(made.parts, self._nodes, strict=True)):
+            group = whole
+            if has_own_group(part):
+                wxyz = orientation(part, place.pose, marker.turned.get(part.name, 0.0))
+                key = f"{marker.key}.{index}{'v' * (part.facing == 'view_facing')}"
+                group = self._group(ctx, place, key, wxyz)
+            group.nodes.update(nodes)
+        if look.axes:
+            zero, unit = np.zeros((1, 3), np.float32), np.array([(1, 0, 0, 0)], np.float32)
+            whole.add(f"axes/{marker.key}", Axes(zero, unit, made.scale, AXES_RADIUS * made.scale))
+        if look.titles and made.description:
+            title = self._group(ctx, place, f"{marker.key}.{TITLE}", (1.0, 0.0, 0.0, 0.0))
+            at = np.array([(0.0, 0.0, TITLE_AT * made.scale)], np.float32)
+            title.add(
+                f"{TITLE}/{marker.key}",
+                Labels(at, (made.description,), TITLE_HEIGHT * abs(made.scale)),
+            )
+
+    def _group(
+        self, ctx: Context, place: Place, key: str, wxyz: tuple[float, float, float, float]
+    ) -> Group:
+        offset = Pose(place.pose.position, wxyz)
+        return ctx.follow(place.frame, offset=offset, is_rigid=True, key=key)
+
+    def _renew(self, marker: Tracked, place: Place, look: Look, frames: Frames) -> None:
+        parts = marker.made.parts
+        if self._parts is not parts:
+            self._pinned.clear()
+        self._parts, self._look, self.lost = parts, look, ""
+        self._nodes = []
+        for index, part in enumerate(parts):
+            batch = self._placed(index, part, marker, place, frames)
+            if not look.is_transparent:
+                batch = _opaque(batch)
+            nodes = nodes_of(batch)
+            if part.mode != "none" and (batch.types == Marker.TEXT_VIEW_FACING).any():
+                nodes["grip"] = _around_texts(batch)
+            whose = f"c{index}/{marker.key}"
+            self._nodes.append({f"{whose}/{key}": node for key, node in nodes.items()})
+
+    def _placed(
+        self, index: int, part: Part, marker: Tracked, place: Place, frames: Frames
+    ) -> Batch:
+        """The shapes in the coordinates of their group; those in their own frame are pinned."""
+        shapes = part.shapes
+        batch = batch_of(shapes)
+        numbers = np.column_stack((shapes.positions, shapes.orientations, shapes.scales))
+        with np.errstate(invalid="ignore"):
+            is_fine = np.all(np.abs(numbers) <= REACH_M, axis=1)
+        named = [row for row, frame in enumerate(shapes.frame_ids) if frame]
+        positions, wxyzs = batch.positions.copy(), batch.wxyzs.copy()
+        for row in (row for row in named if is_fine[row]):
+            own = Pose(tuple(positions[row].tolist()), tuple(wxyzs[row].tolist()))
+            pinned = self._pinned.get((index, row)) or self._pin(
+                marker, part, place, frames, shapes, row
+            )
+            if pinned is None:
+                is_fine[row] = False
+                continue
+            self._pinned[index, row] = pinned
+            pose = compose(pinned, own)
+            positions[row], wxyzs[row] = pose.position, pose.wxyz
+        if part.facing == "view_facing" and has_own_group(part):
+            # Pages turn the axes of the control to the camera.
+            positions = positions @ matrices(part.wxyz)
+            wxyzs = multiply_many(conjugate(part.wxyz), wxyzs)
+        return replace(batch, positions=positions, wxyzs=wxyzs).only(np.flatnonzero(is_fine))
+
+    def _pin(
+        self,
+        marker: Tracked,
+        part: Part,
+        place: Place,
+        frames: Frames,
+        shapes: MarkerSequence,
+        row: int,
+    ) -> Pose | None:
+        """The frame of a shape in the coordinates of its control."""
+        frame, stamp_ns = shapes.frame_ids[row].removeprefix("/"), int(shapes.stamps_ns[row])
+        at, base = frames.at(frame, stamp_ns), frames.latest(place.frame)
+        if at is None or base is None:
+            self.lost = frames.why_not(frame, stamp_ns)
+            return None
+        wxyz = orientation(part, place.pose, marker.turned.get(part.name, 0.0))
+        return compose(_inverse(compose(base, Pose(place.pose.position, wxyz))), at)
+
+
+def has_own_group(part: Part) -> bool:
+    """Whether the shapes of a control are turned apart from the marker."""
+    return part.facing == "fixed" or (part.facing == "view_facing" and not part.is_independent)
+
+
+def orientation(part: Part, pose: Pose, turned: float) -> tuple[float, float, float, float]:
+    """Of the group of a control, given the pose of its marker; pages turn it to the camera."""
+    if part.facing == "fixed":
+        x, y, z = matrices(part.wxyz)[:, 0].tolist()
+        return from_axis_angle((x, y, z), turned)
+    return (1.0, 0.0, 0.0, 0.0) if has_own_group(part) else pose.wxyz
+
+
+def _around_texts(batch: Batch) -> Instances:
+    """Invisible balls around texts, since browsers cannot hit letters."""
+    rows = np.flatnonzero(batch.types == Marker.TEXT_VIEW_FACING)
+    heights = batch.scales[rows, 2]
+    lengths = [max(map(len, batch.contents[row].text.split("\n"))) for row in rows.tolist()]
+    widths = np.maximum(LETTER * heights * lengths, heights)
+    sizes = np.column_stack((widths, widths, heights)).astype(np.float32)
+    xyz = batch.positions[rows].astype(np.float32)
+    return Instances(xyz, np.abs(sizes), (0, 0, 0), "sphere", opacity=0.0)
+
+
+def _inverse(pose: Pose) -> Pose:
+    w, x, y, z = pose.wxyz
+    px, py, pz = (-matrices(pose.wxyz).T @ pose.position).tolist()
+    return Pose((px, py, pz), (w, -x, -y, -z))
+
+
+def _opaque(batch: Batch) -> Batch:
+    """Shapes without transparency, but for those that are invisible."""
+
+    def solid(content: Content) -> Content:
+        return msgspec.structs.replace(content, colors=_solid(content.colors))
+
+    contents = [solid(each) if len(each.colors) else each for each in batch.contents]
+    return replace(batch, colors=_solid(batch.colors), contents=contents)
+
+
+def _solid(colors: np.ndarray) -> np.ndarray:
+    alpha = np.where(colors[:, 3] > 0.0, np.float32(1.0), colors[:, 3])
+    return np.column_stack((colors[:, :3], alpha)).astype(np.float32)

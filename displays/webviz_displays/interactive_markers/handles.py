@@ -1,0 +1,109 @@
+"""The arrows, rings and texts of controls without markers of their own.
+
+Sizes are multiples of the scale of the interactive marker. The x axis of a control is what it moves
+along or turns about, its y-z plane what it moves in.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz.api.handles import Mode
+from webviz.data.messages import Point, Pose, Quaternion, Vector3
+from webviz.data.messages.markers import ColorRGBA, Marker
+from webviz.data.rotations import matrices
+
+ARROW = 0.5, 0.9
+"""Where an arrow begins and ends, from the middle."""
+ARROW_SIZE = 0.15, 0.25, 0.2
+"""Diameters of its shaft and head, and the length of the head."""
+RING = 0.5, 0.65
+"""Inner and outer radius."""
+RING_STEPS = 36
+ALPHA = 0.5
+DARK = 0.6
+"""Shade of every other tooth of a ring."""
+TEXT_HEIGHT = 0.25
+TEXT_AT = -0.025, 0.0, 1.175
+
+Wxyz = tuple[float, float, float, float]
+
+
+def handles_of(mode: Mode, wxyz: Wxyz, scale: float, text: str) -> list[Marker]:
+    """What to draw for a control of a mode; nothing for some.
+
+    Args:
+        wxyz: orientation of the control.
+        scale: of the interactive marker.
+        text: of a menu.
+    """
+    w, x, y, z = wxyz
+    turned = Pose(orientation=Quaternion(x, y, z, w))
+    color = _color(wxyz)
+    if mode == "move_axis":
+        return [
+            Marker(
+                type=Marker.ARROW,
+                pose=turned,
+                scale=Vector3(*(scale * size for size in ARROW_SIZE)),
+                color=color,
+                points=np.array([(sign * scale * at, 0.0, 0.0) for at in ARROW]),
+            )
+            for sign in (1.0, -1.0)
+        ]
+    if mode in ("move_plane", "rotate_axis", "move_rotate"):
+        points, shades = _ring(mode)
+        colors = np.column_stack(
+            (shades[:, None] * (color.r, color.g, color.b), np.full(len(shades), ALPHA))
+        )
+        return [
+            Marker(
+                type=Marker.TRIANGLE_LIST,
+                pose=turned,
+                scale=Vector3(scale, scale, scale),
+                color=color,
+                points=points,
+                colors=colors.astype(np.float32),
+            )
+        ]
+    if mode == "menu" and text:
+        size = TEXT_HEIGHT * scale
+        return [
+            Marker(
+                type=Marker.TEXT_VIEW_FACING,
+                pose=Pose(Point(*(scale * at for at in TEXT_AT))),
+                scale=Vector3(size, size, size),
+                color=ColorRGBA(1.0, 1.0, 1.0, 1.0),
+                text=text,
+            )
+        ]
+    return []
+
+
+def _color(wxyz: Wxyz) -> ColorRGBA:
+    """The direction of the x axis: red along x, green along y, blue along z."""
+    axis = np.abs(matrices(wxyz)[:, 0])
+    r, g, b = (axis / axis.max()).tolist()
+    return ColorRGBA(r, g, b, ALPHA)
+
+
+def _ring(mode: Mode) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The corners of the triangles of a ring, (6 n, 3), and a shade for each triangle, (2 n,)."""
+    angle = np.arange(RING_STEPS) * (2.0 * np.pi / RING_STEPS)
+    circle = np.column_stack((np.zeros(RING_STEPS), np.cos(angle), np.sin(angle)))
+    inner, outer = RING[0] * circle, RING[1] * circle
+    here, next_, after = (np.roll(np.arange(RING_STEPS), -step) for step in range(3))
+    if mode == "move_plane":
+        first = inner[here], outer[here], inner[next_]
+        second = inner[next_], outer[here], outer[next_]
+    else:  # teeth that point outwards, with others between them
+        first = inner[here], outer[next_], inner[next_]
+        second = inner[next_], outer[next_], outer[after]
+    points = np.stack((*first, *second), axis=1).reshape(-1, 3)
+    shades = np.ones((RING_STEPS, 2))
+    if mode == "rotate_axis":
+        shades[::2] = DARK
+    elif mode == "move_rotate":
+        shades[:, 0] = DARK
+    return points, shades.reshape(-1)

@@ -1,0 +1,36 @@
+"""What is known of an interactive marker that was selected."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from webviz import Details
+from webviz_displays.interactive_markers.tracked import Tracked
+
+_KEY = re.compile(r"(?:c(\d+)|\w+)/(m\d+)")
+
+
+def part_of(key: str) -> tuple[str, int | None] | None:
+    """The key of the marker that a node belongs to, and the index of its control, if of one."""
+    found = _KEY.match(key)
+    return (found[2], None if found[1] is None else int(found[1])) if found else None
+
+
+def details(marker: Tracked, index: int | None) -> Details:
+    """A marker, and one of its controls."""
+    made, place = marker.made, marker.source
+    values: dict[str, object] = {"Marker": made.name}
+    if made.description:
+        values["Description"] = made.description
+    if index is not None and index < len(made.parts):
+        part = made.parts[index]
+        values["Control"] = part.name or "(no name)"
+        values["Interaction"] = part.mode.replace("_", " ")
+        if part.help:
+            values["Help"] = part.help
+        if turned := marker.turned.get(part.name):
+            values["Turned by"] = f"{math.degrees(turned):.1f}°"
+    values[f"Pose in {place.frame}"] = place.pose
+    values["Scale"] = made.scale
+    return Details(f"Interactive marker {made.name}", values)

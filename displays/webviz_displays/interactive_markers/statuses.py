@@ -1,0 +1,57 @@
+"""What is reported about interactive markers."""
+
+from __future__ import annotations
+
+from webviz import Context
+from webviz_displays.interactive_markers.server import Server
+
+MAX_ROWS = 20
+"""Markers with a status of their own."""
+
+
+def report(server: Server, refusal: str, ctx: Context) -> None:
+    """Report how the connection is, and each marker."""
+    status = server.client.status(len(server.markers))
+    ctx.statuses["Server"] = status
+    if refusal:
+        ctx.warn("Feedback", f"Markers cannot be moved from here. {refusal}")
+    if server.too_many:
+        count = len(server.markers)
+        ctx.warn("Markers", f"{server.too_many} more markers are not shown; the limit is {count}.")
+    troubles = _troubles(server, ctx)
+    for name, (is_error, text) in list(troubles.items())[:MAX_ROWS]:
+        (ctx.error if is_error else ctx.warn)(name, text)
+    if len(troubles) > MAX_ROWS:
+        ctx.warn("Others", f"{len(troubles) - MAX_ROWS} more markers have problems.")
+    for name in list(server.markers.keys() - troubles.keys())[: MAX_ROWS - len(troubles)]:
+        marker = server.markers[name]
+        place = marker.place(ctx.frames)
+        if place is None:
+            continue
+        if marker.is_locked:
+            ctx.ok(name, f"Locked to frame {place.frame}.")
+        else:
+            ctx.ok(name, "Position is fixed.")
+
+
+def _troubles(server: Server, ctx: Context) -> dict[str, tuple[bool, str]]:
+    """What is wrong with markers, by name: whether it is an error, and a sentence."""
+    found = {name: (True, text) for name, text in server.ignored.items()}
+    frames = ctx.frames
+    for name, marker in server.markers.items():
+        if name in found:
+            continue
+        place, source = marker.place(frames), marker.source
+        if not source.frame:
+            found[name] = True, "Its header has no frame id. Correct the server."
+        elif place is None:
+            found[name] = True, frames.why_not(source.frame, source.stamp_ns)
+        elif lost := server.shown[name].lost:
+            found[name] = True, lost
+        elif marker.made.problems:
+            found[name] = False, marker.made.problems[0]
+        elif not marker.made.parts:
+            found[name] = False, "It has no controls, so only its title is shown."
+        elif frames.latest(place.frame) is None:
+            found[name] = True, frames.why_not(place.frame)
+    return found

@@ -1,0 +1,390 @@
+"""Interactive markers in two browsers, moved with a real mouse, on a server over DDS."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import playwright.sync_api as playwright
+import pytest
+from pages import open_pages
+
+import webviz
+from webviz.engine.commands import ShowView
+from webviz.files.config import Config
+from webviz.files.opening import parse
+from webviz.shell.app.running import checked_view
+from webviz.shell.pictures.browser import Page
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+from basic_controls import basic_controls
+from geometry_msgs.msg import Pose
+from marker_server import Feedback, MarkerServer
+
+from webviz.edges.ros.node import RosSource
+
+KEEP_ALIVE, UPDATE, MENU, CLICK, DOWN, UP = range(6)
+NAMESPACE = "/basic_controls"
+CONFIG = f"""\
+fixed_frame: base_link
+displays:
+- {{type: Grid}}
+- {{type: InteractiveMarkers, interactive_markers_namespace: {NAMESPACE}}}
+"""
+
+
+@pytest.fixture(scope="module")
+def server(ros_env: dict[str, str]) -> Iterator[MarkerServer]:
+    server = MarkerServer(NAMESPACE, int(ros_env["ROS_DOMAIN_ID"]), basic_controls())
+    server.transform("base_link", "moving_frame", 0.5, 0.0, 0.0)
+    yield server
+    server.close()
+
+
+@pytest.fixture(scope="module")
+def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
+    def read(_: object) -> Config:
+        return parse(CONFIG, "x.yaml")
+
+    source = RosSource(domain_id=int(ros_env["ROS_DOMAIN_ID"]))
+    with webviz.Viewer(port=0, source=source, read=read) as viewer:
+        yield viewer
+
+
+@pytest.fixture(scope="module")
+def pages(
+    browser: playwright.Browser, viewer: webviz.Viewer, server: MarkerServer
+) -> Iterator[list[Page]]:
+    with open_pages(browser, viewer.url, 900, 700) as opened:
+        for page in opened:
+            page.wait_for(lambda page=page: len(known(page)) == 13, "all markers", 60)
+            page.tab.evaluate("document.body.classList.add('wv-folded')")
+        yield opened
+
+
+@pytest.fixture
+def page(pages: list[Page], server: MarkerServer) -> Page:
+    pages[0].tab.mouse.up()  # of a test that failed
+    server.feedback.clear()
+    server.callback = lambda feedback: None
+    pages[0].tab.mouse.move(450, 695)
+    return pages[0]
+
+
+def known(page: Page) -> dict[str, Any]:
+    """The handles that a page knows, by the name of their marker."""
+    return page.tab.evaluate(
+        """async () => {
+          const { all } = await import("/webviz/handles/known.js");
+          return Object.fromEntries([...all()].map(([id, each]) => [each.name, { id, ...each }]));
+        }"""
+    )
+
+
+def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
+    """Where a page shows a marker in its frame: position and orientation, w first."""
+    found = page.tab.evaluate(
+        """async (id) => (await import("/webviz/handles/poses.js")).poseOf(id)""",
+        known(page)[name]["id"],
+    )
+    return found["position"], found["wxyz"]
+
+
+def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
+    """Where a point of the fixed frame is in the window."""
+    x, y = page.tab.evaluate(
+        """async (point) => {
+          const { frameNode, sightOf } = await import("/webviz/handles/sight.js");
+          return sightOf(frameNode("")).project(point);
+        }""",
+        list(point),
+    )
+    return x, y
+
+
+def look_at(page: Page, viewer: webviz.Viewer, x: float, y: float, **view: Any) -> None:
+    """Look down at a place, with +x to the right and +y up, 100 pixels a metre."""
+    wanted = {"type": "TopDownOrtho", "scale": 100.0, "x": x, "y": y, **view}
+    viewer.do(ShowView(checked_view(wanted)))
+    page.draw()
+
+
+def drag(
+    page: Page, start: Sequence[float], end: Sequence[float], button: Any = "left", steps: int = 6
+) -> None:
+    mouse = page.tab.mouse
+    mouse.move(*on_screen(page, start))
+    mouse.down(button=button)
+    mouse.move(*on_screen(page, end), steps=steps)
+    mouse.up(button=button)
+
+
+def wait_for(page: Page, server: MarkerServer, event: int, count: int = 1) -> list[Feedback]:
+    """All feedback, once so many of an event have come."""
+    page.wait_for(
+        lambda: [each.event_type for each in server.feedback].count(event) >= count,
+        f"event {event}",
+        60,
+    )
+    return list(server.feedback)
+
+
+def test_a_drag_in_a_plane_moves_the_marker_and_reports_every_step(
+    page: Page, pages: list[Page], viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    """The box snaps to the middle of its square when it is let go, as its server wants it."""
+
+    def snap(feedback: Feedback) -> None:
+        if feedback.event_type == UPDATE:
+            at, snapped = feedback.pose.position, Pose(orientation=feedback.pose.orientation)
+            snapped.position.x = math.floor(at.x) + 0.5
+            snapped.position.y = math.floor(at.y) + 0.5
+            server.set_pose("chess_piece", snapped)
+
+    server.callback = snap
+    look_at(page, viewer, 3.0, -3.0)
+    drag(page, (3.0, -3.0, 0.2), (4.2, -2.1, 0.2))
+    feedback = wait_for(page, server, UP)
+    events = [each.event_type for each in feedback if each.event_type != KEEP_ALIVE]
+    assert events[:2] == [UPDATE, DOWN]
+    assert set(events[2:-1]) == {UPDATE}
+    assert events[-1] == UP
+    down, up = feedback[1], feedback[-1]
+    assert (up.marker_name, up.control_name) == ("chess_piece", "")
+    assert (up.header.frame_id, up.header.stamp.sec) == ("base_link", 0)
+    assert (up.pose.position.x, up.pose.position.y) == pytest.approx((4.2, -2.1), abs=0.02)
+    assert down.mouse_point_valid
+    assert (down.mouse_point.x, down.mouse_point.y) == pytest.approx((3.0, -3.0), abs=0.02)
+    assert (up.mouse_point.x, up.mouse_point.y) == pytest.approx((4.2, -2.1), abs=0.02)
+    assert up.mouse_point.z == pytest.approx(0.225, abs=0.01)
+    assert len({each.client_id for each in feedback}) == 1
+    for each in pages:
+        each.wait_for(
+            lambda each=each: pose(each, "chess_piece")[0][:2] == pytest.approx([4.5, -2.5]),
+            "the middle of the square",
+        )
+
+
+def test_a_ring_turns_the_marker_and_an_arrow_moves_it_along_its_axis(
+    page: Page, viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    look_at(page, viewer, -3.0, -6.0)
+    radius = 0.57
+    corner = radius * math.sqrt(0.5)
+    drag(page, (-3.0 + radius, -6.0, 0.0), (-3.0 + corner, -6.0 + corner, 0.0))
+    last = wait_for(page, server, UP)[-1]
+    turned = 2.0 * math.atan2(last.pose.orientation.z, last.pose.orientation.w)
+    assert turned == pytest.approx(math.pi / 4, abs=0.03)
+    assert (last.pose.position.x, last.pose.position.y) == (-3.0, -6.0)
+
+    server.feedback.clear()
+    look_at(page, viewer, 0.0, 3.0)
+    drag(page, (0.8, 3.0, 0.0), (1.5, 3.4, 0.0))
+    last = wait_for(page, server, UP)[-1]
+    assert last.control_name == "move_x"
+    assert (last.pose.position.x, last.pose.position.y) == pytest.approx((0.7, 3.0), abs=0.02)
+
+
+def test_buttons_and_menus_report_clicks_and_no_shell_command_is_offered(
+    page: Page, viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    look_at(page, viewer, 0.0, -9.0)
+    page.tab.mouse.click(*on_screen(page, (0.0, -9.0, 0.2)))
+    events = [each.event_type for each in wait_for(page, server, UP)]
+    assert events == [UPDATE, DOWN, CLICK, UPDATE, UP]
+
+    server.feedback.clear()
+    look_at(page, viewer, 3.0, -6.0)
+    place = on_screen(page, (3.0, -6.0, 0.2))
+    page.tab.mouse.click(*place)
+    menu = page.tab.locator(".wv-menu").first
+    menu.get_by_text("Submenu").click()
+    disabled = page.tab.get_by_text("Format the disk").locator("xpath=..")
+    assert disabled.get_attribute("aria-disabled") == "true"
+    assert "shell command" in (disabled.get_attribute("data-tip") or "")
+    page.tab.get_by_text("First Subentry").click()
+    chosen = wait_for(page, server, MENU)[-1]
+    assert (chosen.menu_entry_id, chosen.control_name) == (4, "menu_only_control")
+    assert chosen.mouse_point_valid
+    assert page.tab.locator(".wv-menu").count() == 0
+
+
+def test_one_browser_drags_and_others_see_who(
+    page: Page, pages: list[Page], viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    other = pages[1]
+    look_at(page, viewer, 0.0, -6.0)
+    other.draw()
+    number = page.tab.evaluate("window.webviz.browser")
+    page.tab.mouse.move(*on_screen(page, (0.5, -6.0, 0.2)))
+    page.tab.mouse.down()
+    page.tab.mouse.move(*on_screen(page, (0.9, -6.0, 0.2)), steps=4)
+    other.wait_for(lambda: known(other)["moving"]["holder"] == number, "the holder")
+    other.wait_for(
+        lambda: pose(other, "moving")[0][0] == pytest.approx(0.4, abs=0.03), "the drag elsewhere"
+    )
+    other.tab.mouse.move(*on_screen(other, (0.9, -6.0, 0.2)))
+    other.tab.mouse.down()
+    hint = other.tab.locator(".wv-hint")
+    other.wait_for(
+        lambda: f"Browser {number} holds it." in (hint.text_content() or ""), "who drags"
+    )
+    other.tab.mouse.up()
+    wait_for(page, server, KEEP_ALIVE)
+    page.tab.mouse.up()
+    feedback = wait_for(page, server, UP)
+    assert len(feedback) == len([each for each in feedback if each.marker_name == "moving"])
+    assert feedback[-1].header.frame_id == "moving_frame"
+    assert feedback[-1].pose.position.x == pytest.approx(0.4, abs=0.03)
+    assert feedback[-1].mouse_point.x == pytest.approx(0.4, abs=0.03)
+    other.wait_for(lambda: known(other)["moving"]["holder"] is None, "the release")
+
+
+def test_controls_are_lit_under_the_pointer_and_hidden_from_other_tools(
+    page: Page, viewer: webviz.Viewer
+) -> None:
+    look_at(page, viewer, 3.0, -3.0)
+    at, _ = pose(page, "chess_piece")
+    ring = on_screen(page, (at[0] + 0.57, at[1], 0.0))
+    dark = page.tab.screenshot(clip=clip(ring))
+    page.tab.mouse.move(*ring)
+    page.wait_for(lambda: page.tab.screenshot(clip=clip(ring)) != dark, "light")
+    hint = page.tab.locator(".wv-hint")
+    page.wait_for(lambda: "Left-click: Move." in (hint.text_content() or ""), "what it does")
+    page.tab.mouse.move(450, 695)
+    page.wait_for(lambda: page.tab.screenshot(clip=clip(ring)) == dark, "no light")
+    page.tab.keyboard.press("m")
+    page.wait_for(lambda: not is_visible(page, "chess_piece", 1), "no ring")
+    assert is_visible(page, "chess_piece", 0), "the box is always visible"
+    page.tab.keyboard.press("i")
+    page.wait_for(lambda: is_visible(page, "chess_piece", 1), "the ring")
+
+
+def clip(place: tuple[float, float]) -> Any:
+    return {"x": place[0] - 4, "y": place[1] - 4, "width": 8, "height": 8}
+
+
+def is_visible(page: Page, name: str, control: int) -> bool:
+    return page.tab.evaluate(
+        """async ([id, control]) => {
+          const { nodesOf } = await import("/webviz/handles/known.js");
+          const { node } = await import("/webviz/viser_page.js");
+          return nodesOf(id).parts.get(control).every((path) => node(path).visible);
+        }""",
+        [known(page)[name]["id"], control],
+    )
+
+
+def test_controls_that_face_the_camera_do_so_in_every_view(
+    page: Page, viewer: webviz.Viewer
+) -> None:
+    """The ring around the x axis of its control is seen from the front: as wide as it is tall."""
+    marker = known(page)["view_facing"]["id"]
+    ahead, left, up = [0.0, 0.0, -1.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]
+
+    def axes() -> Any:
+        return page.tab.evaluate(
+            """async (id) => {
+              const { nodesOf } = await import("/webviz/handles/known.js");
+              const { node, camera } = await import("/webviz/viser_page.js");
+              const group = node(nodesOf(id).groups.get("0v"));
+              const seen = camera().matrixWorldInverse.clone().multiply(group.matrixWorld);
+              return seen.elements.slice(0, 12);
+            }""",
+            marker,
+        )
+
+    wanted = pytest.approx([*ahead, *left, *up], abs=1e-6)
+    for yaw, pitch in ((0.3, 0.2), (2.5, 1.2)):
+        view = {"distance": 6.0, "yaw": yaw, "pitch": pitch, "focal_point": [-3.0, -3.0, 0.0]}
+        viewer.do(ShowView(checked_view({"type": "Orbit", **view})))
+        page.draw()
+        page.wait_for(lambda: axes() == wanted, "facing the camera")
+
+
+S = math.sqrt(0.5)
+DOWN_Z = [S, 0.0, S, 0.0]
+"""Turns the x axis to -z."""
+IDENTITY = [1.0, 0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("control", "pose", "grab", "pointers", "expected"),
+    [
+        # 2.7 m is 1 m more than where it was gripped, however far beside the axis.
+        ("move_axis", [1, 2, 0], [1.7, 2, 0], [{"to": [2.7, 5]}], ([2, 2, 0], IDENTITY, 0)),
+        ("move_plane down", [1, 2, 0], [1, 2, 0.3], [{"to": [2, 3]}], ([2, 3, 0], IDENTITY, 0)),
+        # A quarter to the left is a quarter to the right about -z.
+        ("rotate_axis down", [1, 2, 0], [2, 2, 0], [{"to": [1, 4]}],
+         ([1, 2, 0], [S, 0, 0, S], -math.pi / 2)),
+        # The rope of 1 m is pulled straight.
+        ("move_rotate down", [0, 0, 0], [1, 0, 0], [{"to": [2, 0]}], ([1, 0, 0], IDENTITY, 0)),
+        ("move_rotate down", [0, 0, 0], [1, 0, 0], [{"to": [0, 1]}],
+         ([0, 0, 0], [S, 0, 0, S], -math.pi / 2)),
+        ("move_3d", [1, 1, 1], [1, 1, 1], [{"to": [3, 0]}], ([3, 0, 1], IDENTITY, 0)),
+        # Up the screen is away from the camera, by 1 cm a pixel; a notch is 20 pixels closer.
+        ("move_3d", [1, 1, 1], [1, 1, 1], [{"to": [1, 1.1], "shift": True}],
+         ([1, 1, 0.9], IDENTITY, 0)),
+        ("move_3d", [1, 1, 1], [1, 1, 1], [{"to": [1, 1], "wheel": 1}],
+         ([1, 1, 1.2], IDENTITY, 0)),
+        # What Shift has moved stays when it is let go.
+        ("move_3d", [1, 1, 1], [1, 1, 1],
+         [{"to": [1, 2], "shift": True}, {"to": [2, 2]}], ([2, 1, 0], IDENTITY, 0)),
+        # 300 pixels are a whole turn.
+        ("rotate_3d", [0, 0, 0], [0, 0, 0], [{"to": [0.75, 0]}], ([0, 0, 0], [S, 0, S, 0], 0)),
+        ("rotate_3d", [0, 0, 0], [0, 0, 0], [{"to": [0.75, 0], "shift": True}],
+         ([0, 0, 0], [S, 0, 0, -S], 0)),
+        ("move_rotate_3d", [0, 0, 0], [0, 0, 0], [{"to": [0, -0.75], "ctrl": True}],
+         ([0, 0, 0], [S, S, 0, 0], 0)),
+        ("move_rotate_3d", [0, 0, 0], [0, 0, 0], [{"to": [1, 0]}], ([1, 0, 0], IDENTITY, 0)),
+        # Facing the camera, the plane is that of the screen, whatever the control says.
+        ("move_plane view_facing", [0, 0, 5], [0, 0, 5], [{"to": [2, 3]}],
+         ([2, 3, 5], IDENTITY, 0)),
+        # An axis that points to the camera, and a plane that is seen from the side.
+        ("move_axis down", [0, 0, 0], [0, 0, 0], [{"to": [2, 3]}], None),
+        ("move_plane", [0, 0, 0], [0, 0, 0], [{"to": [2, 3]}], None),
+        ("button", [0, 0, 0], [0, 0, 0], [{"to": [2, 3]}], None),
+    ],
+)  # fmt: skip
+def test_drags_follow_the_rules_of_rviz(
+    page: Page, control: str, pose: Any, grab: Any, pointers: Any, expected: Any
+) -> None:
+    """The camera is 10 m above and sees 100 pixels a metre, without perspective."""
+    mode, _, way = control.partition(" ")
+    made = {
+        "mode": mode,
+        "facing": "view_facing" if way == "view_facing" else "inherit",
+        "wxyz": DOWN_Z if way == "down" else IDENTITY,
+    }
+    moved = page.tab.evaluate(
+        """async ({ control, pose, grab, pointers }) => {
+          const { begin } = await import("/webviz/handles/drags.js");
+          const place = ([x, y]) => [100 * x, -100 * y];
+          const sight = {
+            rayAt: ([x, y]) => ({ origin: [x / 100, -y / 100, 10], direction: [0, 0, -1] }),
+            project: place, perPixel: () => 0.01, unit: () => 1,
+            right: [1, 0, 0], up: [0, 1, 0], forward: [0, 0, -1],
+          };
+          let before = place(grab);
+          const whole = { position: pose, wxyz: [1, 0, 0, 0] };
+          const step = begin({ control, pose: whole, turned: 0, grab, sight, at: before });
+          let moved = null;
+          for (const { to, wheel = 0, shift = false, ctrl = false } of pointers) {
+            const at = place(to);
+            const by = [at[0] - before[0], at[1] - before[1]];
+            moved = step({ at, by, wheel, shift, ctrl }, sight);
+            before = at;
+          }
+          return moved;
+        }""",
+        {"control": made, "pose": pose, "grab": grab, "pointers": pointers},
+    )
+    if expected is None:
+        assert moved is None
+        return
+    position, wxyz, turned = expected
+    assert moved["position"] == pytest.approx(position, abs=1e-9)
+    assert moved["wxyz"] == pytest.approx(wxyz, abs=1e-9)
+    assert moved["turned"] == pytest.approx(turned, abs=1e-9)

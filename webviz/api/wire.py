@@ -1,0 +1,79 @@
+"""How a display follows a protocol of its own: topics, services and publishers at run time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What has happened on a topic since the last call.
+
+    Args:
+        messages: serialised with the encapsulation header, oldest first; each is passed once.
+        publishers: labels of the nodes that publish it with the right type.
+        is_ready: whether a subscription exists, so that no message is missed from now on.
+        has_gap: whether messages were dropped, or missed while nobody listened.
+    """
+
+    messages: Sequence[bytes] = ()
+    publishers: tuple[str, ...] = ()
+    is_ready: bool = False
+    has_gap: bool = False
+
+
+class Wire(Protocol):
+    """Passed to `Display.talk` and `Display.grip`; names are resolved like those of topics.
+
+    Topics that one call of `talk` does not name any more are unsubscribed and not published.
+    """
+
+    @property
+    def clock_s(self) -> float:
+        """Monotonic time in seconds."""
+        ...
+
+    @property
+    def node(self) -> str:
+        """Full name of the viewer's node."""
+        ...
+
+    def listen(self, topic: str, type: str, depth: int) -> Heard:
+        """Subscribe to a topic, reliable and volatile.
+
+        Raises:
+            ValueError: it is not a valid topic name; one sentence.
+        """
+        ...
+
+    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
+        """Call a service that changes nothing, with an empty request; its serialised response.
+
+        Viewers that may not publish can do so, too.
+
+        Raises:
+            ValueError: it is not a valid name; one sentence.
+        """
+        ...
+
+    def advertise(self, topic: str, type: str, depth: int) -> str:
+        """Create a publisher ahead of the first message, reliable and volatile.
+
+        Returns:
+            Why nothing may be published there, a sentence; "" if it may.
+
+        Raises:
+            ValueError: it is not a valid topic name; one sentence.
+        """
+        ...
+
+    def publish(self, topic: str, values: Mapping[str, Any]) -> None:
+        """Publish a message on a topic that is advertised."""
+        ...
+
+    def wake(self) -> None:
+        """Have `talk` called again soon, though nothing arrives."""
+        ...

@@ -1,0 +1,123 @@
+// What a drag does to the pose of a handle: RViz's rules, in the coordinates of its frame.
+//
+// `begin` takes where the drag begins, and returns what takes each step of it. Both get how the
+// camera sees the frame, see `sight.js`; a step also gets the pointer: `{at, by, wheel, shift,
+// ctrl}`, where it is in the window, by how many pixels it has moved and by how many notches the
+// wheel. A step returns `{position, wxyz, turned}`, or null where the pointer means nothing.
+
+import {
+  about, add, angleAbout, dot, norm, onLine, onPlane, rotate, scaled, sub, turnedBy, unit,
+} from "./vectors.js";
+
+const X = [1, 0, 0];
+const TURN = (2 * Math.PI) / 300; // radians per pixel
+const WHEEL_PX = 20; // that a notch of the wheel stands for
+
+/**
+ * Begins a drag of a control.
+ *
+ * `start`: `{control, pose, turned, grab, sight, at}`; `pose` is that of the handle, `turned` the
+ * angle by which the control has been turned so far, `grab` the point that is gripped.
+ */
+export function begin(start) {
+  const axis = axisOf(start);
+  const make = { move_axis: alongAxis, move_plane: inPlane, rotate_axis: aroundAxis,
+    move_rotate: towed, move_3d: freely, rotate_3d: freely, move_rotate_3d: freely,
+  }[start.control.mode];
+  const fixed = (step) => (pointer, sight) => {
+    const moved = step(pointer, sight);
+    return moved && { ...start.pose, turned: start.turned, ...moved };
+  };
+  return make ? fixed(make({ ...start, axis })) : () => null;
+}
+
+/** The x axis of a control, along which it moves, or about which it turns. */
+export function axisOf({ control, pose, sight }) {
+  if (control.facing === "view_facing") return sight.forward;
+  const own = rotate(control.wxyz, X);
+  return control.facing === "fixed" ? own : rotate(pose.wxyz, own);
+}
+
+// The point of the axis that is next to the pointer on the screen.
+function alongAxis({ pose, grab, axis }) {
+  return ({ at }, sight) => {
+    const ends = [grab, add(grab, scaled(axis, sight.unit(grab)))].map(sight.project);
+    if (ends.includes(null)) return null;
+    const [[x, y], [toX, toY]] = ends;
+    const [dx, dy] = [toX - x, toY - y];
+    const square = dx * dx + dy * dy;
+    if (square < 1e-6) return null; // it points to the camera
+    const along = ((at[0] - x) * dx + (at[1] - y) * dy) / square;
+    const found = onLine(sight.rayAt([x + along * dx, y + along * dy]), grab, axis);
+    return found && { position: add(pose.position, sub(found, grab)) };
+  };
+}
+
+function inPlane({ pose, grab, axis }) {
+  return ({ at }, sight) => {
+    const hit = onPlane(sight.rayAt(at), grab, axis);
+    return hit && { position: add(pose.position, sub(hit, grab)) };
+  };
+}
+
+function aroundAxis({ pose, turned, grab, axis }) {
+  const out = sub(grab, pose.position);
+  const middle = add(pose.position, scaled(axis, dot(out, axis)));
+  return ({ at }, sight) => {
+    const hit = onPlane(sight.rayAt(at), middle, axis);
+    if (!hit) return null;
+    const angle = angleAbout(axis, sub(grab, middle), sub(hit, middle));
+    return { wxyz: unit(turnedBy(about(axis, angle), pose.wxyz)), turned: turned + angle };
+  };
+}
+
+// As if towed by a rope of constant length: it turns towards the pointer, and follows it.
+function towed({ pose, turned, grab, axis }) {
+  let [{ position, wxyz }, handle, angle] = [pose, grab, turned];
+  return ({ at }, sight) => {
+    const out = sub(handle, position);
+    const middle = add(position, scaled(axis, dot(out, axis)));
+    const hit = onPlane(sight.rayAt(at), middle, axis);
+    if (!hit) return null;
+    const [before, now] = [sub(handle, middle), sub(hit, middle)];
+    if (norm(now) < 1e-9) return null;
+    const step = angleAbout(axis, before, now);
+    angle += step;
+    wxyz = unit(turnedBy(about(axis, step), wxyz));
+    position = add(position, scaled(now, 1 - norm(before) / norm(now)));
+    handle = hit;
+    return { position, wxyz, turned: angle };
+  };
+}
+
+// Moves in the plane of the screen, or turns like a ball; with Shift in depth, or like a wheel.
+function freely({ control, pose, grab, sight, at }) {
+  let { position, wxyz } = pose;
+  const away = sight.rayAt(at).direction;
+  let slide = null; // in the plane of the screen, since the keys mean that
+  return ({ at, by, wheel, shift, ctrl }, sight) => {
+    const gripped = add(grab, sub(position, pose.position));
+    if (control.mode === "rotate_3d" || (control.mode === "move_rotate_3d" && ctrl)) {
+      wxyz = unit(turnedBy(spin(by, shift, sight), wxyz));
+    } else if (shift || wheel) {
+      const [dx, dy] = shift ? by : [0, 0];
+      const up = Math.abs(dx) > Math.abs(dy) ? dx : -dy;
+      const pixels = up - wheel * WHEEL_PX;
+      position = add(position, scaled(away, pixels * sight.perPixel(gripped)));
+    } else {
+      const on = (xy) => onPlane(sight.rayAt(xy), gripped, sight.forward);
+      slide ??= { from: on(sub(at, by)), base: position, point: gripped };
+      const hit = onPlane(sight.rayAt(at), slide.point, sight.forward);
+      if (!hit || !slide.from) return null;
+      position = add(slide.base, sub(hit, slide.from));
+      return { position, wxyz };
+    }
+    slide = null;
+    return { position, wxyz };
+  };
+}
+
+function spin([dx, dy], shift, { up, right, forward }) {
+  if (shift) return about(forward, dx * TURN);
+  return turnedBy(about(up, dx * TURN), about(right, dy * TURN));
+}

@@ -1,0 +1,9 @@
+// What displays let people move in the scene.
+
+import * as known from "./known.js";
+import * as poses from "./poses.js";
+
+export function install() {
+  known.install();
+  poses.install();
+}

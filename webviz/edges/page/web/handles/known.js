@@ -1,0 +1,94 @@
+// The handles of the scene, and which of their parts is under a point of the window.
+
+import constants from "../constants.js";
+import { depthOf } from "../scene/picking/lens.js";
+import { pickAt } from "../scene/picking/pick.js";
+import { nodeNamed } from "../scene/picking/things.js";
+import { watch } from "../stores.js";
+import * as viser from "../viser_page.js";
+import { pathOf } from "./sight.js";
+
+const GROUP = /\|(m\d+)(?:\.([^|]*))?$/;
+const PART = /^c(\d+)\//;
+
+const listeners = new Set();
+let handles = new Map();
+let index = null; // what there is in the scene of each handle
+let indexed = 0;
+
+export function install() {
+  watch("handles", (values) => {
+    handles = values;
+    index = null;
+    for (const listener of listeners) listener();
+  });
+}
+
+/** All handles by id, those of the store `handles`. */
+export const all = () => handles;
+
+/** Calls `listener` when handles change. */
+export const onChange = (listener) => listeners.add(listener);
+
+/** The handle and the number of the control that a node belongs to, or null: `{id, control}`. */
+export function partOf({ group, key }) {
+  const { id } = groupOf(group) ?? {};
+  const part = PART.exec(key);
+  return handles.has(id) && part ? { id, control: Number(part[1]) } : null;
+}
+
+/** The id of the handle of a group, and what follows its key, or null: `{id, suffix}`. */
+export function groupOf(group) {
+  const found = GROUP.exec(group);
+  return found && { id: `${group.slice(0, group.indexOf("/"))}/${found[1]}`, suffix: found[2] ?? "" };
+}
+
+/**
+ * The control under a point of the window, or null: `{id, control, point}`, `point` in three.js'
+ * coordinates. What lies in front of it hides it.
+ */
+export function controlAt(xy) {
+  if (!handles.size) return null;
+  const found = pickAt(xy, isUsable);
+  if (!found) return null;
+  // Only now, since it looks at every point of the scene.
+  const other = pickAt(xy, (thing) => !isUsable(thing), 0);
+  if (other && depthOf(other.point) < depthOf(found.point)) return null;
+  return { ...partOf(found), point: found.point };
+}
+
+function isUsable({ node }) {
+  const part = partOf(node);
+  return part !== null && controlOf(part)?.mode !== "none";
+}
+
+/** A control by its handle and number. */
+export const controlOf = ({ id, control }) => handles.get(id)?.controls[control] ?? null;
+
+/**
+ * The names of viser's nodes of a handle: `{groups, parts}`, its groups by what follows the key,
+ * "" for the first, and the nodes of each control.
+ */
+export function nodesOf(id) {
+  const count = Object.keys(viser.nodes()).length;
+  if (index === null || count !== indexed) {
+    index = indexOf(Object.keys(viser.nodes()));
+    indexed = count;
+  }
+  return index.get(id) ?? { groups: new Map(), parts: new Map() };
+}
+
+function indexOf(names) {
+  const found = new Map();
+  for (const name of names) {
+    const node = name.startsWith(`${constants.ROOT}/`) ? nodeNamed(name) : null;
+    const place = node && groupOf(node.group);
+    if (!place || name !== node.path) continue;
+    if (!found.has(place.id)) found.set(place.id, { groups: new Map(), parts: new Map() });
+    const { groups, parts } = found.get(place.id);
+    groups.set(place.suffix, pathOf(node.group));
+    const part = PART.exec(node.key)?.[1];
+    if (part) parts.set(Number(part), [...(parts.get(Number(part)) ?? []), name]);
+  }
+  return found;
+}

@@ -1,0 +1,145 @@
+// Where handles are on this page: what it drags is where the drag puts it, whatever the server
+// says meanwhile, and controls that face the camera do so in every frame.
+
+import { nodeNamed } from "../scene/picking/things.js";
+import * as viser from "../viser_page.js";
+import * as known from "./known.js";
+import { frameNode } from "./sight.js";
+import { about, compose, inverse, rotate, turnedBy } from "./vectors.js";
+
+const FACING = /\|m\d+\.(title|\d+v)$/;
+const AFTER_PLACING = -999; // viser places nodes at -1000
+const SETTLE_FRAMES = 3; // for the server's own pose to arrive after a drag
+const X = [1, 0, 0];
+const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward, left and up
+
+const dragged = new Map(); // poses by id of the handle
+const placed = new WeakMap(); // by object, what viser has placed and what was put over it
+let facing = [];
+let counted = -1;
+
+export function install() {
+  viser.eachFrame(AFTER_PLACING, place);
+  viser.beforeRender(face);
+}
+
+/** The pose of a handle in its frame, `{position, wxyz}`, or null while it is not shown. */
+export function poseOf(id) {
+  const object = viser.node(known.nodesOf(id).groups.get(""));
+  const frame = frameNode(known.all().get(id)?.frame);
+  if (!object || !frame) return null;
+  return compose(inverted(localOf(frame)), localOf(object));
+}
+
+/** Shows a handle at a pose in its frame, with its control turned, until `letGo`. */
+export function put(id, control, { position, wxyz, turned }) {
+  dragged.set(id, { control, pose: { position, wxyz }, turned, frames: null });
+  viser.requestRender();
+}
+
+/** Shows a handle where the server wants it, once that can be known. */
+export function letGo(id) {
+  const each = dragged.get(id);
+  if (each) each.frames = SETTLE_FRAMES;
+  viser.requestRender();
+}
+
+function place() {
+  for (const [id, each] of dragged) {
+    const handle = known.all().get(id);
+    const mine = handle?.holder === window.webviz.browser;
+    if (each.frames !== null && !mine && each.frames-- <= 0) {
+      dragged.delete(id);
+      for (const path of known.nodesOf(id).groups.values()) restore(viser.node(path));
+    } else if (handle) {
+      putOver(id, handle, each);
+    }
+    if (each.frames !== null) viser.requestRender();
+  }
+}
+
+function putOver(id, { frame, controls }, { control, pose, turned }) {
+  const node = frameNode(frame);
+  if (!node) return;
+  const base = localOf(node);
+  for (const [suffix, path] of known.nodesOf(id).groups) {
+    const object = viser.node(path);
+    if (!object) continue;
+    const number = parseInt(suffix, 10);
+    const own = controls[number];
+    const angle = number === control ? turned : own?.turned;
+    const wxyz = own ? about(rotate(own.wxyz, X), angle) : pose.wxyz;
+    const whole = compose(base, { position: pose.position, wxyz });
+    keep(object);
+    object.position.fromArray(whole.position);
+    if (!isFacing(path)) turn(object, whole.wxyz);
+    placed.get(object).over = localOf(object);
+  }
+}
+
+// Turns groups that face the camera: their x axis points away from it, their z axis up.
+function face() {
+  const names = Object.keys(viser.nodes());
+  if (names.length !== counted) {
+    counted = names.length;
+    facing = names.filter(isFacing);
+  }
+  for (const path of facing) {
+    const object = viser.node(path);
+    if (!object?.parent) continue;
+    keep(object);
+    const before = localOf(object);
+    const camera = object.parent.matrixWorld.clone().invert().multiply(viser.camera().matrixWorld);
+    const { w, x, y, z } = object.quaternion.clone().setFromRotationMatrix(camera);
+    turn(object, turnedBy(turnedBy([w, x, y, z], FROM_CAMERA), about(X, turnedOf(path))));
+    const now = (placed.get(object).over = localOf(object));
+    object.updateMatrixWorld(true);
+    // Texts were placed before this, and follow in the next frame.
+    if (!isNearly(before.wxyz, now.wxyz)) viser.requestRender();
+  }
+}
+
+// By how much the control of a group that faces the camera has been turned.
+function turnedOf(path) {
+  const { id, suffix } = known.groupOf(nodeNamed(`${path}/-`).group);
+  const number = parseInt(suffix, 10);
+  const held = dragged.get(id);
+  if (held && held.control === number) return held.turned;
+  return known.all().get(id)?.controls[number]?.turned ?? 0;
+}
+
+function isFacing(path) {
+  if (path.split("/").length !== 3) return false;
+  const node = nodeNamed(`${path}/-`);
+  return node !== null && FACING.test(node.group);
+}
+
+// Notes what viser has placed; it does so only if there is something new.
+function keep(object) {
+  const now = localOf(object);
+  const known = placed.get(object);
+  if (!known || !same(known.over, now)) placed.set(object, { base: now, over: now });
+}
+
+function restore(object) {
+  const known = object && placed.get(object);
+  if (!known) return;
+  keep(object);
+  const { base } = placed.get(object);
+  object.position.fromArray(base.position);
+  turn(object, base.wxyz);
+  placed.delete(object);
+}
+
+const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
+  position: position.toArray(), wxyz: [w, x, y, z],
+});
+const turn = (object, [w, x, y, z]) => object.quaternion.set(x, y, z, w);
+const inverted = ({ position, wxyz }) => {
+  const back = inverse(wxyz);
+  return { position: rotate(back, position.map((value) => -value)), wxyz: back };
+};
+const same = (a, b) =>
+  a.position.every((value, i) => value === b.position[i]) &&
+  a.wxyz.every((value, i) => value === b.wxyz[i]);
+const isNearly = (a, b) => Math.abs(a.reduce((sum, value, i) => sum + value * b[i], 0)) > 1 - 1e-9;

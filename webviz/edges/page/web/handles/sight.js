@@ -1,0 +1,61 @@
+// How the camera sees a frame.
+
+import constants from "../constants.js";
+import { casterAt } from "../scene/rays.js";
+import * as viser from "../viser_page.js";
+
+const { ROOT } = constants;
+
+/** The name of viser's node of a group of the scene. */
+export const pathOf = (group) => `${ROOT}/${segment(group)}`;
+
+const segment = (text) =>
+  encodeURIComponent(text)
+    .replace(/[!'()*]/g, (letter) => `%${letter.charCodeAt(0).toString(16).toUpperCase()}`)
+    .replaceAll("%20", " ") || "%";
+
+/** The object whose coordinates are those of a frame, given its group, "" for the fixed frame. */
+export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
+
+/**
+ * How the camera sees the coordinates of an object: `rayAt(xy)` through a point of the window,
+ * `project(point)` to one, or null behind the camera; `right`, `up` and `forward`; `perPixel(point)`
+ * and `unit(point)`, how many metres a pixel is there, and a hundred.
+ */
+export function sightOf(object) {
+  object.updateWorldMatrix(true, false);
+  const camera = viser.camera();
+  const vector = (xyz) => camera.position.clone().fromArray(xyz);
+  const back = object.matrixWorld.clone().invert();
+  const whole = camera.matrixWorld.elements;
+  const direction = (column, sign) =>
+    vector(whole.slice(4 * column, 4 * column + 3))
+      .multiplyScalar(sign)
+      .transformDirection(back)
+      .toArray();
+  const rayAt = (xy) => {
+    const { origin, direction } = casterAt(xy).ray.applyMatrix4(back);
+    return { origin: origin.toArray(), direction: direction.toArray() };
+  };
+  const project = (point) => {
+    const place = vector(point).applyMatrix4(object.matrixWorld);
+    if (place.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;
+    const { x, y } = place.project(camera);
+    const { left, top, width, height } = viser.canvas().getBoundingClientRect();
+    return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
+  };
+  const perPixel = (point) => {
+    const place = vector(point).applyMatrix4(object.matrixWorld);
+    const depth = place.clone().applyMatrix4(camera.matrixWorldInverse);
+    const { elements } = camera.projectionMatrix;
+    // The projection divides by w, which is the depth, or 1 without perspective.
+    const w = elements[11] * depth.z + elements[15];
+    return (2 * w) / (elements[5] * viser.canvas().clientHeight);
+  };
+  return {
+    rayAt, project, perPixel,
+    unit: (point) => 100 * perPixel(point),
+    right: direction(0, 1), up: direction(1, 1), forward: direction(2, -1),
+    toFrame: (point) => point.clone().applyMatrix4(back).toArray(),
+  };
+}

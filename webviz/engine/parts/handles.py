@@ -1,0 +1,119 @@
+"""The handles of all displays, and which browser holds each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from webviz.api.errors import Error
+from webviz.api.frames import is_placeable
+from webviz.api.handles import Grip, Handle
+from webviz.api.nodes import Pose
+from webviz.engine.commands import Command, GripHandle, Sender
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.pipeline import Runner
+
+SILENCE_S = 3.0
+"""After which a browser that holds a handle is taken to be gone; it reports every half second."""
+
+
+@dataclass
+class _Hold:
+    """A handle in the hands of a browser.
+
+    Args:
+        browser: that holds it.
+        grip: its newest.
+        heard_s: when that came, monotonic.
+    """
+
+    browser: int | None
+    grip: Grip
+    heard_s: float
+
+
+class HandlesPart(Part):
+    """Passes on what browsers do with handles; each is held by one browser at a time.
+
+    Args:
+        core: shared by all parts.
+        displays: all of them.
+    """
+
+    name = "Handles"
+
+    def __init__(self, core: Core, displays: DisplaysPart) -> None:
+        super().__init__(core)
+        self._displays = displays
+        self._holds: dict[tuple[str, str], _Hold] = {}
+
+    @property
+    def handles(self) -> Mapping[type[Command], Handler]:
+        """The handler of each command."""
+        return {GripHandle: self._grip}
+
+    def keep_up(self, commanded: bool) -> None:
+        """Release what silent browsers hold, and forget handles that are gone."""
+        for (display, key), hold in list(self._holds.items()):
+            runner = self._runner(display)
+            if runner is None or key not in runner.handles():
+                del self._holds[display, key]
+            elif self.core.clock() - hold.heard_s > SILENCE_S:
+                del self._holds[display, key]
+                grip = replace(hold.grip, kind="release", pose=None, point=None)
+                runner.grip(grip, self.core.frames)
+
+    def state(self) -> Mapping[str, Any]:
+        """All handles, with the browsers that hold them."""
+        found: dict[tuple[str, str], tuple[Handle, int | None]] = {}
+        for runner in self._displays.list.active():
+            for key, handle in runner.handles().items():
+                hold = self._holds.get((runner.id, key))
+                found[runner.id, key] = handle, hold.browser if hold else None
+        return {"handles": found}
+
+    def _grip(self, command: GripHandle, sender: Sender) -> None:
+        grip, place = _checked(command.grip), (command.display, command.grip.handle)
+        runner = self._runner(command.display)
+        handle = runner.handles().get(grip.handle) if runner else None
+        if runner is None or handle is None or not 0 <= grip.control < len(handle.controls):
+            raise Error("This handle does not exist any more.")
+        if handle.refusal:
+            raise Error(handle.refusal)
+        hold = self._holds.get(place)
+        if hold is not None and hold.browser != sender.browser:
+            raise Error(f"{handle.name}: browser {hold.browser} holds it. Wait until it lets go.")
+        if grip.kind == "press":
+            if hold is not None:  # whose release got lost
+                runner.grip(replace(hold.grip, kind="release", pose=None), self.core.frames)
+            self._holds[place] = _Hold(sender.browser, grip, self.core.clock())
+        elif grip.kind == "release":
+            if self._holds.pop(place, None) is None:
+                return
+        elif grip.kind != "choose":
+            if hold is None or hold.grip.control != grip.control:
+                return  # it was taken from a browser that was silent for too long
+            hold.grip, hold.heard_s = grip, self.core.clock()
+        runner.grip(grip, self.core.frames)
+
+    def _runner(self, id: str) -> Runner | None:
+        return next((each for each in self._displays.list.active() if each.id == id), None)
+
+
+def _checked(grip: Grip) -> Grip:
+    """A grip with a pose and a point that are finite and near enough, and a unit quaternion."""
+    pose = grip.pose
+    if pose is not None:
+        length = math.hypot(*pose.wxyz)
+        if not (is_placeable(pose) and length > 1e-6):
+            raise Error("Not moved: the pose is not finite, or too far away.")
+        w, x, y, z = (value / length for value in pose.wxyz)
+        pose = Pose(pose.position, (w, x, y, z))
+    if grip.point is not None and not is_placeable(Pose(grip.point)):
+        grip = replace(grip, point=None)
+    if not math.isfinite(grip.turned):
+        raise Error("Not moved: the angle is not finite.")
+    return replace(grip, pose=pose, turned=math.remainder(grip.turned, 4 * math.pi))

@@ -1,0 +1,97 @@
+"""The handles of one display, and its talk with the outside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from webviz.api.context import Context
+from webviz.api.display import Display, overrides
+from webviz.api.frames import Frames
+from webviz.api.handles import Grip, Handle
+from webviz.engine.pipeline.guard import Guard
+from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.wire import DisplayWire
+from webviz.engine.sources import Offer, Outlet, Raw, Subscription
+
+UNSEEN_TURNS = 2
+"""Turns without drawing, after which no messages are kept: no browser is connected."""
+
+
+def reference_group(display: str, frame: str) -> str:
+    """The group of the scene that is where a frame is, for pages that move a handle in it."""
+    return f"{display}/frame of handles/{frame}"
+
+
+class Gripping:
+    """Calls the hooks of a display that follows a protocol or has handles; most have neither.
+
+    Args:
+        id: of the display.
+        services: shared by all.
+    """
+
+    def __init__(self, id: str, services: Services) -> None:
+        self.handles: Mapping[str, Handle] = {}
+        """What browsers can grip, by key; another object only after a change."""
+        self._id = id
+        self._scene = services.scene
+        self._wire = DisplayWire(services, services.gate) if services.gate else None
+        self._placed: set[str] = set()
+        self._unseen = 0
+
+    def subscriptions(self) -> Mapping[str, Subscription]:
+        """What the display listens to."""
+        return self._wire.subscriptions() if self._wire else {}
+
+    def outlets(self) -> list[Outlet]:
+        """What the display publishes."""
+        return self._wire.outlets() if self._wire else []
+
+    def followed(self) -> set[str]:
+        """The frames whose poses `talk` needs."""
+        return self._placed
+
+    def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
+        """Keep the messages of this turn."""
+        if self._wire is None:
+            return
+        self._unseen += 1
+        if self._unseen > UNSEEN_TURNS:
+            self._wire.pause()
+        else:
+            self._wire.take(batches, offers)
+
+    def talk(self, display: Display, guard: Guard, ctx: Context) -> None:
+        """Let the display send and receive, and take up its handles."""
+        if self._wire is not None and overrides(display, "talk"):
+            self._unseen = 0
+            guard("talk", display.talk, self._wire, ctx)
+            self._wire.forget_unnamed()
+        if overrides(display, "handles"):
+            self.handles = guard.attempt("handles", {}, display.handles, ctx)
+            self._place(ctx.frames)
+
+    def grip(self, grip: Grip, display: Display, guard: Guard, ctx: Context) -> None:
+        """Pass on what a browser does with a handle."""
+        if self._wire is not None:
+            guard("grip", display.grip, grip, self._wire, ctx)
+
+    def hide(self) -> None:
+        """Have no handles, and hear nothing, until the next talk."""
+        self.handles = {}
+        self._remove(self._placed)
+        self._placed = set()
+        if self._wire is not None:
+            self._wire.close()
+
+    def _place(self, frames: Frames) -> None:
+        wanted = {handle.frame for handle in self.handles.values() if handle.frame}
+        for frame in wanted:
+            if pose := frames.latest(frame):
+                self._scene.set_pose(reference_group(self._id, frame), pose)
+        self._remove(self._placed - wanted)
+        self._placed = wanted
+
+    def _remove(self, frames: Iterable[str]) -> None:
+        for frame in frames:
+            self._scene.remove_group(reference_group(self._id, frame))

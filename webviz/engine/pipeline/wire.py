@@ -1,0 +1,147 @@
+"""The topics and services of a display that follows a protocol of its own."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from typing import Any
+
+from webviz.api.declared import Topic
+from webviz.api.wire import Heard
+from webviz.data.messages import encode, interfaces
+from webviz.engine.pipeline.services import Services
+from webviz.engine.sources import Gate, Offer, Outlet, Raw, Subscription
+
+LIMIT = 1000
+"""Messages of a topic that wait for the display."""
+
+
+@dataclass
+class _Line:
+    """A topic that is listened to.
+
+    Args:
+        subscription: to it.
+        waiting: messages since the display listened last.
+        has_gap: whether messages before these were missed.
+        is_open: whether messages are kept.
+    """
+
+    subscription: Subscription
+    waiting: deque[bytes] = field(default_factory=deque)
+    has_gap: bool = True
+    is_open: bool = True
+
+
+class DisplayWire:
+    """Implements `webviz.api.wire.Wire` for one display.
+
+    Args:
+        services: with a gate.
+        gate: of the services.
+    """
+
+    def __init__(self, services: Services, gate: Gate) -> None:
+        self._services = services
+        self._gate = gate
+        self._offers: Mapping[str, Offer] = {}
+        self._lines: dict[str, _Line] = {}
+        self._outlets: dict[str, Outlet] = {}
+        self._named: set[str] = set()
+
+    # For the display
+
+    @property
+    def clock_s(self) -> float:
+        """Monotonic time in seconds."""
+        return self._services.clock()
+
+    @property
+    def node(self) -> str:
+        """Full name of the viewer's node."""
+        return self._services.resolve("~/node").rpartition("/")[0]
+
+    def listen(self, topic: str, type: str, depth: int) -> Heard:
+        """What has happened on a topic since the last call; see `webviz.api.wire.Wire`."""
+        name = self._services.resolve(topic)
+        self._named.add(name)
+        wanted = Subscription(type, Topic(name, "reliable", "volatile", depth))
+        line = self._lines.get(name)
+        if line is None or line.subscription != wanted:
+            line = self._lines[name] = _Line(wanted)
+        offer = self._offers.get(name)
+        publishers = offer.publishers if offer else ()
+        heard = Heard(
+            messages=tuple(line.waiting),
+            publishers=tuple(each.label for each in publishers if each.type == type),
+            is_ready=bool(offer and offer.requested and offer.type == type),
+            has_gap=line.has_gap,
+        )
+        line.waiting.clear()
+        line.has_gap, line.is_open = False, True
+        return heard
+
+    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
+        """Call a service that changes nothing; see `webviz.api.wire.Wire`."""
+        name = self._services.resolve(service)
+        request = encode(interfaces.service(type).request, {})
+        answer = self._gate.query(name, type, request, timeout_s)
+        answer.add_done_callback(lambda _: self.wake())
+        return answer
+
+    def advertise(self, topic: str, type: str, depth: int) -> str:
+        """Create a publisher ahead of its first message; see `webviz.api.wire.Wire`."""
+        name = self._services.resolve(topic)
+        self._named.add(name)
+        self._outlets[name] = Outlet(name, type, "reliable", "volatile", depth)
+        return self._gate.refusal(name)
+
+    def publish(self, topic: str, values: Mapping[str, Any]) -> None:
+        """Publish a message on a topic that is advertised."""
+        outlet = self._outlets[self._services.resolve(topic)]
+        self._gate.publish(outlet, encode(outlet.type, values))
+
+    def wake(self) -> None:
+        """Have `talk` called again soon."""
+        self._services.wake()
+
+    # For the runner
+
+    def subscriptions(self) -> dict[str, Subscription]:
+        """The subscriptions by topic."""
+        return {name: line.subscription for name, line in self._lines.items()}
+
+    def outlets(self) -> list[Outlet]:
+        """What it publishes."""
+        return list(self._outlets.values())
+
+    def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> None:
+        """Keep the messages of this turn; cheap, since they are not read yet."""
+        self._offers = offers
+        for name, line in self._lines.items():
+            if name in batches and line.is_open:
+                line.waiting.extend(raw.cdr for raw in batches[name])
+                if len(line.waiting) > LIMIT:
+                    self._break(line)
+
+    def forget_unnamed(self) -> None:
+        """Drop the topics that `talk` has not named since the last call."""
+        named, self._named = self._named, set()
+        self._lines = {name: line for name, line in self._lines.items() if name in named}
+        self._outlets = {name: each for name, each in self._outlets.items() if name in named}
+
+    def pause(self) -> None:
+        """Keep no messages until the display listens again."""
+        for line in self._lines.values():
+            self._break(line)
+
+    def close(self) -> None:
+        """Drop all topics."""
+        self._lines.clear()
+        self._outlets.clear()
+
+    def _break(self, line: _Line) -> None:
+        line.waiting.clear()
+        line.has_gap, line.is_open = True, False
