@@ -279,12 +279,7 @@ class Helm(ToPage, frozen=True):
 
 
 class Gripped(FromPage, frozen=True):
-    """Something that a page does with a handle; see `webviz.api.handles.Grip`.
-
-    Args:
-        display: id of the display that has the handle.
-        position, wxyz: of the handle in its frame, both or neither.
-    """
+    """Something that a page does with a handle of a display; see `webviz.api.handles.Grip`."""
 
     display: str
     handle: str
@@ -298,13 +293,7 @@ class Gripped(FromPage, frozen=True):
 
 
 class GripRefused(ToPage, frozen=True):
-    """Says why the viewer does not do what a page has done with a handle.
-
-    Args:
-        handle: id of its display and its key, as in the store `handles`.
-        kind: of the grip.
-        text: a sentence.
-    """
+    """Says in a sentence why a grip is refused; the handle is named as in the store `handles`."""
 
     handle: str
     kind: str
