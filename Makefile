@@ -67,10 +67,13 @@ docs: $(VENV)/ready
 	@$(VENV)/bin/python -m webviz.shell.docs $(RVIZ)
 
 browser:
-	@for b in chromium chromium-browser google-chrome; do command -v $$b >/dev/null && exit 0; done; \
+	@for b in chromium-headless-shell chromium chromium-browser google-chrome; do \
+		command -v $$b >/dev/null && exit 0; done; \
 	sudo=$$([ "$$(id -u)" = 0 ] || echo "sudo -n"); \
 	echo "Installing Chromium for the tests ..."; \
-	{ $$sudo apt-get update -qq && $$sudo apt-get install -y -q chromium; } || { \
+	{ $$sudo apt-get update -qq && { \
+		$$sudo apt-get install -y -q --no-install-recommends chromium-headless-shell 2>/dev/null || \
+		$$sudo apt-get install -y -q chromium; }; } || { \
 		echo "The tests need Chromium or Chrome: apt install chromium." >&2; exit 1; }
 
 $(VENV)/ready: pyproject.toml setup.py

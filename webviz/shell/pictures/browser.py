@@ -31,7 +31,15 @@ if TYPE_CHECKING:
 
 VARIABLE = "WEBVIZ_BROWSER"
 """Environment variable with the path of the browser to use."""
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+NAMES = (
+    # Made for this: others draw the window of a desktop around each page, though nobody sees it.
+    "chromium-headless-shell",
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+)
 FLAGS = (
     # WebGL in software, and no background traffic.
     "--no-sandbox",
