@@ -1,22 +1,27 @@
-"""What browsers are sent: JavaScript modules and style sheets as they are, and what loads them."""
+"""What browsers are sent: viser's page, to which JavaScript modules and style sheets are added.
+
+They are in the one file of the page: to load more than a hundred small files takes longer than all
+the rest of the page, above all over a slow network.
+"""
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from importlib import resources
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any
 
-PREFIX = "/webviz/"
-"""Where modules are, below the page."""
-CHANNEL = f"{PREFIX}channel"
-"""Where the websocket of the channel is."""
-CONTENT_TYPES = {".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8"}
+CHANNEL = "/webviz/channel"
+"""Where the websocket of the channel is, below the page."""
 
 _FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
-_HEAD = (_FOLDER / "head.html").read_bytes()
+_STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
+_MODULES = "$MODULES"
+"""Stands in `head.html` for all modules, as JSON."""
 _OWN = b"(async()=>{  const d=document.currentScript.dataset;"
 """How the script of viser begins, which unpacks the rest of it."""
 
@@ -29,21 +34,15 @@ class Modules:
     """
 
     def __init__(self, constants: Mapping[str, Any]) -> None:
-        self._files = {
-            str(file.relative_to(_FOLDER)): file.read_bytes()
-            for file in _FOLDER.rglob("*")
-            if file.suffix in CONTENT_TYPES
-        }
-        content = repr((constants, sorted(self._files.items()))).encode()
+        files = _files()
+        content = repr((constants, sorted(files.items()))).encode()
         self._version = hashlib.sha256(content).hexdigest()[:16]
         shared = json.dumps({**constants, "VERSION": self._version})
-        self._files["constants.js"] = f"export default {shared};\n".encode()
-
-    def get(self, path: str) -> tuple[bytes, str] | None:
-        """The file that a request asks for by its path, with its content type, if there is one."""
-        name = path.removeprefix(PREFIX) if path.startswith(PREFIX) else ""
-        content = self._files.get(name)
-        return None if content is None else (content, CONTENT_TYPES[PurePath(name).suffix])
+        modules = {name: text for name, text in files.items() if name.endswith(".js")}
+        modules["constants.js"] = f"export default {shared};\n"
+        head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
+        # Nothing in a module may end the element that it is in.
+        self._head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
 
     def added_to(self, page: bytes) -> bytes:
         """viser's page with the modules, which run before its own script.
@@ -55,7 +54,7 @@ class Modules:
         before, own, after = rest.partition(_OWN)
         if not (head and own):
             raise ValueError("The page of viser has no <head>, or another script than expected.")
-        return start + head + _HEAD + before + own + b"await window.webvizModules;" + after
+        return start + head + self._head + before + own + b"await window.webvizModules;" + after
 
     def connect(self, browser: int, key: str) -> str:
         """A script that makes a page open the channel.
@@ -70,3 +69,13 @@ class Modules:
     def answer(self, token: str) -> str:
         """A script that makes a page send an `Answer` with this token."""
         return f"window.webviz?.answer({json.dumps(token)});"
+
+
+@functools.cache
+def _files() -> dict[str, str]:
+    """The texts of all files of the page, by their paths below its folder."""
+    return {
+        file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
+        for file in _FOLDER.rglob("*")
+        if file.suffix in (".js", ".css", ".html")
+    }

@@ -92,11 +92,6 @@ def guarded_serve(
         if grant is None:
             return turned_away(connection, login.NO_LINK)
         connection.grant = grant
-        if (file := modules.get(path)) is not None:
-            response = connection.respond(http.HTTPStatus.OK, "")
-            fill(response, *file)
-            response.headers["Cache-Control"] = "no-cache"
-            return response
         if is_upgrade(request) and path == CHANNEL:
             connection.is_channel = True
             connection.objection = objection

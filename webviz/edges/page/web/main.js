@@ -32,7 +32,7 @@ channel.on("Ask", ({ token }) => answer(token));
 
 viser.connectToFolder();
 const installed = install();
-const address = new URL("channel", import.meta.url).href.replace(/^http/, "ws");
+const address = new URL("webviz/channel", location.href).href.replace(/^http/, "ws");
 
 // What the server and the pictures of webviz call.
 window.webviz = {
