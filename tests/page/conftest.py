@@ -33,6 +33,9 @@ from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 900, 800
 """Of a tab in pixels."""
+COARSE = 0.1
+"""Pixels of the scene per pixel of the page, for tests that do not look at the scene: to draw it in
+full takes most of the time of a browser without a graphics card."""
 
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -125,16 +128,25 @@ def _as_is(row: Row) -> Row:
 
 
 class Tab:
-    """One browser tab; its errors fail the test."""
+    """One browser tab; its errors fail the test.
 
-    def __init__(self, page: playwright.Page, server: Server, loop: Loop) -> None:
+    Args:
+        page: an empty one.
+        server: of the page to open.
+        loop: of the server.
+        resolution: pixels of the scene per pixel of the page.
+    """
+
+    def __init__(
+        self, page: playwright.Page, server: Server, loop: Loop, resolution: float = COARSE
+    ) -> None:
         self.page = page
         self.loop = loop
         self.errors: list[str] = []
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", self._read_console)
         page.on("dialog", self._dismiss)
-        page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr=1")
+        page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={resolution}")
         self.wait_for(lambda: page.locator("#webviz").count() > 0)
 
     def button(self, name: str) -> playwright.Locator:
@@ -219,8 +231,11 @@ def open_tab(
     """Opens more tabs, each in a browser session of its own."""
     tabs: list[Tab] = []
 
-    def open_tab(width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Tab:
-        tabs.append(Tab(open_page(browser, width, height, **options), server, lasting.loop))
+    def open_tab(
+        width: int = WIDTH, height: int = HEIGHT, resolution: float = COARSE, **options: Any
+    ) -> Tab:
+        page = open_page(browser, width, height, **options)
+        tabs.append(Tab(page, server, lasting.loop, resolution))
         return tabs[-1]
 
     yield open_tab
