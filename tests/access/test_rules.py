@@ -94,6 +94,7 @@ def test_what_a_role_may_command_every_higher_role_may_too(command: str) -> None
 @pytest.mark.parametrize("kind", sorted({*rules.MESSAGES, *rules.SCENE} - {"Do"}))
 def test_a_watcher_sends_nothing_that_others_notice(kind: str) -> None:
     harmless = {"Answer", "Hello", "Ping", "Unwatch", "ViewReport", "ViewerCameraMessage", "Watch"}
+    harmless |= {"FramesShown", "ReadPixel", "ShowPictures"}  # of the page's own image panes
     assert (rules.refusal(Role.WATCHER, kind) == "") == (kind in harmless)
     assert rules.refusal(Role.OWNER, kind) == ""
 

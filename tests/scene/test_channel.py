@@ -102,7 +102,8 @@ def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
     server.channel.send(Weather("wind"))
     with channel(server) as page:
         page.send(hello(key))
-        got = [receive(page) for _ in range(2)]
+        you, *got = (receive(page) for _ in range(3))
+    assert you == {"type": "You", "role": "owner", "name": ""}
     assert got == [{"type": "News", "text": "for you"}, {"type": "Weather", "text": "wind"}]
 
 
