@@ -58,7 +58,7 @@ export function missing() {
  * bar as it is. To be called before viser's own script.
  */
 export function connectToFolder() {
-  const server = new URL("..", import.meta.url).href.replace(/^http/, "ws");
+  const server = new URL(".", location.href).href.replace(/^http/, "ws");
   const { postMessage } = Worker.prototype;
   Worker.prototype.postMessage = function (message, ...rest) {
     const isServer = message?.type === "set_server";
