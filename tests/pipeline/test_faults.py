@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import inspect
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any
 
 import pytest
 
 from webviz import Context, Display, Hit, Input, Keep, Sample, Topic
+from webviz.api.handles import Control, Grip, Handle
 from webviz.api.status import Level
-from webviz.engine.commands import Identify, Picks, Refresh, SetBackground, SetProperty
+from webviz.api.wire import Wire
+from webviz.engine.commands import GripHandle, Identify, Picks, Refresh, SetBackground, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
+
+
+KNOB = {"m1": Handle("Knob", None, (Control("", "button"),))}
 
 
 class Boom(Exception):
@@ -87,6 +92,16 @@ class Faulty(Display):
     def inspect(self, hit: Hit, ctx: Context) -> None:
         self._raise_in("inspect")
 
+    def talk(self, wire: Wire, ctx: Context) -> None:
+        self._raise_in("talk")
+
+    def handles(self, ctx: Context) -> Mapping[str, Handle]:
+        self._raise_in("handles")
+        return KNOB
+
+    def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
+        self._raise_in("grip")
+
 
 class FaultyFold(Faulty):
     """Raises when it folds."""
@@ -120,6 +135,7 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
     for _ in range(5):
         feed(b)
         b.viewer.enqueue(Identify(dot))
+        b.viewer.enqueue(GripHandle("display1", Grip("m1", 0, "press")))
         b.turn()
     before = sound.turns
     feed(b)

@@ -94,8 +94,18 @@ def test_a_part_that_is_added_does_its_commands_and_shows_its_state(
 HOOKS = sorted(
     {name for name, hook in vars(Part).items() if inspect.isfunction(hook)} - {"__init__"}
 )
-PARTS = ["Autosave", "Counter", "Displays", "Driving", "Files", "Goals", "History", "Panels"]
-PARTS += ["Plugins", "Selection", "Settings", "Time", "Tools", "Topics", "Transforms", "Views"]
+PARTS = ["Autosave", "Counter", "Displays", "Driving", "Files", "Goals", "Handles", "History"]
+PARTS += [
+    "Panels",
+    "Plugins",
+    "Selection",
+    "Settings",
+    "Time",
+    "Tools",
+    "Topics",
+    "Transforms",
+    "Views",
+]
 
 
 @pytest.mark.parametrize("name", PARTS)
