@@ -76,7 +76,7 @@ def test_every_message_to_viser_is_one_that_viser_knows() -> None:
 
 
 def test_stores_with_a_role_of_their_own_exist() -> None:
-    assert rules.STORES.keys() <= MAKERS.keys() | {"people", "journal"}
+    assert rules.STORES.keys() <= MAKERS.keys() | {"addresses", "journal"}
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))

@@ -24,6 +24,7 @@ from webviz.engine.commands import (
     Refresh,
     ResetDisplay,
     Save,
+    Sender,
     SetBackground,
     SetFrameRate,
     SetProperty,
@@ -380,3 +381,18 @@ def test_what_nobody_waits_for_any_more_is_not_done(bench: Callable[..., Any]) -
     assert b.viewer.enqueue(SetFrameRate(10.0)).cancel()
     b.turn()
     assert b.viewer.settings.frame_rate == 60.0
+
+
+@pytest.mark.parametrize(
+    "path", ["../a.yaml", "/etc/hosts", "sub/a.yaml", ".", "..", ".yaml", "a.sh", "a", "./a.yaml"]
+)
+def test_a_page_stays_in_the_folder_of_the_config(
+    bench: Callable[..., Any], folder: Path, path: str
+) -> None:
+    (folder / "sub").mkdir()
+    b = bench(Axes(name="A"))
+    for command in (Save(path), Open(path)):
+        answer = b.viewer.enqueue(command, Sender(browser=1))
+        b.until_done(answer)
+        assert "Pages open and save config files in" in str(answer.exception())
+    assert [each.name for each in folder.rglob("*")] == ["sub"]

@@ -443,3 +443,18 @@ def test_the_program_of_the_readme_does_what_it_says(
     ]
     assert (tmp_path / "now.png").exists()
     assert "fixed_frame: odom" in (tmp_path / "lab2.yaml").read_text()
+
+
+def test_without_control_the_node_only_reports(
+    open_viewer: Callable[..., webviz.Viewer], client: Client, config: Path
+) -> None:
+    viewer = open_viewer(config, control=False)
+    client.until(lambda: client.get("fixed_frame") == "odom", "the parameter has the frame")
+    for name, value in (("fixed_frame", "map"), ("config_file", "other.yaml"), ("view", "")):
+        assert client.set(name, value).startswith("This viewer was started with --no-control.")
+    assert (viewer.fixed_frame, client.get("fixed_frame")) == ("odom", "odom")
+    viewer.fixed_frame = "base"
+    client.until(lambda: client.get("fixed_frame") == "base", "the parameter has the frame")
+    services = [name for name, _ in client.node.get_service_names_and_types()]
+    assert "/webviz/get_parameters" in services
+    assert not [name for name in services if name.startswith(("/webviz/save", "/webviz/load"))]

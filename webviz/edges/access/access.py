@@ -56,7 +56,7 @@ def _now() -> datetime:
 class Access:
     """Knows the tokens of a viewer. Without tokens, everybody is an owner.
 
-    It may be asked from any thread; `refresh` belongs to one.
+    It may be asked from any thread.
 
     Args:
         asks: whether tokens are asked for.

@@ -58,6 +58,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "FramesShown": Role.WATCHER,
     "Gripped": Role.OPERATOR,
     "Hello": Role.WATCHER,
+    "Invite": Role.OWNER,
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,
     "ShowPictures": Role.WATCHER,
@@ -69,7 +70,7 @@ MESSAGES: Mapping[str, Role | None] = {
 }
 """Of the messages of `webviz.edges.page.messages`; None if it is that of the command within."""
 
-STORES: Mapping[str, Role] = {}
+STORES: Mapping[str, Role] = {"addresses": Role.OWNER, "journal": Role.OWNER}
 """Of the stores that not everybody may watch; see `webviz.edges.page.content`."""
 
 SCENE: Mapping[str, Role] = {

@@ -14,11 +14,14 @@ from webviz.edges.access.rules import COMMANDS, UNKNOWN
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content.forms import MAX_TEXT, brief
 from webviz.edges.page.messages import Do, Done, Download
-from webviz.engine.commands import Command, Sender
+from webviz.engine.commands import Command, Load, Open, Save, Sender
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
+
+NOTED = (Load, Open, Save)
+"""What is noted for the owner."""
 
 MAX_ERROR = 1000
 """Characters of what is answered to a page that is refused: it may quote what the page sent."""
@@ -30,11 +33,18 @@ class Acts:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
+        note: is told what browsers did with files, from any thread.
     """
 
-    def __init__(self, channel: Channel, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
+    def __init__(
+        self,
+        channel: Channel,
+        enqueue: Callable[[Command, Sender], Future[str]],
+        note: Callable[[int, str], None],
+    ) -> None:
         self._channel = channel
         self._enqueue = enqueue
+        self._note = note
         channel.on(Do, self._do)
 
     def _do(self, browser: int, do: Do) -> None:
@@ -55,6 +65,8 @@ class Acts:
             except Exception as error:  # a sentence for people
                 level, text = "error", brief(str(error), MAX_ERROR)
             self._channel.send(Done(do.number, level, text, "".join(made)), browser)
+            if level == "ok" and isinstance(command, NOTED):
+                self._note(browser, text)
 
         self._enqueue(command, Sender(browser, do.step)).add_done_callback(tell)
 

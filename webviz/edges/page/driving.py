@@ -31,11 +31,14 @@ class Driving:
     Args:
         channel: to the pages.
         steer: takes a set-point: tool, browser and shares of the highest speeds.
+        note: is told which browser begins to drive.
     """
 
-    def __init__(self, channel: Channel, steer: Steer) -> None:
+    def __init__(self, channel: Channel, steer: Steer, note: Callable[[int, str], None]) -> None:
         self._channel = channel
         self._steer = steer
+        self._note = note
+        self._drivers: dict[str, int] = {}
         self._beats: deque[tuple[float, int]] = deque(maxlen=round(FRESH_S / BEAT_S) + 1)
         channel.on(Drive, self._hear)
 
@@ -44,6 +47,11 @@ class Driving:
         held = Velocity(drive.linear, drive.lateral, drive.angular)
         is_fresh = any(beat == drive.beat and now - at < FRESH_S for at, beat in self._beats)
         answer = self._steer(drive.tool, browser, held if is_fresh else None)
+        if answer.driver is None:
+            self._drivers.pop(drive.tool, None)
+        elif answer.driver == browser and self._drivers.get(drive.tool) != browser:
+            self._drivers[drive.tool] = browser
+            self._note(browser, "Began to drive.")
         if not self._beats or now - self._beats[-1][0] >= BEAT_S:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]

@@ -6,12 +6,15 @@ from collections.abc import Callable
 from concurrent.futures import Future
 
 from webviz.api.registry import display_types
+from webviz.edges.access.access import Access
+from webviz.edges.access.journal import Journal
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.driving import Driving, Steer
 from webviz.edges.page.gripping import Gripping
 from webviz.edges.page.messages import Ping, Pong, Shell
+from webviz.edges.page.people import People
 from webviz.edges.page.plugin_panels import PluginPanels
 from webviz.edges.page.reading import Reading
 from webviz.edges.page.toolbar import Toolbar
@@ -31,6 +34,7 @@ class Pages:
         channel: to the pages.
         enqueue: takes commands and their senders, from any thread.
         steer: takes set-points of vehicles, see `webviz.engine.driving.Helms`.
+        access: knows the tokens; None if none are asked for.
     """
 
     def __init__(
@@ -38,16 +42,26 @@ class Pages:
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
         steer: Steer,
+        access: Access | None = None,
     ) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
-        self._toolbar = Toolbar(channel, enqueue)
-        self._acts = Acts(channel, enqueue)
-        self._driving = Driving(channel, steer)
+        journal = Journal()
+
+        def note(browser: int, text: str) -> None:
+            journal.note(channel.visitors().get(browser), text)
+
+        self._toolbar = Toolbar(channel, enqueue, note)
+        self._acts = Acts(channel, enqueue, note)
+        self._driving = Driving(channel, steer, note)
+        people = People(channel, journal, access or Access())
         self._gripping = Gripping(channel, enqueue)
         self._wishes = Wishes(enqueue)
         self._panels = panels = PluginPanels(channel, enqueue)
         self._of_panels = {
+            "addresses": people.addresses,
+            "journal": people.journal,
+            "people": people.people,
             "commands": panels.commands,
             "panel": panels.panel,
             "panel_properties": panels.properties,

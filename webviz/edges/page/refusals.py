@@ -10,6 +10,8 @@ from webviz.edges.page.messages import (
     Gripped,
     GripRefused,
     Helm,
+    Invitation,
+    Invite,
     Result,
     StrokeDone,
     ToPage,
@@ -31,6 +33,8 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
             return Result(message.number, "error", reason)
         case Gripped():
             return GripRefused(f"{message.display}/{message.handle}", message.kind, reason)
+        case Invite():
+            return Invitation(message.number, reason, "", "")
         case Drive():
             return Helm(message.tool, 0, None, reason)
         case _:

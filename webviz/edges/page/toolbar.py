@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -26,6 +27,7 @@ class Toolbar:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
+        note: is told what browsers sent with tools, from any thread.
         clock: monotonic time in seconds.
     """
 
@@ -33,10 +35,12 @@ class Toolbar:
         self,
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
+        note: Callable[[int, str], None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._channel = channel
         self._enqueue = enqueue
+        self._note = note
         self._clock = clock
         self._recent: dict[int, deque[float]] = {}
         """When each browser made its last strokes."""
@@ -51,8 +55,13 @@ class Toolbar:
             self._channel.send(tools)
 
     def _use(self, browser: int, stroke: StrokeDone) -> None:
+        is_noted = threading.Event()
+
         def tell(status: Status) -> None:
             level = Level(status.level).name.lower()
+            if status.level is not Level.ERROR and not is_noted.is_set():
+                is_noted.set()  # what comes later is how it goes on
+                self._note(browser, status.text)
             self._channel.send(Result(stroke.number, level, status.text), browser)
 
         def published(topic: str, type: str, values: Mapping[str, Any]) -> None:

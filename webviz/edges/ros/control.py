@@ -38,6 +38,7 @@ NO_SERVICES = (
     "The services ~/load_config, ~/save_config, ~/reset, ~/reset_time and ~/screenshot are "
     "unavailable because std_srvs is missing. Install ros-jazzy-std-srvs."
 )
+NO_CONTROL = "This viewer was started with --no-control. Restart it without this option."
 MAX_REQUESTS = 4
 """Per service at a time; rclpy itself queues ten."""
 
@@ -69,6 +70,7 @@ class Control:
         self._node = node
         self._viewer: Controlled | None = None
         self._folders: Sequence[Path] = ()
+        self._may_change = True
         self._services: list[_Service] | None = None
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-service")
         self._state: State | None = None
@@ -80,13 +82,17 @@ class Control:
         """Values of the parameters at startup, "" if unset."""
         node.add_on_set_parameters_callback(self._set)
 
-    def open(self, viewer: Controlled, folders: Sequence[Path] = ()) -> None:
+    def open(
+        self, viewer: Controlled, folders: Sequence[Path] = (), *, may_change: bool = True
+    ) -> None:
         """Start to control a viewer; may be called from any thread.
 
         Args:
             viewer: to control.
             folders: from which configs may be opened, besides the viewer's own folder.
+            may_change: whether parameters can be set and services called; else they only report.
         """
+        self._may_change = may_change
         self._folders = [Path(os.path.abspath(folder)) for folder in folders]
         self._viewer = viewer
 
@@ -95,7 +101,7 @@ class Control:
         if self._viewer is None:
             return
         if self._services is None:
-            self._services = self._create_services(self._viewer)
+            self._services = self._create_services(self._viewer) if self._may_change else []
         for service in self._services:
             service.turn()
         if (state := self._viewer.state) is not self._state:
@@ -139,6 +145,8 @@ class Control:
                 if parameter.name in PARAMETERS
                 for command in self._commands(parameter.name, str(parameter.value))
             ]
+            if commands and not self._may_change:
+                raise Error(NO_CONTROL)
             for command in commands:
                 self._require_viewer().do(command)
         except Error as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
+from webviz.edges.access import rules
 from webviz.edges.scene.names import PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.edges.scene.points import PART
 
@@ -10,6 +11,7 @@ DARKEST = 0.3
 """Brightness of a surface seen edge on, as a share of its colour; in RViz it is black."""
 
 CONSTANTS = {
+    "ROLES": rules.table(),
     "ROOT": ROOT,
     "TILE_PREFIX": TILE_PREFIX,
     "PART_PREFIX": PART_PREFIX,

@@ -127,14 +127,20 @@ class FilesPart(Part):
             with contextlib.suppress(OSError):
                 self._listing = in_thread(functools.partial(_config_files, self._folder))
 
-    def _in_folder(self, path: str) -> Path:
-        """A file that was named, relative to the folder."""
+    def _in_folder(self, path: str, sender: Sender) -> Path:
+        """A file that was named, relative to the folder; for pages one within it."""
         if "\0" in path:
             raise ConfigError("A file name cannot contain a null character. Choose another name.")
+        is_config = path == Path(path).name and Path(path).suffix.lower() in SUFFIXES
+        if sender.browser is not None and not is_config:
+            raise ConfigError(
+                f"Pages open and save config files in {self._folder} only. Give a name without "
+                "folders that ends with .yaml or .rviz."
+            )
         return self._folder / path
 
     def _open(self, command: Open, sender: Sender) -> Job[Config]:
-        wanted = self._in_folder(command.path)
+        wanted = self._in_folder(command.path, sender)
 
         def then(config: Config) -> str:
             self._show(config, wanted)
@@ -156,7 +162,7 @@ class FilesPart(Part):
         return Job(lambda: opening.parse(text, name), then)
 
     def _save(self, command: Save, sender: Sender) -> Job[None]:
-        target = self._in_folder(command.path) if command.path else self._path
+        target = self._in_folder(command.path, sender) if command.path else self._path
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()

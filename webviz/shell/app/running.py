@@ -76,6 +76,7 @@ class Running:
         keyfile: str | os.PathLike[str] | None = None,
         trust_proxies: Sequence[str] = (),
         token: bool = False,
+        control: bool = True,
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
@@ -109,14 +110,14 @@ class Running:
             )
             closing.add("The server of the page", server.stop)
             make_missing(self.access)  # until then, nobody can connect
-            control = None
+            node_control = None
             if source is None:
                 source = ros_source(ros_args)
                 closing.add("The ROS node", source.close)
-                control = source.control
-                if path is None and control.initial["config_file"]:
-                    path = Path(control.initial["config_file"])
-                fixed_frame = fixed_frame or control.initial["fixed_frame"]
+                node_control = source.control
+                if path is None and node_control.initial["config_file"]:
+                    path = Path(node_control.initial["config_file"])
+                fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
             shown = shown or read(path)
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
@@ -130,7 +131,9 @@ class Running:
                 may_publish=publish,
                 autosave=autosave,
             )
-            self._pages = Pages(server.channel, self._loop.enqueue, self._loop.helms.steer)
+            self._pages = Pages(
+                server.channel, self._loop.enqueue, self._loop.helms.steer, self.access
+            )
             self._scheme = "http" if tls is None else "https"
             self._host, self.port = host, server.get_port()
             self._ended: Future[None] = Future()
@@ -144,10 +147,11 @@ class Running:
             watcher.start(self._loop.enqueue)
             closing.add("The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
-            if control is not None:
-                if name := control.initial["view"]:
+            if node_control is not None:
+                if name := node_control.initial["view"]:
                     self.do(StartWithView(view=name))
-                control.open(self, [Path(folder) for folder in config_folders])
+                folders = [Path(folder) for folder in config_folders]
+                node_control.open(self, folders, may_change=control)
             self._stack = stack.pop_all()
         atexit.register(self.close)
 

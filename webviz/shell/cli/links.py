@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
 import socket
 import sys
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from urllib.parse import urlsplit
 
 import psutil
+import segno
 
 from webviz.edges.access.starting import is_local, link
 from webviz.edges.access.tokens import Token
@@ -33,10 +36,25 @@ def show_links(tokens: Sequence[Token], url: str, host: str, names: Sequence[str
         return
     address = reachable(url, host, names)
     for token in tokens:
-        until = (
-            "" if token.expires is None else f", until {token.expires.astimezone():%Y-%m-%d %H:%M}"
-        )
-        print(f"  {token.name} ({token.role}{until}): {link(address, token)}")
+        for line in lines_of(token, link(address, token)):
+            print(f"  {line}")
+    if tokens:
+        print(f"  As a QR code, the link of {tokens[0].name}:")
+        print(qr_code(link(address, tokens[0])))
+
+
+def lines_of(token: Token, address: str) -> list[str]:
+    """A token in words, and its link if there is one."""
+    until = "" if token.expires is None else f" until {token.expires.astimezone():%Y-%m-%d %H:%M}"
+    over = "" if token.is_valid(datetime.now(UTC)) else " (expired)"
+    return [f"{token.name}: {token.role}{until}{over}", *([f"  {address}"] if address else [])]
+
+
+def qr_code(text: str) -> str:
+    """A QR code for terminals with dark or light background."""
+    lines = io.StringIO()
+    segno.make(text, micro=False).terminal(lines, border=2, compact=True)
+    return lines.getvalue().rstrip("\n")
 
 
 def reachable(url: str, host: str, names: Sequence[str]) -> str:

@@ -42,6 +42,7 @@ app.command(viewing.demo, help_epilogue=ROS_ARGS_HELP)
 for name, summary in {
     "screenshot": "Save pictures of a config without a screen, live or from a bag.",
     "convert": "Convert a config between RViz's format (*.rviz) and webviz's (any other name).",
+    "token": "List, make, rotate and revoke the links by which others may use a viewer.",
     "schema": "Write the JSON Schema of config files, for completion and checks in editors.",
 }.items():
     # Imported when called, which makes --help a third faster.

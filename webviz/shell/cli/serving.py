@@ -3,6 +3,7 @@
 import contextlib
 import functools
 import gc
+import logging
 import os
 import sys
 from collections.abc import Sequence
@@ -63,6 +64,7 @@ def serve(
             keyfile=options.keyfile,
             trust_proxies=options.trust_proxy,
             token=options.token,
+            control=not options.no_control,
         ) as viewer:
             stop.then(viewer.stop)
             if options.debug:
@@ -92,6 +94,7 @@ def _import_slow_parts() -> None:
 def _announce(options: ViewingOptions, viewer: Viewer) -> None:
     print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
     if viewer.access.asks:
+        logging.getLogger("webviz.journal").setLevel(logging.INFO)
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)
     sys.stdout.flush()
 

@@ -34,6 +34,8 @@ class ViewingOptions(ConfigOptions):
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     no_publish: Flag = False
     """Watch only: no tool may publish, call a service or send a goal."""
+    no_control: Flag = False
+    """Let no parameter or service of the ROS node change the viewer."""
     autosave: Flag = False
     """Save the session in ~/.local/state/webviz; restore it unless -d is given."""
     debug: Flag = False

@@ -1,5 +1,6 @@
 // What people do on this page: commands to the viewer, and what comes of them.
 
+import { why } from "./access.js";
 import * as channel from "./channel.js";
 import { toast } from "./shell/toasts.js";
 
@@ -21,7 +22,10 @@ channel.onOpen(() => waiting.clear());
  * the same `step`, a number of `newStep`, are undone together.
  */
 export function act(command, fields = {}, { quiet = false, errors = "toast", step = 0 } = {}) {
-  const answer = request({ type: "Do", command, arguments: fields, step });
+  const refusal = why(command);
+  const answer = refusal
+    ? Promise.resolve({ level: "error", text: refusal, display: "" })
+    : request({ type: "Do", command, arguments: fields, step });
   answer.then(({ level, text }) => {
     const isShown = level === "error" ? errors === "toast" : !quiet;
     if (text && isShown) toast(text, { level });
@@ -34,7 +38,10 @@ export const newStep = () => (count += 1);
 
 /** Reports the use of a widget in a plug-in's panel; otherwise like `act`. */
 export function use(panel, widget, value = null) {
-  const answer = request({ type: "Use", panel, widget, value });
+  const refusal = why("Use");
+  const answer = refusal
+    ? Promise.resolve({ level: "error", text: refusal })
+    : request({ type: "Use", panel, widget, value });
   answer.then(({ level, text }) => {
     if (text) toast(text, { level });
   });

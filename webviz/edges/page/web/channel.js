@@ -5,6 +5,7 @@ const MAX_UNSENT = 100;
 const listeners = new Map();
 const openers = [];
 let takeBytes = () => {};
+const closers = [];
 let socket = null;
 let unsent = [];
 
@@ -21,6 +22,11 @@ export function onOpen(act) {
 /** Calls `listener(buffer)` with whatever is not JSON. */
 export function onBytes(listener) {
   takeBytes = listener;
+}
+
+/** Calls `act` whenever the channel has ended. */
+export function onClose(act) {
+  closers.push(act);
 }
 
 export const isOpen = () => socket?.readyState === WebSocket.OPEN;
@@ -41,6 +47,9 @@ export function open(url, key) {
     const messages = unsent;
     unsent = [];
     messages.forEach(send);
+  };
+  mine.onclose = () => {
+    if (socket === mine) for (const act of closers) act();
   };
   // When it ends, the server ends viser's connection too: that is made anew, and brings a new key.
   mine.binaryType = "arraybuffer";

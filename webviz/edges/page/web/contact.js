@@ -43,9 +43,16 @@ export function install() {
     document.body.classList.remove("wv-lost");
   }
 
+  // Its token may have been revoked; the server then says so instead of this page.
+  async function askAgain() {
+    const answer = await fetch("./", { method: "HEAD" }).catch(() => null);
+    if (answer?.status === 403) location.reload();
+  }
+
   function tick() {
     ticks += 1;
     if (ticks < LOST_TICKS) return;
+    if (ticks % LOST_TICKS === 0) askAgain();
     banner.textContent =
       `Connection to webviz lost. The picture is ${age()} old. ` +
       "Check that webviz is running; this page reconnects by itself.";
@@ -55,4 +62,5 @@ export function install() {
   }
 
   setInterval(tick, TICK_MS);
+  channel.onClose(askAgain);
 }

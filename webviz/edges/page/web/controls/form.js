@@ -10,10 +10,10 @@ import { row } from "./property_row.js";
  *
  * `send(path, value)` sends what was entered and returns the promise of `act`. `name` is
  * what this browser remembers by which sections are folded. `marks`: whether what differs from the
- * default is marked. Returns `{element, update(values, changed), end()}`: values of a store with "value."
+ * default is marked. `command`: of the viewer, that `send` uses, if a role may not be allowed it. Returns `{element, update(values, changed), end()}`: values of a store with "value."
  * and "topic." before the paths, and which are new.
  */
-export function form(declared, { send, name, marks = true }) {
+export function form(declared, { send, name, marks = true, command = "" }) {
   const rows = new Map();
   const parts = []; // what is hidden while it does not apply
   const lives = new Map();
@@ -37,7 +37,7 @@ export function form(declared, { send, name, marks = true }) {
   function build(property) {
     if (property.kind === "topic") return topic(property);
     if (property.kind === "group") return section(property);
-    const made = row(property, send, marks);
+    const made = row(property, send, { marks, command });
     rows.set(property.path, made);
     if (property.otherwise) followers.push({ key: `value.${property.otherwise}`, made });
     return made.element;
@@ -46,7 +46,7 @@ export function form(declared, { send, name, marks = true }) {
   function topic(property) {
     const [named, ...rest] = property.children;
     const { label, help, type } = property;
-    const made = row({ ...named, kind: "topic", label, help, type }, send, marks);
+    const made = row({ ...named, kind: "topic", label, help, type }, send, { marks, command });
     rows.set(named.path, made);
     const qos = el("span");
     const note = el("div", { class: "wv-section-note" }, qos);
@@ -63,7 +63,7 @@ export function form(declared, { send, name, marks = true }) {
   function section({ path, label, help, children }) {
     const own = children.find((child) => child.path === `${path}.value`);
     const rest = children.filter((child) => child !== own);
-    const made = own && row({ ...own, help: own.help || help }, send, marks);
+    const made = own && row({ ...own, help: own.help || help }, send, { marks, command });
     if (made) rows.set(own.path, made);
     const inner = deeper(() => rest.map(add));
     return foldable(path, label, made ? made.element : null, inner, true, help);

@@ -1,5 +1,6 @@
 // One property: its label, its control, and what leads back to the default.
 
+import { holder, why } from "../access.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { control } from "./control.js";
@@ -9,10 +10,10 @@ let count = 0;
 
 /**
  * A row for a property as `content/forms.py` declares it. `send(path, value)` sends it to the viewer, and
- * returns the promise of `act`. `marks`: whether it shows what differs from the default. Returns
+ * returns the promise of `act`. `marks`: whether it shows what differs from the default; `command`: see `form`. Returns
  * `{element, update(value), live(known), follow(value), end()}`.
  */
-export function row(property, send, marks = true) {
+export function row(property, send, { marks = true, command = "" } = {}) {
   count += 1;
   const id = `wv-refused-${count}`;
   const { path, label, kind, default: standard } = property;
@@ -35,7 +36,7 @@ export function row(property, send, marks = true) {
   const name = el("span", { class: "wv-property-label", onclick: () => made.focus() }, label);
   const element = el(
     "div", { class: "wv-property", "data-kind": kind, "data-path": path, role: "group", "aria-label": label },
-    name, el("div", { class: "wv-property-control" }, made.element), reset, refusal,
+    name, holder(command, { class: "wv-property-control" }, made.element), reset, refusal,
   );
   const tooltip = about(property);
   set(name, { title: tooltip });
@@ -47,7 +48,8 @@ export function row(property, send, marks = true) {
       made.update(value);
       const isChanged = marks && JSON.stringify(value) !== JSON.stringify(standard);
       set(element, { "data-changed": isChanged });
-      if (reset.hidden === isChanged) reset.hidden = !isChanged;
+      const isOffered = isChanged && !(command && why(command));
+      if (reset.hidden === isOffered) reset.hidden = !isOffered;
     },
     live: (known) => made.live?.(known),
     follow: (value) => made.follow?.(value),

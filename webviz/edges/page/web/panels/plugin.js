@@ -1,5 +1,6 @@
 // The panels of plug-ins: what a Python program has recorded of widgets, drawn.
 
+import { needs } from "../access.js";
 import { act, use } from "../act.js";
 import { form } from "../controls/form.js";
 import { el, set, setChildren, setText } from "../dom.js";
@@ -21,7 +22,7 @@ export function followPlugins(offer, types) {
     commands = values;
   });
   provide(() => [...commands.values()].map(({ panel, widget, label, key }) => ({
-    name: label, key: key || undefined, group: "Panels", run: () => use(panel, widget),
+    name: label, key: key || undefined, group: "Panels", needs: "Use", run: () => use(panel, widget),
   })));
 }
 
@@ -40,6 +41,7 @@ function open(element, name) {
       if (drawn.get(id)?.kind !== widget.kind) {
         drawn.set(id, makeWidget(widget, (value) => use(name, id, value)));
         drawn.get(id).update(widget);
+        if (widget.kind !== "area") needs("Use", drawn.get(id).element);
       } else if (changed.has(id)) drawn.get(id).update(widget);
     }
     setChildren(place, order.map((id) => drawn.get(id).element));
@@ -66,7 +68,7 @@ function properties(name) {
     onclick: () => act("RemovePanel", { panel: id }),
   }, "Remove panel");
   const made = maker(place, (declared, values) => {
-    return form(declared, { send, name: `panel.${values.get("type")}` });
+    return form(declared, { send, name: `panel.${values.get("type")}`, command: "SetPanelProperty" });
   });
   const end = watch(`panel_properties:${name}`, (values, changed) => {
     id = values.get("id") ?? "";

@@ -1,5 +1,6 @@
 // The saved views: show, rename and remove them, let browsers begin with one, save the current one.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
@@ -31,7 +32,7 @@ export function savedViews() {
   const element = el(
     "section", { class: "wv-view", "aria-label": "Saved views" },
     el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Saved views")),
-    list, empty, save, start,
+    list, empty, needs("SaveView", save), needs("StartWithView", start),
   );
 
   return {
@@ -73,9 +74,9 @@ function line(name) {
   });
   const element = el(
     "li", { class: "wv-saved-line" }, show, field,
-    tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name })),
+    needs("StartWithView", tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name }))),
     tool("pencil", `Rename ${name}`, rename),
-    tool("trash", `Remove ${name}`, () => act("RemoveView", { name })),
+    needs("RemoveView", tool("trash", `Remove ${name}`, () => act("RemoveView", { name }))),
   );
 
   function rename() {

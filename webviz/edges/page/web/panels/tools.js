@@ -147,7 +147,7 @@ function toolSection(id) {
   const send = (path, value) =>
     act("SetToolProperty", { tool: id, path, value }, { quiet: true, errors: "caller" });
   const made = maker(content, (declared, values) => {
-    return form(declared, { send, name: `tool.${values.get("type")}` });
+    return form(declared, { send, name: `tool.${values.get("type")}`, command: "SetToolProperty" });
   });
   const end = watch(`tool:${id}`, made.update);
   return {

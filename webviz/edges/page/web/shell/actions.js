@@ -8,6 +8,7 @@ import * as files from "./files.js";
 import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
 import { fold } from "./layout.js";
+import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 
 /**
@@ -16,15 +17,16 @@ import { setTheme } from "./theme.js";
  * the camera.
  */
 export const actions = {
-  save: { name: "Save", icon: "save", key: "Ctrl+s", inFields: true, run: () => files.save() },
+  save: { name: "Save", icon: "save", key: "Ctrl+s", inFields: true, needs: "Save", run: () => files.save() },
   saveAs: {
     name: "Save as…",
     icon: "save",
     key: "Ctrl+Shift+s",
     inFields: true,
+    needs: "Save",
     run: () => files.saveAs(),
   },
-  open: { name: "Open…", icon: "folder", key: "Ctrl+o", inFields: true, run: () => files.open() },
+  open: { name: "Open…", icon: "folder", key: "Ctrl+o", inFields: true, needs: "Open", run: () => files.open() },
   yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
   rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
@@ -33,6 +35,7 @@ export const actions = {
     icon: "arrow-back",
     key: "Ctrl+z",
     group: "Edit",
+    needs: "Undo",
     run: () => history.undo(),
   },
   redo: {
@@ -40,9 +43,11 @@ export const actions = {
     icon: "arrow-forward",
     key: ["Ctrl+Shift+z", "Ctrl+y"],
     group: "Edit",
+    needs: "Redo",
     run: () => history.redo(),
   },
-  add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", run: () => openAdd() },
+  add: { name: "Add display…", icon: "plus", key: "Insert", group: "Edit", needs: "AddDisplay", run: () => openAdd() },
+  people: { name: "People…", icon: "eye", group: "View", run: () => openPeople() },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
   fold: {
     name: "Show or hide the panels",
@@ -83,11 +88,12 @@ export function install() {
 }
 
 /** An action as an item of a menu, with what is different there. */
-export const item = ({ name, icon, key, run }, more = {}) => ({
+export const item = ({ name, icon, key, run, needs }, more = {}) => ({
   label: name,
   icon,
   key: [key].flat()[0],
   run,
+  needs,
   ...more,
 });
 

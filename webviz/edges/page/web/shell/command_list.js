@@ -3,7 +3,7 @@
 import { act } from "../act.js";
 import { el } from "../dom.js";
 import { watch } from "../stores.js";
-import { all, keysOf } from "./commands.js";
+import { all, keysOf, run } from "./commands.js";
 import { openDialog } from "./dialog.js";
 import { optionList, search } from "./option_list.js";
 
@@ -43,7 +43,7 @@ export function openCommandList() {
     className: "wv-command-list",
     isLight: true,
     content(close) {
-      const list = optionList(input, "Commands", (row) => close(found[row.id].run));
+      const list = optionList(input, "Commands", (row) => close(found[row.id]));
       let found = [];
       const show = () => {
         found = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
@@ -72,9 +72,9 @@ export function openCommandList() {
       show();
       return [input, list.element, nothing];
     },
-  }).then((run) => {
+  }).then((chosen) => {
     ends.forEach((end) => end());
-    run?.();
+    if (chosen) run(chosen);
   });
 }
 

@@ -1,6 +1,8 @@
 // Everything that can be done, by name; and the one place that listens to keys.
 
+import { why } from "../access.js";
 import { keyOf } from "./keys.js";
+import { toast } from "./toasts.js";
 
 const TYPED =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +
@@ -16,7 +18,8 @@ const takers = new Set();
  * `{name, run}`, and if there are: `icon`; `key`, or several in a list, such as "Ctrl+Shift+s",
  * "g", "Delete", in the words of `keyOf`; `group` in the list of keys; `note`, which stands quietly
  * behind the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`,
- * whether it can be done now. A key with Ctrl that means nothing in a field is marked with
+ * whether it can be done now; `needs`, the command of the viewer that it sends, which a role may not
+ * be allowed. A key with Ctrl that means nothing in a field is marked with
  * `inFields`.
  */
 export function command(wanted) {
@@ -40,6 +43,13 @@ export function takeKeys(take) {
 export function all() {
   const commands = [...fixed, ...[...makers].flatMap((make) => make())];
   return commands.filter(({ isThere }) => !isThere || isThere());
+}
+
+/** Does what a command is for, or says why that is not allowed. */
+export function run({ needs, run: act }) {
+  const reason = needs ? why(needs) : "";
+  if (reason) toast(reason, { level: "warn", topic: "access" });
+  else act();
 }
 
 /** The keys of a command, in a list. */
@@ -69,6 +79,6 @@ export function install() {
     if (event.repeat) return;
     // What was typed counts before anything is saved.
     if (isInField) document.activeElement.blur();
-    found.run();
+    run(found);
   });
 }

@@ -1,5 +1,6 @@
 // The head of the side: the config file, and what is done with it.
 
+import { needs, why } from "../access.js";
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { actions, item } from "./actions.js";
@@ -7,6 +8,7 @@ import * as files from "./files.js";
 import * as history from "./history.js";
 import { fold } from "./layout.js";
 import { openMenuBelow } from "./menu.js";
+import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 
 export function build() {
@@ -42,6 +44,7 @@ export function build() {
     { class: "wv-head" },
     name,
     mark,
+    roleMark(),
     el("span", { class: "wv-gap" }),
     button("search", "Commands", "Ctrl+k", actions.commands.run),
     step("undo", actions.undo),
@@ -69,6 +72,7 @@ function button(iconName, label, key, run) {
 // What it would undo is in its tooltip; all steps are in a menu, by a right click or the arrow key.
 function step(way, action) {
   const made = button(action.icon, action.name, [action.key].flat()[0], action.run);
+  if (why(action.needs)) return needs(action.needs, made);
   history.onSteps(() => {
     const label = history.next(way);
     made.disabled = label === undefined;
@@ -102,6 +106,7 @@ function menu(owner) {
     null,
     item(actions.image),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
+    item(actions.people),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

@@ -1,5 +1,6 @@
 // Menus: a list of actions over everything else, with arrow keys.
 
+import { why } from "../access.js";
 import { el } from "../dom.js";
 import { icon } from "../icons.js";
 import { keyText } from "./keys.js";
@@ -10,10 +11,11 @@ const GAP = 4;
  * Opens a menu with its corner at (x, y), in pixels of the window, or beside that if it does not
  * fit.
  *
- * `items`: `{label, icon, key, run, disabled, danger, checked, tip, items}`, or null for a line;
- * `checked` is true or false for an item that shows a choice, `tip` says more about it, and `items`
- * are those of its submenu. `run` is called when the menu is closed and the focus is back where it
- * was. Returns what closes the menu. `outer` is the menu that a submenu belongs to.
+ * `items`: `{label, icon, key, run, disabled, danger, checked, needs, tip, items}`, or null for a
+ * line; `checked` is true or false for an item that shows a choice, `needs` names the command of the
+ * viewer that it sends, which a role may not be allowed, `tip` says more about it, and `items` are
+ * those of its submenu. `run` is called when the menu is closed and the focus is back where it was.
+ * Returns what closes the menu. `outer` is the menu that a submenu belongs to.
  */
 export function openMenu(x, y, items, outer = null) {
   const before = document.activeElement;
@@ -27,7 +29,10 @@ export function openMenu(x, y, items, outer = null) {
   const entries = [...menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")];
   let inner = null; // the entry whose submenu is open, and what closes that
 
-  function entry({ label, icon: name, key, run, disabled, danger, checked, tip, items: below }) {
+  function entry(item) {
+    const { label, icon: name, key, run, danger, checked, needs, tip, items: below } = item;
+    const reason = needs ? why(needs) : "";
+    const disabled = item.disabled || reason !== "";
     const isChoice = checked !== undefined;
     const element = el(
       "div",
@@ -37,6 +42,7 @@ export function openMenu(x, y, items, outer = null) {
         role: isChoice ? "menuitemradio" : "menuitem",
         "aria-checked": isChoice ? checked : null,
         "aria-disabled": disabled ? "true" : null,
+        "data-why": reason || null,
         "aria-haspopup": below ? "menu" : null,
         "data-tip": tip || null,
         onclick: () => disabled || (below ? openBeside(element, below) : choose(run)),

@@ -1,5 +1,6 @@
 // The bar below the scene: pause, reset, ROS time and wall time.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
@@ -30,7 +31,7 @@ export function build(place) {
   const wall = part("Wall", "Wall time of the machine that webviz runs on");
   const wallElapsed = part("Wall elapsed", "Wall time since the viewer started or was reset");
   place.append(
-    pause, reset, ros, badge, elapsed.element, el("div", { class: "wv-timeline" }),
+    needs("Pause", pause), needs("Reset", reset), ros, badge, elapsed.element, el("div", { class: "wv-timeline" }),
     wall.element, wallElapsed.element,
   );
   place.setAttribute("aria-label", "Time");

@@ -1,5 +1,6 @@
 // The toolbar over the scene: the tools, what this page looks at, and what everything is drawn in.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { combobox } from "../controls/combobox.js";
@@ -36,6 +37,7 @@ export function install(places) {
   const type = button("orbit", "", "View", () => openMenuBelow(type, viewMenu()));
   const views = button("eye", "Views", "Saved views", () => openMenuBelow(views, savedMenu()));
   const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
+  needs("SetFixedFrame", fixed.element);
   const target = frameField("Follow", "follow", () => shown.target, targetOptions, setTarget);
   const image = button("camera", null, actions.image.name, actions.image.run);
   const full = button("fullscreen", null, actions.fullscreen.name, actions.fullscreen.run);
@@ -78,6 +80,7 @@ export function install(places) {
         {
           label: "Fixed frame…",
           icon: "axes",
+          needs: "SetFixedFrame",
           run: () => choose("Fixed frame", () => shown.frame, fixedOptions, setFixed),
         },
       ],
@@ -121,7 +124,7 @@ export function install(places) {
     group: "View",
     run: () => act("ResetView"),
   });
-  command({ name: "Save view…", icon: "save", group: "View", run: saveView });
+  command({ name: "Save view…", icon: "save", group: "View", needs: "SaveView", run: saveView });
   for (const name of VIEW_TYPES) {
     command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });
   }
@@ -201,8 +204,8 @@ const savedMenu = () => [
     run: () => act("ShowView", { view: name }),
   })),
   ...(shown.views.length ? [null] : []),
-  { label: "Save this view…", icon: "save", run: saveView },
-  { label: "Start with this view", icon: "play", run: () => act("StartWithView") },
+  { label: "Save this view…", icon: "save", needs: "SaveView", run: saveView },
+  { label: "Start with this view", icon: "play", needs: "StartWithView", run: () => act("StartWithView") },
 ];
 
 async function saveView() {

@@ -5,7 +5,7 @@ import { keyText } from "./keys.js";
 
 const WAIT_MS = 500;
 const GAP = 6;
-const TIPPED = "[data-tip], [title]";
+const TIPPED = "[data-why], [data-tip], [title]";
 
 let shown = null;
 let tip = null;
@@ -43,10 +43,12 @@ function adopt(owner) {
 }
 
 function show(owner) {
-  if (!owner.isConnected || !owner.dataset.tip) return;
+  if (!owner.isConnected || !(owner.dataset.why || owner.dataset.tip)) return;
   hide();
   shown = owner;
-  const { tip: text, key } = owner.dataset;
+  // Why something is not allowed comes before what it would do.
+  const { why, tip: about, key } = owner.dataset;
+  const text = why || about;
   tip.replaceChildren(text, ...(key ? [el("kbd", {}, keyText(key))] : []));
   if (owner.ariaLabel !== text) owner.setAttribute("aria-describedby", "wv-tip");
   // In a dialog, only what is within it is read out.

@@ -1,5 +1,6 @@
 // The goals that tools have sent: what every page shows of them, and can cancel.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
@@ -58,8 +59,8 @@ function makeCard(id) {
   const cancel = el("button", {
     type: "button", class: "wv-button", onclick: () => act("CancelGoal", { goal: id }),
   }, "Cancel");
-  const head = el("div", { class: "wv-goal-head" }, icon("flag"), title, label, dismiss);
-  const element = el("section", { class: "wv-card wv-goal" }, head, values, text, cancel);
+  const head = el("div", { class: "wv-goal-head" }, icon("flag"), title, label, needs("DismissGoal", dismiss));
+  const element = el("section", { class: "wv-card wv-goal" }, head, values, text, needs("CancelGoal", cancel));
   return {
     element,
     update(goal) {

@@ -1,5 +1,6 @@
 // The tools of the viewer: this page follows their gestures, the server acts on what they became.
 
+import { why } from "../access.js";
 import * as channel from "../channel.js";
 import { canvas } from "../viser_page.js";
 import { tell, tellLive } from "./hint.js";
@@ -29,8 +30,10 @@ export function install() {
     history.published(number, { topic, type: message_type, values }));
 }
 
-function toolOf(known, index) {
-  return known.gesture === "drive" ? teleop.tool(known, FIRST + index) : strokeTool(known, index);
+function toolOf(tool, index) {
+  const isDriven = tool.gesture === "drive";
+  const known = { ...tool, refusal: why(isDriven ? "Drive" : "StrokeDone") || tool.refusal };
+  return isDriven ? teleop.tool(known, FIRST + index) : strokeTool(known, index);
 }
 
 function strokeTool(known, index) {

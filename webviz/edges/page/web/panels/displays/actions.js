@@ -90,18 +90,21 @@ export function openActions(x, y, { model, rows, rename, refresh }) {
   openMenu(x, y, [
     { label: "Focus", icon: "focus", disabled: !isOne, run: () => focus(first) },
     {
-      label: "Rename", icon: "pencil", key: "F2", disabled: !isOne || !first.can_edit,
+      label: "Rename", icon: "pencil", key: "F2", needs: "SetProperty", disabled: !isOne || !first.can_edit,
       run: () => rename(first.id),
     },
-    { label: "Duplicate", icon: "copy", run: () => duplicate(items) },
+    { label: "Duplicate", icon: "copy", needs: "DuplicateDisplay", run: () => duplicate(items) },
     { label: "Copy as YAML", icon: "file", key: "Ctrl+c", run: () => copyAsYaml(items) },
-    { label: "Put into a new group", icon: "folder", run: async () => rename(await group(model, items)) },
     {
-      label: "Reset to defaults", icon: "reset", run: () => reset(items),
+      label: "Put into a new group", icon: "folder", needs: "AddDisplay",
+      run: async () => rename(await group(model, items)),
+    },
+    {
+      label: "Reset to defaults", icon: "reset", needs: "ResetDisplay", run: () => reset(items),
       disabled: !canEdit || items.every((item) => item.isGroup),
     },
     null,
-    { label: "Remove", icon: "trash", key: "Delete", danger: true, run: () => {
+    { label: "Remove", icon: "trash", key: "Delete", danger: true, needs: "RemoveDisplay", run: () => {
       remove(model, rows(), items);
       refresh();
     } },

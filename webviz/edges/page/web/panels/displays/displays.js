@@ -1,5 +1,6 @@
 // The panel "Displays": the search field, the tree, and the properties of what is selected.
 
+import { needs } from "../../access.js";
 import { el } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { openAdd } from "../../shell/add.js";
@@ -29,6 +30,7 @@ export const displays = {
     }, icon("dots"));
     const add = el("button", { type: "button", class: "wv-tree-add", onclick: () => openAdd() },
       icon("plus", 14), "Add display", el("kbd", { "aria-hidden": "true" }, keyText("Insert")));
+    needs("AddDisplay", add);
     const details = buildDetails(panel);
     const tree = buildTree({
       after: add,
@@ -76,12 +78,14 @@ export const displays = {
     const one = () => (chosen().length === 1 ? chosen()[0] : null);
     const ends = [
       about("Focus on display", { icon: "focus", isThere: one, run: () => actions.focus(one()) }),
-      about("Duplicate display", { icon: "copy", run: () => actions.duplicate(chosen()) }),
+      about("Duplicate display", {
+        icon: "copy", needs: "DuplicateDisplay", run: () => actions.duplicate(chosen()),
+      }),
       about("Rename display", {
-        key: "F2", isThere: () => isHere() && one(), run: () => tree.rename(one().id),
+        key: "F2", needs: "SetProperty", isThere: () => isHere() && one(), run: () => tree.rename(one().id),
       }),
       about("Remove display", {
-        icon: "trash", key: "Delete", isThere: () => isHere() && chosen().length > 0,
+        icon: "trash", key: "Delete", needs: "RemoveDisplay", isThere: () => isHere() && chosen().length > 0,
         run: () => actions.remove(tree.model(), tree.rows(), chosen()),
       }),
       command({

@@ -24,7 +24,7 @@ export function properties(element, id) {
   });
   const place = el("div");
   element.append(said.element, place);
-  const made = maker(place, (declared, values) => form(declared, { send, name: values.get("type") }));
+  const made = maker(place, (declared, values) => form(declared, { send, name: values.get("type"), command: "SetProperty" }));
   const end = watch(`properties:${id}`, (values, changed) => {
     if (changed.has("worst")) said.worst(values.get("worst"));
     made.update(values, changed);
@@ -56,7 +56,9 @@ export function globalOptions(element) {
   });
   const place = el("div");
   element.append(said.element, place);
-  const made = maker(place, (declared) => form(declared.map(withFrame), { send, name: "settings" }));
+  const made = maker(place, (declared) => form(declared.map(withFrame), {
+    send, name: "settings", command: "SetFixedFrame",
+  }));
   const end = watch("settings", (values, changed) => {
     if (changed.has("statuses")) {
       lines = [values.get("statuses"), values.get("more")];

@@ -1,5 +1,6 @@
 // One row of the tree: a display, a group, or the options that hold for everything.
 
+import { why } from "../../access.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { plain } from "../../plain.js";
@@ -78,7 +79,7 @@ export function makeRow(first, look) {
     });
     row.style.setProperty("--depth", item.depth);
     set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
-    set(box, { "aria-label": `Show ${text}`, disabled: !isGlobal && !item.can_edit });
+    set(box, { "aria-label": `Show ${text}`, disabled: !isGlobal && !item.can_edit || why("SetProperty") !== "" });
     if (box.checked !== enabled) box.checked = enabled;
     setText(name, text);
     set(more, { "aria-label": `Actions for ${text}` });

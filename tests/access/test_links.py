@@ -1,0 +1,40 @@
+"""Links in the terminal: only where nobody keeps what is printed."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+
+import pytest
+
+from webviz.edges.access.roles import Role
+from webviz.edges.access.tokens import make
+from webviz.shell.cli.links import reachable, show_links
+
+TOKENS = [make(f"the {role.label}", role, datetime.now(UTC)) for role in Role]
+
+
+def test_a_log_gets_no_link(capsys: pytest.CaptureFixture[str]) -> None:
+    show_links(TOKENS, "http://127.0.0.1:80", "127.0.0.1", ())
+    said = capsys.readouterr().out
+    assert "Run `webviz token list --links`" in said
+    assert not [token for token in TOKENS if token.secret in said]
+
+
+def test_a_terminal_gets_all_links_and_a_qr_code(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    show_links(TOKENS, "http://127.0.0.1:80", "127.0.0.1", ())
+    said = capsys.readouterr().out
+    for token, parameter in zip(TOKENS, ("watch", "operate", "own"), strict=True):
+        assert f"http://127.0.0.1:80/?{parameter}={token.secret}\n" in said
+    assert "▀▀▀" in said
+
+
+def test_links_name_the_machine_as_others_reach_it() -> None:
+    url = "https://127.0.0.1:81"
+    assert reachable(url, "127.0.0.1", ("robot.local",)) == url
+    assert reachable(url, "0.0.0.0", ("robot.local", "b")) == "https://robot.local:81"
+    assert reachable(url, "192.0.2.7", ()) == "https://192.0.2.7:81"
+    assert reachable(url, "2001:db8::1", ()) == "https://[2001:db8::1]:81"
+    assert "0.0.0.0" not in reachable(url, "0.0.0.0", ())

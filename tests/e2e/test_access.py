@@ -1,0 +1,97 @@
+"""`webviz --token` and `webviz token` as a user starts them."""
+
+from __future__ import annotations
+
+import http.client
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+
+def token(env: dict[str, str], *arguments: str, status: int = 0) -> str:
+    """What `webviz token` prints."""
+    done = subprocess.run(
+        [sys.executable, "-m", "webviz", "token", *arguments],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == status, done.stderr
+    return done.stdout + done.stderr
+
+
+def ask(url: str, path: str = "/", cookie: str = "") -> http.client.HTTPResponse:
+    connection = http.client.HTTPConnection(url.removeprefix("http://"), timeout=60)
+    connection.request("GET", path, headers={"Cookie": cookie} if cookie else {})
+    response = connection.getresponse()
+    response.read()
+    connection.close()
+    return response
+
+
+def test_tokens_from_first_start_to_revocation(
+    start: Callable[..., Program], ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    own = {"XDG_CONFIG_HOME": str(tmp_path)}
+    env = {**ros_env, **own}
+    viewer = start("webviz", "--token", "--port", "0", env=own)
+    url = viewer.url()
+    viewer.wait_for("Run `webviz token list --links` in a terminal")
+    file = tmp_path / "webviz" / "tokens.json"
+    assert file.stat().st_mode & 0o777 == 0o600
+    assert ask(url).status == 403
+    made = token(env, "make", "Ada", "--role", "operator", "--days", "1", "--url", url)
+    assert "▀" in made  # the QR code
+    secrets = re.findall(r"\?\w+=(\S+)", token(env, "list", "--links"))
+    assert len(secrets) == 4
+    assert not [secret for secret in secrets if secret in token(env, "list")]
+    (path,) = re.findall(r"/\?operate=\S+", made)
+
+    def enter() -> http.client.HTTPResponse:
+        deadline = time.monotonic() + 60.0
+        while (response := ask(url, path)).status != 303:
+            assert time.monotonic() < deadline
+            time.sleep(0.1)
+        return response
+
+    cookie = enter().headers["Set-Cookie"].partition(";")[0]
+    assert ask(url, cookie=cookie).status == 200
+    assert "already" in token(env, "make", "Ada", status=1)
+    assert "known are" in token(env, "revoke", "Ad", status=1)
+    assert token(env, "revoke", "Ada") == "webviz: revoked Ada.\n"
+    deadline = time.monotonic() + 60.0
+    while ask(url, cookie=cookie).status != 403:
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
+    assert ask(url, path).status == 403
+    assert viewer.end() == 0
+    for secret in secrets:
+        assert secret not in viewer.output()
+
+
+def test_a_file_that_others_may_read_stops_the_start(
+    ros_env: dict[str, str], tmp_path: Path
+) -> None:
+    env = {**ros_env, "XDG_CONFIG_HOME": str(tmp_path)}
+    token(env, "make", "Ada")
+    file = tmp_path / "webviz" / "tokens.json"
+    file.chmod(0o644)
+    done = subprocess.run(
+        [sys.executable, "-m", "webviz", "--token", "--port", "0"],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"webviz: Other users may read or write {file} (mode 0644).")
+    assert done.stderr.count("\n") == 1

@@ -1,0 +1,191 @@
+"""Links with tokens in a real browser, and what the page shows of roles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+import playwright.sync_api as playwright
+import pytest
+from playwright.sync_api import expect
+
+from tests.page.conftest import Loop, Tab, open_page
+from webviz.edges.access import token_file
+from webviz.edges.access.access import Access
+from webviz.edges.access.roles import Role
+from webviz.edges.access.starting import link
+from webviz.edges.access.tokens import Token, make
+from webviz.edges.page.pages import Pages
+from webviz.edges.scene import open_server
+from webviz.engine import commands
+from webviz.engine.state import Row, ToolButton
+
+WHY = "Only operators may do this. Your link is for a watcher."
+
+
+@dataclass
+class House:
+    """A viewer that asks for tokens, with a watcher and its owner.
+
+    Args:
+        url: of the page.
+        path: of the file with tokens.
+        tokens: one of each role.
+        watcher, owner: their tabs.
+    """
+
+    url: str
+    path: Path
+    tokens: dict[Role, Token]
+    watcher: Tab
+    owner: Tab
+
+
+@pytest.fixture(scope="module")
+def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
+    path = tmp_path_factory.mktemp("tokens") / "tokens.json"
+    now = datetime.now(UTC)
+    tokens = {role: make(f"the {role.label}", role, now) for role in Role}
+    token_file.modify(path, lambda _: list(tokens.values()))
+    access = Access(True, path)
+    server = open_server(port=0, access=access)
+    url = f"http://127.0.0.1:{server.get_port()}"
+    loop = Loop(server)
+    loop.pages = Pages(server.channel, loop._enqueue, loop._steer, access)
+    loop.state.__dict__["tools"] = (ToolButton("goal", "Goal", "Sends a goal.", "g", "pose"),)
+
+    def tab(role: Role) -> Tab:
+        page = open_page(browser)
+        answer = page.context.request.get(link(url, tokens[role]))
+        assert answer.ok
+        return Tab(page, server, loop)
+
+    house = House(url, path, tokens, tab(Role.WATCHER), tab(Role.OWNER))
+    yield house
+    for each in (house.watcher, house.owner):
+        each.page.context.close()
+    server.stop()
+
+
+@pytest.fixture(autouse=True)
+def displays(house: House, make_row: Callable[..., Row]) -> None:
+    house.owner.loop.show(make_row("a"))
+    house.owner.loop.commands.clear()
+
+
+def toasts(tab: Tab) -> playwright.Locator:
+    return tab.page.locator(".wv-toasts")
+
+
+def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
+    house: House, browser: playwright.Browser
+) -> None:
+    with browser.new_context() as context:
+        page = context.new_page()
+        # From another site: its cookie would not be sent after a plain redirect.
+        page.set_content(f'<a href="{link(house.url, house.tokens[Role.WATCHER])}">Watch</a>')
+        page.click("a")
+        page.wait_for_url(f"{house.url}/")
+        page.wait_for_function("document.querySelector('#root')")
+        assert page.evaluate("document.cookie") == ""
+        assert page.evaluate("document.referrer") == ""
+        (cookie,) = context.cookies()
+        assert (cookie.get("httpOnly"), cookie.get("sameSite")) == (True, "Strict")
+        page.goto(link(house.url, house.tokens[Role.OPERATOR]))
+        assert page.url == f"{house.url}/"
+
+
+def test_what_a_watcher_may_not_do_says_why(house: House) -> None:
+    watcher = house.watcher
+    page = watcher.page
+    watcher.wait_for(lambda: page.locator(".wv-role").inner_text() == "watcher")
+    for name in ("Undo", "Redo", "Pause", "Reset"):
+        button = watcher.button(name)
+        expect(button).to_have_attribute("aria-disabled", "true")
+        expect(button).to_have_attribute("data-why", WHY)
+    page.locator(".wv-tree-add").click()
+    expect(toasts(watcher)).to_contain_text(WHY)
+    expect(page.locator("dialog")).to_have_count(0)
+    page.keyboard.press("Control+s")
+    expect(toasts(watcher)).to_contain_text("Only the owner of this viewer may do this.")
+    expect(page.get_by_label("Fixed frame", exact=True)).to_be_disabled()
+    expect(page.get_by_role("button", name="Goal", exact=True)).to_have_attribute(
+        "aria-disabled", "true"
+    )
+    assert watcher.loop.commands == []
+
+
+def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None:
+    watcher = house.watcher
+    watcher.page.locator('[data-id="a"] .wv-tree-name').click()
+    watcher.wait_for(lambda: watcher.page.locator(".wv-property").count() > 3)
+    fields = watcher.page.locator(".wv-property-control").locator("input, select, textarea")
+    assert fields.count() > 3
+    for field in fields.all():
+        expect(field).to_be_disabled()
+    expect(watcher.page.get_by_role("checkbox", name="Show a", exact=True)).to_be_disabled()
+    watcher.page.keyboard.press("Delete")
+    watcher.turn()
+    assert [c for c in watcher.loop.commands if isinstance(c, commands.RemoveDisplay)] == []
+
+
+def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
+    house.watcher.page.locator("body").press("z")
+    house.watcher.wait_for_command(commands.ResetView())
+
+
+def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) -> None:
+    ask = """async () => {
+      const channel = await import('/webviz/channel.js');
+      window.answers = [];
+      channel.on('Done', (done) => window.answers.push(done.text));
+      channel.send({type: 'Do', number: 9999, command: 'Undo', arguments: {}});
+    }"""
+    house.watcher.page.evaluate(ask)
+    house.watcher.wait_for(lambda: house.watcher.page.evaluate("window.answers.length"))
+    assert house.watcher.page.evaluate("window.answers") == [
+        "Not allowed: this needs an operator, and you are a watcher. Ask the owner of this viewer "
+        "for another link."
+    ]
+    assert house.watcher.loop.commands == []
+
+
+def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
+    owner = house.owner
+    owner.button("Undo")
+    expect(owner.page.locator(".wv-locked")).to_have_count(0)
+    owner.loop.answer = "Saved lab.yaml."
+    owner.page.evaluate(
+        "async () => (await import('/webviz/act.js')).act('Save', {path: 'lab.yaml'})"
+    )
+    owner.button("Menu").click()
+    owner.page.get_by_role("menuitem", name="People…").click()
+    people = owner.page.get_by_role("dialog")
+    owner.wait_for(lambda: people.get_by_role("table", name="Connected").locator("td").count() > 6)
+    text = people.inner_text()
+    for part in ("the watcher", "the owner (you)", "127.0.0.1", "Saved lab.yaml."):
+        owner.wait_for(lambda part=part: part in people.inner_text())
+    assert house.tokens[Role.WATCHER].secret not in text
+    people.get_by_label("Name", exact=True).fill("Ada")
+    people.get_by_label("Role", exact=True).select_option("operator")
+    people.get_by_role("button", name="Make a link").click()
+    owner.wait_for(lambda: people.locator("code").count() == 1)
+    made = people.locator("code").inner_text()
+    (token,) = (t for t in token_file.read(house.path) if t.name == "Ada")
+    assert made == link(house.url, token)
+    assert owner.page.evaluate("document.querySelector('.wv-invitation img').naturalWidth") > 50
+    people.get_by_label("Name", exact=True).fill("Ada")
+    people.get_by_role("button", name="Make a link").click()
+    owner.wait_for(lambda: "There is a link for Ada already" in people.inner_text())
+    owner.page.keyboard.press("Escape")
+
+
+def test_a_page_whose_link_is_revoked_says_so(house: House) -> None:
+    """The last test of this module, since the watcher is gone then."""
+    token_file.modify(
+        house.path, lambda tokens: [t for t in tokens if t != house.tokens[Role.WATCHER]]
+    )
+    expect(house.watcher.page.locator("body")).to_contain_text("This viewer asks for a link.")
+    assert house.owner.page.locator("#webviz").count() == 1

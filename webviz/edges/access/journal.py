@@ -1,0 +1,62 @@
+"""What people have done with a viewer: for its owner, and for the log."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections import deque
+from dataclasses import dataclass
+
+from webviz.edges.access.visitors import Visitor
+
+log = logging.getLogger("webviz.journal")
+
+MAX_ENTRIES = 200
+MAX_TEXT = 200
+"""Characters of an entry; it may quote the name of a file or topic."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Something that was done.
+
+    Args:
+        time_s: in seconds since 1970.
+        name, role, address: of who did it, see `Visitor`; "" if they are gone.
+        text: what was done.
+    """
+
+    time_s: float
+    name: str
+    role: str
+    address: str
+    text: str
+
+
+class Journal:
+    """The newest entries; from any thread."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._entries: tuple[Entry, ...] = ()
+        self._newest: deque[Entry] = deque(maxlen=MAX_ENTRIES)
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """The newest first; the same object until there is another."""
+        return self._entries
+
+    def note(self, visitor: Visitor | None, text: str) -> None:
+        """Add what somebody did, and log it in one line."""
+        name, role, address = "", "", ""
+        if visitor is not None:
+            name, role, address = visitor.name, visitor.role.label, visitor.address
+        # Names of files may contain what terminals obey.
+        plain = "".join(c if c.isprintable() else "?" for c in text)[:MAX_TEXT]
+        entry = Entry(time.time(), name, role, address, plain)
+        with self._lock:
+            self._newest.appendleft(entry)
+            self._entries = tuple(self._newest)
+        who = ", ".join(filter(None, (role, address))) or "a page that is gone"
+        log.info("%s%s: %s", f"{name} " if name else "", f"({who})", plain)

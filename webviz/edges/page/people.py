@@ -1,0 +1,98 @@
+"""Who is connected and what they did; and how the owner invites others."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from concurrent.futures import Future
+from datetime import UTC, datetime
+from typing import Any
+
+import segno
+
+from webviz.api.errors import Error
+from webviz.data.disk import in_thread
+from webviz.edges.access import token_file
+from webviz.edges.access.access import Access
+from webviz.edges.access.journal import Journal
+from webviz.edges.access.roles import Role
+from webviz.edges.access.starting import link
+from webviz.edges.access.tokens import Token, TokenError, make
+from webviz.edges.page.channel import Channel
+from webviz.edges.page.messages import Invitation, Invite
+from webviz.engine.state import State
+
+NOT_ASKED = (
+    "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
+    "other machines."
+)
+
+
+class People:
+    """What stores hold of people, see `webviz.edges.page.content`, and invitations.
+
+    Args:
+        channel: to the pages.
+        journal: what people did.
+        access: knows the tokens.
+    """
+
+    def __init__(self, channel: Channel, journal: Journal, access: Access) -> None:
+        self._channel = channel
+        self._journal = journal
+        self._access = access
+        channel.on(Invite, self._invite)
+
+    def people(self, state: State, _: str) -> Mapping[str, Any]:
+        """Of each browser by its id: name, role, since when, latency in ms, and what it drives."""
+        names = {button.id: button.name for button in state.tools}
+        driving = {tool: driving.driver for tool, driving in state.driving.items()}
+        return {
+            str(browser): {
+                "name": visitor.name,
+                "role": visitor.role.label,
+                "since_s": round(visitor.since_s),
+                "latency_ms": round(1000.0 * visitor.latency_s) if visitor.latency_s else None,
+                "drives": [names.get(t, t) for t, driver in driving.items() if driver == browser],
+            }
+            for browser, visitor in self._channel.visitors().items()
+        }
+
+    def addresses(self, state: State, _: str) -> Mapping[str, Any]:
+        """The network address of each browser by its id."""
+        return {str(id_): visitor.address for id_, visitor in self._channel.visitors().items()}
+
+    def journal(self, state: State, _: str) -> Mapping[str, Any]:
+        """What people did, the newest first."""
+        return {"entries": [dataclasses.asdict(entry) for entry in self._journal.entries]}
+
+    # Called on the event loop
+
+    def _invite(self, browser: int, invite: Invite) -> None:
+        def answer(done: Future[Token]) -> None:
+            try:
+                address = link(invite.url, done.result())
+            except Error as error:
+                self._channel.send(Invitation(invite.number, str(error), "", ""), browser)
+                return
+            code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
+            self._channel.send(Invitation(invite.number, "", address, code), browser)
+            text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."
+            self._journal.note(self._channel.visitors().get(browser), text)
+
+        in_thread(lambda: self._make(invite)).add_done_callback(answer)
+
+    def _make(self, invite: Invite) -> Token:
+        if not self._access.asks or self._access.path is None:
+            raise TokenError(NOT_ASKED)
+        role = Role[invite.role.upper()]
+        made = make(invite.name, role, datetime.now(UTC), invite.days)
+
+        def add(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+            if any(token.name == made.name for token in tokens):
+                raise TokenError(f"There is a link for {made.name} already. Choose another name.")
+            return (*tokens, made)
+
+        token_file.modify(self._access.path, add)
+        self._access.refresh()  # the link works at once
+        return made

@@ -1,0 +1,70 @@
+// What people may do on this page, as the server said when the page joined. The server holds every
+// message against the same roles; here, what is not allowed says so before it is tried.
+
+import * as channel from "./channel.js";
+import constants from "./constants.js";
+import { el, set } from "./dom.js";
+import { toast } from "./shell/toasts.js";
+
+const ROLES = ["watcher", "operator", "owner"];
+const FIELDS = "input, select, textarea, button";
+
+const waiting = []; // what was built before the server has said who this is
+let you = null;
+
+channel.on("You", ({ role, name }) => {
+  // Another link was opened in another tab: what was built for the old role is wrong.
+  if (you && you.role !== role) return location.reload();
+  you = { role, name };
+  for (const apply of waiting.splice(0)) apply();
+});
+
+/** Calls `act` once the role of this page is known. */
+export function onRole(act) {
+  if (you) act();
+  else waiting.push(act);
+}
+
+/** The role of this page, and the name of its link: "" if none is needed. */
+export const self = () => you ?? { role: "owner", name: "" };
+
+/** Why a command or message is not allowed here: a sentence, "" if it is. */
+export function why(what) {
+  const needed = ROLES.indexOf(constants.ROLES[what]);
+  const own = ROLES.indexOf(self().role);
+  if (own >= needed) return "";
+  const who = needed === 2 ? "the owner of this viewer" : "operators";
+  return `Only ${who} may do this. Your link is for ${own === 1 ? "an operator" : "a watcher"}.`;
+}
+
+/** Disables a button, or the fields of an element, if a command is not allowed; returns it. */
+export function needs(what, element) {
+  onRole(() => lock(what, element));
+  return element;
+}
+
+function lock(what, element) {
+  const reason = why(what);
+  if (!reason) return;
+  element.classList.add("wv-locked");
+  set(element, { "data-why": reason });
+  if (!element.matches("button")) {
+    for (const field of element.querySelectorAll(FIELDS)) field.disabled = true;
+    return;
+  }
+  set(element, { "aria-disabled": "true" });
+  const refuse = (event) => {
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    toast(reason, { level: "warn", topic: "access" });
+  };
+  element.addEventListener("click", refuse, true);
+}
+
+/** A place for a control, in which it cannot be used if a command is not allowed. */
+export function holder(what, attributes, ...children) {
+  const reason = what ? why(what) : "";
+  if (!reason) return el("div", attributes, ...children);
+  const about = { ...attributes, class: `${attributes.class} wv-locked`, "data-why": reason };
+  return el("fieldset", { ...about, disabled: true }, ...children);
+}

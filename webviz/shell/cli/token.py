@@ -1,0 +1,130 @@
+"""`webviz token`: lists, makes, rotates and revokes the tokens of links to a viewer."""
+
+from __future__ import annotations
+
+import socket
+from datetime import UTC, datetime
+from typing import Annotated, Literal
+
+from cyclopts import App, Parameter
+
+from webviz.edges.access import token_file
+from webviz.edges.access.roles import Role
+from webviz.edges.access.starting import link
+from webviz.edges.access.token_file import Tokens
+from webviz.edges.access.tokens import Token, TokenError, make
+from webviz.files.config import nearest
+from webviz.shell.cli.links import lines_of, qr_code
+from webviz.shell.cli.options import Flag
+
+EXAMPLES = """\
+Examples:
+  webviz token make Ada                    a link for somebody who watches
+  webviz token make Ada --role operator    for somebody who may drive
+  webviz token make guests --days 1        which ends tomorrow
+  webviz token list --links                all tokens with their links
+  webviz token rotate Ada                  a new link instead of the old one
+  webviz token revoke Ada                  close the pages of that link
+
+A viewer that runs notices changes within two seconds.
+"""
+
+Url = Annotated[str, Parameter(metavar="URL", show_default=False)]
+Days = Annotated[float | None, Parameter(metavar="DAYS")]
+RoleName = Literal["watcher", "operator", "owner"]
+
+app = App("token", usage="Usage: webviz token COMMAND [OPTIONS]", help_epilogue=EXAMPLES)
+
+
+@app.command(name="list")
+def list_tokens(*, links: Flag = False, url: Url = "") -> None:
+    """List names, roles and expiry.
+
+    Args:
+        links: Show the links, too. Whoever sees them may use the viewer.
+        url: Address of the viewer (default: this machine's name and port 8080).
+    """
+    tokens = token_file.read(token_file.standard_path())
+    if not tokens:
+        print("No tokens. Make one with `webviz token make NAME`.")
+    for token in tokens:
+        print("\n".join(lines_of(token, link(_address(url), token) if links else "")))
+
+
+@app.command(name="make")
+def make_token(
+    name: str, /, *, role: RoleName = "watcher", days: Days = None, url: Url = ""
+) -> None:
+    """Make a token, and print its link and QR code.
+
+    Args:
+        name: Of the person or group that gets the link.
+        role: What the link allows.
+        days: Time until the link ends (default: never).
+        url: Address of the viewer (default: this machine's name and port 8080).
+    """
+    made = make(name, Role[role.upper()], datetime.now(UTC), days)
+
+    def add(tokens: Tokens) -> Tokens:
+        if any(token.name == name for token in tokens):
+            raise TokenError(
+                f"There is a token {name!r} already. Choose another name, or run `webviz token "
+                f"rotate {name!r}`."
+            )
+        return (*tokens, made)
+
+    token_file.modify(token_file.standard_path(), add)
+    _print(made, url)
+
+
+@app.command(name="rotate")
+def rotate_token(name: str, /, *, days: Days = None, url: Url = "") -> None:
+    """Replace the link of a token; pages of the old one are closed.
+
+    Args:
+        name: Of the token.
+        days: Time until the new link ends (default: never).
+        url: Address of the viewer (default: this machine's name and port 8080).
+    """
+    made: list[Token] = []
+
+    def renew(tokens: Tokens) -> Tokens:
+        old = _find(tokens, name)
+        made.append(make(name, Role[old.role.upper()], datetime.now(UTC), days))
+        return tuple(made[-1] if token is old else token for token in tokens)
+
+    token_file.modify(token_file.standard_path(), renew)
+    _print(made[-1], url)
+
+
+@app.command(name="revoke")
+def revoke_token(name: str, /) -> None:
+    """Remove a token; its pages are closed.
+
+    Args:
+        name: Of the token.
+    """
+
+    def remove(tokens: Tokens) -> Tokens:
+        gone = _find(tokens, name)
+        return tuple(token for token in tokens if token is not gone)
+
+    token_file.modify(token_file.standard_path(), remove)
+    print(f"webviz: revoked {name}.")
+
+
+def _find(tokens: Tokens, name: str) -> Token:
+    names = [token.name for token in tokens]
+    if name not in names:
+        raise TokenError(f"No token is named {name!r}: {nearest(name, names)}")
+    return tokens[names.index(name)]
+
+
+def _print(token: Token, url: str) -> None:
+    address = link(_address(url), token)
+    print("\n".join(lines_of(token, address)))
+    print(qr_code(address))
+
+
+def _address(url: str) -> str:
+    return url or f"http://{socket.gethostname()}:8080"
