@@ -16,6 +16,7 @@ from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
+from webviz.edges.access.access import Access
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
@@ -66,9 +67,10 @@ class Loop:
 
     Args:
         server: of the pages.
+        access: knows the tokens; None if none are asked for.
     """
 
-    def __init__(self, server: Server) -> None:
+    def __init__(self, server: Server, access: Access | None = None) -> None:
         self.commands: list[Command] = []
         self.senders: list[Sender] = []
         self.state = State()
@@ -81,7 +83,7 @@ class Loop:
         self.helm = Answer()
         """To all of them."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
-        self.pages = Pages(server.channel, self._enqueue, self._steer)
+        self.pages = Pages(server.channel, self._enqueue, self._steer, access)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
         answer: Future[str] = Future()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,7 +17,6 @@ from webviz.edges.access.access import Access
 from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.tokens import Token, make
-from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.engine import commands
 from webviz.engine.state import Row, ToolButton
@@ -52,9 +51,9 @@ def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory)
     access = Access(True, path)
     server = open_server(port=0, access=access)
     url = f"http://127.0.0.1:{server.get_port()}"
-    loop = Loop(server)
-    loop.pages = Pages(server.channel, loop._enqueue, loop._steer, access)
-    loop.state.__dict__["tools"] = (ToolButton("goal", "Goal", "Sends a goal.", "g", "pose"),)
+    loop = Loop(server, access)
+    goal = ToolButton("goal", "Goal", "Sends a goal.", "g", "pose")
+    loop.state = replace(loop.state, tools=(goal,))
 
     def tab(role: Role) -> Tab:
         page = open_page(browser)
@@ -110,7 +109,7 @@ def test_what_a_watcher_may_not_do_says_why(house: House) -> None:
     expect(page.locator("dialog")).to_have_count(0)
     page.keyboard.press("Control+s")
     expect(toasts(watcher)).to_contain_text("Only the owner of this viewer may do this.")
-    expect(page.get_by_label("Fixed frame", exact=True)).to_be_disabled()
+    expect(page.get_by_role("combobox", name="Fixed frame")).to_be_disabled()
     expect(page.get_by_role("button", name="Goal", exact=True)).to_have_attribute(
         "aria-disabled", "true"
     )
