@@ -9,7 +9,7 @@ import pytest
 from webviz import commands
 from webviz.edges.access import rules
 from webviz.edges.access.roles import LIMITS, LINKS, Role
-from webviz.edges.page import messages
+from webviz.edges.page import invitation_messages, messages
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.messages import FromPage
 from webviz.edges.page.refusals import answer
@@ -56,8 +56,7 @@ def every_command() -> set[str]:
 
 
 def every_message() -> set[str]:
-    found = [value for value in vars(messages).values() if isinstance(value, type)]
-    return {c.__name__ for c in found if issubclass(c, FromPage) and c is not FromPage}
+    return {c.__name__ for c in FromPage.__subclasses__() if c.__module__.startswith("webviz.")}
 
 
 def test_every_command_has_a_role_or_a_reason_why_no_page_may_send_it() -> None:
@@ -127,6 +126,8 @@ def test_what_is_answered_is_refused_in_words() -> None:
     assert answer(stroke, "No.") == messages.Result(3, "error", "No.")
     for asked in (messages.Do(7, "Save", {}), messages.Use(7, "panel", "button")):
         assert answer(asked, "No.") == messages.Done(7, "error", "No.", "")
+    invite = invitation_messages.Invite(7, "Ada", "owner", None, "http://robot")
+    assert answer(invite, "No.") == invitation_messages.Invitation(7, "No.", "", "")
     assert answer(messages.Ping(), "No.") is None
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import msgspec
 
@@ -370,40 +370,6 @@ class Use(FromPage, frozen=True):
     panel: str
     widget: str
     value: bool | str | None = None
-
-
-class Invite(FromPage, frozen=True):
-    """Asks for a link for somebody else.
-
-    Args:
-        number: of the request, for the page to know its `Invitation`.
-        name: of who gets the link.
-        role: that it gives.
-        days: until it ends, None for never.
-        url: of the page, to which the token is added.
-    """
-
-    number: Number
-    name: Annotated[str, msgspec.Meta(max_length=100)]
-    role: Literal["watcher", "operator", "owner"]
-    days: float | None
-    url: Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]
-
-
-class Invitation(ToPage, frozen=True):
-    """Answers an `Invite`.
-
-    Args:
-        number: of the request.
-        problem: why there is none, a sentence; else "".
-        link: with a new token.
-        code: the same as a QR code, the address of an image.
-    """
-
-    number: int
-    problem: str
-    link: str
-    code: str
 
 
 class Done(ToPage, frozen=True):

@@ -19,7 +19,7 @@ from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.tokens import Token, TokenError, make
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import Invitation, Invite
+from webviz.edges.page.invitation_messages import Invitation, Invite
 from webviz.engine.state import State
 
 NOT_ASKED = (

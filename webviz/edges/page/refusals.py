@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from webviz.edges.page.invitation_messages import Invitation, Invite
 from webviz.edges.page.messages import (
     Do,
     Done,
@@ -10,8 +11,6 @@ from webviz.edges.page.messages import (
     Gripped,
     GripRefused,
     Helm,
-    Invitation,
-    Invite,
     Result,
     StrokeDone,
     ToPage,

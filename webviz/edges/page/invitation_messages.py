@@ -1,0 +1,43 @@
+"""The messages by which an owner invites others; see `webviz.edges.page.messages`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import msgspec
+
+from webviz.edges.page.messages import FromPage, Number, ToPage
+
+
+class Invite(FromPage, frozen=True):
+    """Asks for a link for somebody else.
+
+    Args:
+        number: of the request, for the page to know its `Invitation`.
+        name: of who gets the link.
+        role: that it gives.
+        days: until it ends, None for never.
+        url: of the page, to which the token is added.
+    """
+
+    number: Number
+    name: Annotated[str, msgspec.Meta(max_length=100)]
+    role: Literal["watcher", "operator", "owner"]
+    days: float | None
+    url: Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]
+
+
+class Invitation(ToPage, frozen=True):
+    """Answers an `Invite`.
+
+    Args:
+        number: of the request.
+        problem: why there is none, a sentence; else "".
+        link: with a new token.
+        code: the same as a QR code, the address of an image.
+    """
+
+    number: int
+    problem: str
+    link: str
+    code: str
