@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from webviz import Level
 from webviz.api.handles import Grip, Handle
@@ -239,6 +240,18 @@ def test_faulty_servers_are_reported_and_the_rest_is_shown(
     server.apply()
     viewer.wait_for(lambda: "pinned" in handles(viewer), "the marker")
     viewer.wait_for(lambda: position(viewer, "m4")[:2] == [4.0, 0.0], "its group")
+
+    mesh, broken = boxed("mesh"), boxed("broken")
+    for made, data in ((mesh, trimesh.creation.box().export(file_type="stl")), (broken, b"no")):
+        (shape,) = made.controls[0].markers
+        shape.type, shape.mesh_resource = 10, "embedded://file.stl"
+        shape.mesh_file.filename, shape.mesh_file.data = "file.stl", data
+        server.insert(made)
+    server.apply()
+    viewer.wait_for(lambda: "file.stl" in status(viewer, "broken"), lambda: status(viewer))
+    viewer.wait_for(lambda: any(key.startswith("c0/m5/") for key in viewer.nodes()), "the mesh")
+    assert status(viewer, "mesh") == "Locked to frame map."
+    assert not any(key.startswith("c0/m6/") for key in viewer.nodes())
 
 
 def test_feedback_is_that_of_rviz_and_poses_of_the_server_wait_for_the_release(

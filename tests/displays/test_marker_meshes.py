@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from webviz import Glb, Instances, Models
 from webviz.data.messages import Marker, MarkerSequence
 from webviz.data.messages.geometry import Vector3
 from webviz.data.messages.markers import ColorRGBA
-from webviz_displays.markers import MarkerArray
+from webviz_displays.markers import MarkerArray, assets
 from webviz_displays.markers.batch import batch_of
 from webviz_displays.markers.meshes import LoadedMesh
 from webviz_displays.markers.nodes import Files, nodes_of
@@ -143,3 +144,25 @@ def test_meshes_and_pictures_in_a_message_are_drawn_and_broken_ones_named(bench:
         assert (level, said in text) == ("ERROR", True), text
     assert "Marker /1" not in statuses
     assert "Marker /2" not in statuses
+
+
+def test_a_file_that_failed_to_load_is_tried_again(
+    bench: Benches, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    package = tmp_path / "share" / "late"
+    package.mkdir(parents=True)
+    made = bench(MarkerArray())
+    mesh = marker(id=1, type=10, mesh_resource="package://late/late.stl")
+    made.send(ARRAY, {"markers": [mesh]})
+    with monkeypatch.context() as patch:
+        patch.setattr(assets, "RETRY_S", 0.0)
+        made.turn()
+        made.settle()
+    assert "late.stl" in made.statuses()["Marker /1"][1]
+    trimesh.creation.box().export(package / "late.stl")
+    made.turn()
+    assert "Loading" not in made.statuses()
+    made.settle()
+    assert "Marker /1" not in made.statuses()
+    assert len(made.nodes()) == 1

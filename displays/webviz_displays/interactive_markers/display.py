@@ -104,7 +104,7 @@ class InteractiveMarkers(Display):
             return state.problem
         frames = ctx.frames
         transforms = frames.buffer.version if server.is_waiting else 0
-        return server, server.version, frames.fixed_frame, transforms
+        return server, server.version, frames.fixed_frame, transforms, server.assets.version()
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All markers, each in groups that move with its frame."""
@@ -112,11 +112,13 @@ class InteractiveMarkers(Display):
         if (server := state.server) is None:
             return
         look = Look(self.show_descriptions, self.show_axes, self.enable_transparency)
+        arrived = server.assets.load(ctx, server.requests())
         server.is_waiting = False
         for name, marker in server.markers.items():
             if (place := marker.place(ctx.frames)) is not None:
-                server.shown[name].draw(marker, place, look, ctx)
+                server.shown[name].draw(marker, place, look, arrived, ctx)
             server.is_waiting |= place is None or bool(server.shown[name].lost)
+        server.assets.start(ctx)
 
     def tick(self, ctx: Context) -> None:
         """How the connection is, and what is wrong with markers."""

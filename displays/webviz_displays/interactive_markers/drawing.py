@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass, replace
 
 import msgspec
 import numpy as np
 
-from webviz import Axes, Context, Frames, Group, Instances, Labels, Node, Pose, compose
+from webviz import Axes, Context, Frames, Group, Instances, Labels, Level, Node, Pose, compose
 from webviz.data.messages.markers import Content, Marker, MarkerSequence
 from webviz.data.rotations import conjugate, from_axis_angle, matrices, multiply_many
 from webviz.data.transforms.geometry import REACH_M
 from webviz_displays.interactive_markers.completion import Part
 from webviz_displays.interactive_markers.tracked import Place, Tracked
+from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.batch import Batch, batch_of
+from webviz_displays.markers.faults import faults_of
 from webviz_displays.markers.nodes import nodes_of
+from webviz_urdf import LoadRequest
 
 TITLE_AT = 1.4
 TITLE_HEIGHT = 0.15
@@ -41,11 +45,20 @@ class Look:
 
 
 class Shown:
-    """The groups of one interactive marker, made anew only if something changes."""
+    """The groups of one interactive marker, made anew only if something changes.
 
-    def __init__(self) -> None:
+    Args:
+        assets: the files that its shapes name.
+    """
+
+    def __init__(self, assets: Assets) -> None:
         self.lost: str = ""
-        """Why a shape is missing, a sentence."""
+        """Why a shape has no transform, a sentence."""
+        self.fault: str = ""
+        """Why a shape cannot be drawn wherever it is, a sentence."""
+        self.requests: set[LoadRequest] = set()
+        """The files that its shapes name."""
+        self._assets = assets
         self._of: object = None
         self._parts: tuple[Part, ...] = ()
         self._nodes: list[dict[str, Node]] = []
@@ -53,8 +66,17 @@ class Shown:
         self._pinned: dict[tuple[int, int], Pose] = {}
         self._groups: dict[str, Group] = {}
 
-    def draw(self, marker: Tracked, place: Place, look: Look, ctx: Context) -> None:
-        """Add the groups to a context."""
+    def draw(
+        self,
+        marker: Tracked,
+        place: Place,
+        look: Look,
+        arrived: Set[LoadRequest],
+        ctx: Context,
+    ) -> None:
+        """Add the groups to a context; `arrived` are files that were loaded since the last call."""
+        if not arrived.isdisjoint(self.requests):
+            self._of = self._look = None
         same = marker.version, place, look
         if self._of != same or self.lost:
             self._of = same
@@ -98,13 +120,20 @@ class Shown:
         parts = marker.made.parts
         if self._parts is not parts:
             self._pinned.clear()
-        self._parts, self._look, self.lost = parts, look, ""
+        self._parts, self._look, self.lost, self.fault = parts, look, "", ""
         self._nodes = []
+        self.requests = set()
         for index, part in enumerate(parts):
             batch = self._placed(index, part, marker, place, frames)
             if not look.is_transparent:
                 batch = _opaque(batch)
-            nodes = nodes_of(batch)
+            files, missing, named = self._assets.of(batch)
+            self.requests |= named
+            for _, level, text in (*missing, *faults_of(batch)):
+                # Servers make shapes that can be gripped but not seen; that is no fault.
+                if level is Level.ERROR and not self.fault:
+                    self.fault = f"Control '{part.name}': {text}"
+            nodes = nodes_of(batch, files)
             if part.mode != "none" and (batch.types == Marker.TEXT_VIEW_FACING).any():
                 nodes["grip"] = _around_texts(batch)
             whose = f"c{index}/{marker.key}"

@@ -12,6 +12,8 @@ from webviz_displays.interactive_markers.completion import completed, pose_of
 from webviz_displays.interactive_markers.drawing import Shown
 from webviz_displays.interactive_markers.feedback import Outgoing
 from webviz_displays.interactive_markers.tracked import Place, Tracked
+from webviz_displays.markers.assets import Assets
+from webviz_urdf import LoadRequest
 
 MAX_MARKERS = 5000
 
@@ -31,6 +33,8 @@ class Server:
         """By name."""
         self.shown: dict[str, Shown] = {}
         """What is drawn of each, by name."""
+        self.assets = Assets()
+        """The files that shapes name."""
         self.outgoing = Outgoing()
         self.version = 0
         """Changes with everything that is drawn."""
@@ -49,6 +53,10 @@ class Server:
     def find(self, key: str) -> Tracked | None:
         """The marker of a handle."""
         return self._by_key.get(key)
+
+    def requests(self) -> set[LoadRequest]:
+        """The files that shapes name."""
+        return {request for shown in self.shown.values() for request in shown.requests}
 
     def take(self, news: Sequence[News]) -> None:
         """Apply changes in order; within one, markers, then poses, then erased ones."""
@@ -99,7 +107,7 @@ class Server:
             self._made += 1
             marker = Tracked(f"m{self._made}", made)
             self.markers[name] = self._by_key[marker.key] = marker
-            self.shown[name] = Shown()
+            self.shown[name] = Shown(self.assets)
 
     def _move(self, message: Any) -> None:
         name = str(message.name)

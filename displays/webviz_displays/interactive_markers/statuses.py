@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from webviz import Context
+from webviz.data.words import counted
 from webviz_displays.interactive_markers.server import Server
 
 MAX_ROWS = 20
@@ -18,6 +19,8 @@ def report(server: Server, refusal: str, ctx: Context) -> None:
     if server.too_many:
         count = len(server.markers)
         ctx.warn("Markers", f"{server.too_many} more markers are not shown; the limit is {count}.")
+    if loading := server.assets.loading:
+        ctx.warn("Loading", f"Loading {counted(loading, 'file')} of controls.")
     troubles = _troubles(server, ctx)
     for name, (is_error, text) in list(troubles.items())[:MAX_ROWS]:
         (ctx.error if is_error else ctx.warn)(name, text)
@@ -48,6 +51,8 @@ def _troubles(server: Server, ctx: Context) -> dict[str, tuple[bool, str]]:
             found[name] = True, frames.why_not(source.frame, source.stamp_ns)
         elif lost := server.shown[name].lost:
             found[name] = True, lost
+        elif fault := server.shown[name].fault:
+            found[name] = True, fault
         elif marker.made.problems:
             found[name] = False, marker.made.problems[0]
         elif not marker.made.parts:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Set
 
 import numpy as np
@@ -18,6 +19,10 @@ EMBEDDED = "embedded://"
 """Begins the URI of a file that is in the message."""
 MAX_FILES = 500
 """Different files per display."""
+RETRY_S = 30.0
+"""Until a file that could not be loaded is tried again; twice as long after each failure."""
+LONGEST_S = 600.0
+"""Between two tries."""
 
 
 class Assets:
@@ -27,14 +32,28 @@ class Assets:
         self._known: dict[LoadRequest, LoadedMesh | bytes | str] = {}
         self._loading: dict[LoadRequest, Loading] = {}
         self._models: dict[tuple[int, Tint], bytes] = {}
+        self._failed: dict[LoadRequest, tuple[float, float]] = {}
+        """When files that could not be loaded are tried again, and how long that is after."""
+        self._arrived: set[LoadRequest] = set()
+        self._version = 0
 
     @property
     def loading(self) -> int:
-        """How many files are being loaded."""
-        return len(self._loading)
+        """How many files are being loaded for the first time."""
+        return sum(request not in self._known for request in self._loading)
+
+    def version(self) -> int:
+        """Changes when `load` is to be called; files that failed some time ago are tried again."""
+        now = time.monotonic()
+        due = [request for request, (at, _) in self._failed.items() if at <= now]
+        for request in due:
+            self._loading.setdefault(request, Loading(request))
+            self._failed[request] = float("inf"), self._failed[request][1]
+        self._version += bool(due)
+        return self._version
 
     def load(self, ctx: Context, used: Set[LoadRequest]) -> set[LoadRequest]:
-        """Go on loading; what has arrived.
+        """Go on loading; what has arrived or changed since the last call.
 
         Args:
             ctx: has the workers.
@@ -43,22 +62,43 @@ class Assets:
         if len(self._known) > MAX_FILES // 2:
             self._known = {request: v for request, v in self._known.items() if request in used}
             self._models.clear()
+        self._failed = {request: v for request, v in self._failed.items() if request in used}
         self._loading = {request: v for request, v in self._loading.items() if request in used}
-        arrived: set[LoadRequest] = set()
-        for request, loading in self._loading.items():
+        self._take(ctx)
+        arrived, self._arrived = self._arrived, set()
+        return arrived
+
+    def start(self, ctx: Context) -> None:
+        """Begin to load what `of` found missing."""
+        self._take(ctx)
+        self._version += bool(self._arrived)
+
+    def _take(self, ctx: Context) -> None:
+        """Take the results that are ready."""
+        for request, loading in list(self._loading.items()):
             try:
-                result = ctx.background(request, loading.run, stop=loading.stop)
+                result = ctx.background(loading, loading.run, stop=loading.stop)
             except RobotDescriptionError as error:
                 result = str(error)
+                self._fail(request)
+            if result is None:
+                continue
+            del self._loading[request]
+            if not isinstance(result, str):
+                self._failed.pop(request, None)
             if isinstance(result, MeshFile):
                 name = f"{request.mesh} {len(self._known)}" if request.data else request.mesh
                 result = LoadedMesh(name, result.parts)
-            if result is not None:
+            if result != self._known.get(request):
                 self._known[request] = result
-                arrived.add(request)
-        for request in arrived:
-            del self._loading[request]
-        return arrived
+                self._arrived.add(request)
+
+    def _fail(self, request: LoadRequest) -> None:
+        if request.data:
+            return  # what is in a message stays as it is
+        _, pause_s = self._failed.get(request, (0.0, RETRY_S / 2.0))
+        pause_s = min(2.0 * pause_s, LONGEST_S)
+        self._failed[request] = time.monotonic() + pause_s, pause_s
 
     def of(self, batch: Batch) -> tuple[Files, list[Fault], set[LoadRequest]]:
         """What markers take from files, what they lack, and which files they name."""

@@ -70,7 +70,7 @@ class Markers(Display):
             return None
         state.store.expire(ctx.frames.now_ns)
         state.store.place(ctx.frames)
-        return state.store.version
+        return state.store.version, state.assets.version()
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw all markers; the blocks in which none has changed keep their nodes."""
@@ -78,15 +78,15 @@ class Markers(Display):
             return
         state: _State = ctx.state
         store: Store = samples[-1].message
+        arrived = state.assets.load(ctx, state.blocks.requests())
         if state.store is not store or state.switches != self.namespaces:
             state.blocks.clear()
             state.store, state.switches = store, dict(self.namespaces)
         store.expire(ctx.frames.now_ns)
         store.place(ctx.frames)
-        arrived = state.assets.load(ctx, state.blocks.requests())
         changed, store.changed = store.changed, set()
         state.blocks.renew(store.table, changed, arrived, self._is_on, state.assets)
-        state.assets.load(ctx, state.blocks.requests())
+        state.assets.start(ctx)
         state.blocks.draw(ctx)
         report_markers(store, state.blocks, self._is_on, state.assets.loading, ctx)
 
