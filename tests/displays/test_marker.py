@@ -313,6 +313,18 @@ def test_markers_far_away_keep_their_precision(shown: Benches) -> None:
 # Topics
 
 
+def test_marker_does_not_miss_single_ones_while_arrays_come(bench: Benches) -> None:
+    made = bench(Marker())
+    made.turn()
+    assert "No publisher" in made.statuses()["Topic"][1]
+    made.send(ARRAY, {"markers": [cube()]}, topic="/visualization_marker_array")
+    made.turn()
+    assert {level for level, _ in made.statuses().values()} == {"OK"}
+    made.send(MARKER, cube(1), topic="/visualization_marker")
+    made.turn()
+    assert made.statuses()["Topic"][1].startswith("1 message")
+
+
 def test_marker_takes_single_ones_and_arrays_of_the_topic_beside_it(bench: Benches) -> None:
     made = bench(Marker())
     made.send(MARKER, cube(1, 1.0), topic="/visualization_marker")

@@ -20,6 +20,7 @@ class Input:
         beside: without a topic name, the input uses the topic of this name beside the first input's
             topic, whatever transport that is: camera_info beside image_raw/compressed.
         optional: having no publisher is not a problem.
+        unless: another input; once that has messages, having no publisher is not a problem.
         every: take latched messages even if they equal the one before, as they may say it anew.
         also: further message types that the display reads; the publishers of the topic decide, and
             `Sample.type` names the type.
@@ -30,6 +31,7 @@ class Input:
     suffix: str = ""
     beside: str = ""
     optional: bool = False
+    unless: str = ""
     every: bool = False
     also: tuple[str, ...] = ()
 

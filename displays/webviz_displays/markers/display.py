@@ -121,7 +121,7 @@ class Marker(Markers):
 
     topic: Annotated[
         Topic,
-        Input("visualization_msgs/msg/Marker", every=True),
+        Input("visualization_msgs/msg/Marker", every=True, unless="array_topic"),
         Prop(help="Topic of the markers."),
     ] = Topic("/visualization_marker")
     array_topic: Annotated[

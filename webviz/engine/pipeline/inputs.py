@@ -95,12 +95,20 @@ class Inputs:
         result: dict[str, Status] = {}
         active = self._active()
         for name, intake in active.items():
+            if self._is_replaced(intake, offers.get(intake.name)):
+                continue
             said = intake.statuses(offers, dropped(intake.name), frames, clock)
             title = "" if name == "topic" else f" ({name})"
             result |= {f"{key}{title}": status for key, status in said.items()}
         if status := self._sync_status(clock):
             result["Sync"] = status
         return result
+
+    def _is_replaced(self, intake: Intake, offer: Offer | None) -> bool:
+        """Whether nobody publishes an input, but another one that serves as well."""
+        other = self.intakes.get(intake.spec.unless)
+        is_silent = not intake.has_received and not (offer and offer.publishers)
+        return is_silent and other is not None and other.has_received
 
     def _active(self) -> dict[str, Intake]:
         if not overrides(self._display, "listens"):
