@@ -1,17 +1,19 @@
-"""Displays of poses, areas, vectors and measurements draw what comes over DDS."""
+"""Displays of poses, areas, vectors, measurements and markers draw what comes over DDS."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 from plain_scenes import PLAIN_MESSAGES, ROBOT
 
-from webviz import Display, Level
+from webviz import Display, Level, Topic
 from webviz.api.display import inputs, inputs_of
 from webviz.data.messages import encode
 from webviz.shell.testing import LiveViewer
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.markers import Marker, MarkerArray
 from webviz_displays.poses import (
     ParticleCloud,
     PointStamped,
@@ -57,3 +59,54 @@ def test_each_display_draws_what_is_published_and_says_ok(
         viewer.wait_until_drawn(cls.__name__)
         status = viewer.status(cls.__name__)
         assert status.level is Level.OK, f"{cls.__name__}: {status.text}"
+
+
+def cube(id: int, frame: str = "map", alpha: float = 1.0, **more: Any) -> dict[str, Any]:
+    """A cube of 1 m at the latest transform."""
+    values = {
+        "header": {"frame_id": frame},
+        "ns": "cubes",
+        "id": id,
+        "type": 1,
+        "scale": {"x": 1.0, "y": 1.0, "z": 1.0},
+        "color": {"r": 1.0, "a": alpha},
+    }
+    return values | more
+
+
+def test_markers_come_go_wait_and_expire(webviz_viewer: Callable[..., LiveViewer]) -> None:
+    viewer = webviz_viewer(Marker(), MarkerArray(topic=Topic("/shapes")))
+
+    def send(*markers: dict[str, Any], topic: str = "/visualization_marker_array") -> None:
+        viewer.publish(topic, "visualization_msgs/msg/MarkerArray", {"markers": markers})
+
+    def says(text: str, key: str = "Markers", display: int = 0) -> None:
+        def statuses() -> str:
+            rows = viewer.viewer.snapshot().rows
+            return str({key: each.text for key, each in rows[display].statuses.items()})
+
+        def said() -> str:
+            status = viewer.viewer.snapshot().rows[display].statuses.get(key)
+            return status.text if status else ""
+
+        viewer.wait_for(lambda: text in said(), statuses)
+
+    viewer.publish("/visualization_marker", "visualization_msgs/msg/Marker", cube(1))
+    says("1 marker in 1 namespace.")
+    send(cube(2), cube(3, "late"))
+    says("2 of 3 markers shown in 1 namespace; 1 waiting for a transform.")
+    says("late", "Transform")
+    viewer.transform("map", "late", (5.0, 0.0, 0.0))
+    says("3 markers in 1 namespace.")
+    send(cube(1, action=2), cube(2, ns="others"))
+    says("3 markers in 2 namespaces.")
+    send(cube(0, ns="", action=3), cube(4), cube(5, alpha=0.0))
+    says("1 of 2 markers shown in 1 namespace.")
+    says("alpha of the color is 0", "Marker cubes/5")
+    send(cube(0, action=3), cube(6, lifetime={"nanosec": 300_000_000}))
+    says("The last one, cubes/6, expired")
+
+    viewer.transform("map", "late", (5.0, 0.0, 0.0))
+    send(cube(1, "late"), cube(1, "late"), topic="/shapes")
+    says("1 marker in 1 namespace.", display=1)
+    says("cubes/1", "Duplicates", display=1)
