@@ -21,6 +21,7 @@ from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
+from webviz_displays.markers import MarkerArray
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
@@ -276,6 +277,49 @@ def point_of_an_older_cloud(bench: Benches) -> Details:
     return one_of(bench, cloud, "sensor_msgs/msg/PointCloud", values, "points", 0)
 
 
+def marker(
+    bench: Benches, key: str, number: int | None, point: Any = None, **fields: Any
+) -> Details:
+    """An item of the second of two markers, 10 m behind the first."""
+    each = {"scale": {"x": 1.0, "y": 1.0, "z": 1.0}, "color": {"g": 1.0, "a": 1.0}, **fields}
+    header = {"frame_id": "odom"}
+    near, far = ({"pose": {"position": {"x": x}}} for x in (0.0, 10.0))
+    markers = [{**each, **pose, "header": header, "ns": "a", "id": i}
+               for i, pose in enumerate((near, far))]  # fmt: skip
+    at = bench(MarkerArray())
+    at.transform("map", "odom")
+    at.send("visualization_msgs/msg/MarkerArray", {"markers": markers})
+    at.turn()
+    (found,) = (name for name in at.nodes() if name.startswith(key))
+    return pick(at, found, number, point)
+
+
+def shape_of_a_marker(bench: Benches) -> Details:
+    return marker(bench, "box", 1, type=1)
+
+
+def point_of_a_marker(bench: Benches) -> Details:
+    return marker(bench, "points", 4, type=8, points=np.arange(9.0).reshape(3, 3))
+
+
+def line_of_a_marker(bench: Benches) -> Details:
+    return marker(bench, "lines", 3, type=4, points=np.arange(9.0).reshape(3, 3))
+
+
+TRIANGLES = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1), (0, 0, 2)], np.float64)
+
+
+def triangle_of_a_marker(bench: Benches) -> Details:
+    """One of two that are one mesh; they have a triangle without an area too."""
+    return marker(bench, "triangles", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES)
+
+
+def triangle_of_a_colorful_marker(bench: Benches) -> Details:
+    colors = np.array([(1, 0, 0, 1)] * 6, np.float32)
+    more = {"type": 11, "points": TRIANGLES, "colors": colors}
+    return marker(bench, "triangles 2", None, (10.2, 0.3, 0.0), **more)
+
+
 def grid(bench: Benches) -> Details:
     at = bench(Grid(plane_cell_count=4, cell_size=0.5))
     at.turn()
@@ -367,6 +411,13 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     ),
     temperature: ("Temperature 0", {"Value": "21.5 °C", "Standard deviation": "0.5 °C"}),
     point_of_an_older_cloud: ("Point 1", {"ring": "5.0", "Points in the cloud": "2"}),
+    shape_of_a_marker: (
+        "Marker a/1", {"Namespace": "a", "Id": "1", "Type": "CUBE", "Frame": "odom"}
+    ),
+    point_of_a_marker: ("Marker a/1", {"Type": "POINTS", "Points": "3"}),
+    line_of_a_marker: ("Marker a/1", {"Type": "LINE_STRIP", "Age": "0.0 s"}),
+    triangle_of_a_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST", "Points": "6"}),
+    triangle_of_a_colorful_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST"}),
     grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
     axes: ("Axes of odom", {"Length": "1 m"}),
     line_of_a_display_that_does_not_know: ("Line 2", {}),

@@ -157,12 +157,14 @@ class Mesh(_Node):
         faces: uint32 (M, 3), counter-clockwise seen from outside.
         color: of the whole mesh.
         opacity: 0 to 1.
+        ids: (M,), what each face is selected by; None if the mesh is one thing.
     """
 
     vertices: F32
     faces: NDArray[np.uint32]
     color: Rgb
     opacity: float = 1.0
+    ids: Ids | None = None
 
 
 @dataclass(frozen=True, eq=False)

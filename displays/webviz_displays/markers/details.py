@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
-from webviz import Details, Pose
+from webviz import Details, Hit, Pose
 from webviz_displays.markers.faults import type_name
 from webviz_displays.markers.table import FOREVER, Table
 
 SECOND = 1_000_000_000
+_COLORFUL = re.compile(r"triangles (\d+) in ")
+"""Begins the key of a node that one marker has for itself."""
+
+
+def serial_of(hit: Hit) -> int | None:
+    """The serial number of the marker that was selected, None if it cannot be told."""
+    if hit.id is not None:
+        return int(hit.id)
+    found = _COLORFUL.match(hit.key)
+    return int(found[1]) if found else None
 
 
 def marker_details(table: Table, serial: int, now_ns: int) -> Details | None:

@@ -12,7 +12,7 @@ from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Status, 
 from webviz.data import messages
 from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.blocks import Blocks
-from webviz_displays.markers.details import marker_details
+from webviz_displays.markers.details import marker_details, serial_of
 from webviz_displays.markers.report import report_markers, report_namespaces, report_waiting
 from webviz_displays.markers.store import Store
 
@@ -106,9 +106,10 @@ class Markers(Display):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A marker."""
         state: _State = ctx.state
-        if state.store is None or hit.id is None:
+        serial = serial_of(hit)
+        if state.store is None or serial is None:
             return super().inspect(hit, ctx)
-        return marker_details(state.store.table, int(hit.id), ctx.frames.now_ns)
+        return marker_details(state.store.table, serial, ctx.frames.now_ns)
 
     def _is_on(self, namespace: str) -> bool:
         return self.namespaces.get(namespace, True)

@@ -40,12 +40,14 @@ def triangles_of(batch: Batch, pictures: Mapping[int, bytes]) -> dict[str, Node]
     for (*color, opacity), rows in plain.items():
         vertices = _corners(batch, np.array(rows))
         faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
+        ids = np.repeat(batch.ids[rows], [len(batch.contents[row].points) // 3 for row in rows])
         if opacity < 1.0:  # transparent meshes show their front only
             faces = np.concatenate((faces, faces[:, ::-1] + np.uint32(len(vertices))))
             vertices = np.concatenate((vertices, vertices))
+            ids = np.concatenate((ids, ids))
         red, green, blue = color
         nodes[f"triangles {red} {green} {blue} {opacity:.3f}"] = Mesh(
-            vertices, faces, (red, green, blue), opacity
+            vertices, faces, (red, green, blue), opacity, ids
         )
     return nodes
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz.api.context import Group, Placement
 from webviz.api.frames import Frames, compose
-from webviz.api.nodes import Arrows, Axes, Instances, Lines, Models, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Instances, Lines, Mesh, Models, Points, Pose
 from webviz.api.picking import Hit
 from webviz.api.sample import Sample
 from webviz.data.rotations import matrices
@@ -94,6 +94,10 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
         hit = Hit(key, node, id, point, frame, shot.samples)
         return Found(hit, pose, placement, shot.fixed_frame)
 
+    if isinstance(node, Mesh) and node.ids is not None and len(node.faces):
+        if len(node.ids) != len(node.faces):
+            raise ValueError(f"a mesh has {len(node.faces)} faces, but {len(node.ids)} ids")
+        return {pick[0]: found(node.ids[_face_at(node, pick[2])].item(), pick[2]) for pick in picks}
     if not isinstance(node, Items):
         return {pick[0]: found(None, pick[2]) for pick in picks}
     rows = _drawn_rows(node)
@@ -144,6 +148,24 @@ def _only(node: N, rows: NDArray[np.intp]) -> N:
     arrays = {name: v for name, v in values.items() if isinstance(v, np.ndarray)}
     chosen = {name: v[rows] for name, v in arrays.items() if len(v) == count and name != "ids"}
     return replace(node, ids=None, **chosen)
+
+
+def _face_at(node: Mesh, point: Position) -> int:
+    """The face that a point is on."""
+    corners = node.vertices[node.faces].astype(np.float64)
+    a = corners[:, 0]
+    ab, ac, ap = corners[:, 1] - a, corners[:, 2] - a, point - a
+    (bb, bc, cc), (pb, pc) = (
+        [np.einsum("ij,ij->i", *pair) for pair in pairs]
+        for pairs in (((ab, ab), (ab, ac), (ac, ac)), ((ap, ab), (ap, ac)))
+    )
+    area = np.maximum(bb * cc - bc * bc, np.finfo(np.float64).tiny)
+    v, w = (cc * pb - bc * pc) / area, (bb * pc - bc * pb) / area
+    # Barycentric coordinates, moved to the nearest that are inside or almost.
+    weights = np.clip(np.column_stack((1.0 - v - w, v, w)), 0.0, 1.0)
+    weights /= weights.sum(axis=1, keepdims=True)
+    nearest = np.einsum("ij,ijk->ik", weights, corners)
+    return int(np.argmin(((nearest - point) ** 2).sum(axis=1)))
 
 
 def _positions(node: Items) -> NDArray[np.float32]:
