@@ -88,6 +88,13 @@ def test_delete_all_spares_what_comes_after_it(shown: Benches) -> None:
     assert "Duplicates" not in bench.statuses()
 
 
+def test_namespaces_are_offered_as_switches_with_their_counts(shown: Benches) -> None:
+    bench = shown([cube(1), cube(2), cube(3, ns="b")], namespaces={"a": False})
+    assert bench.runner.offered() == {"namespaces": {"a": 2, "b": 1}}
+    send(bench, cube(3, action=DELETE, ns="b"), cube(4, ns=""))
+    assert bench.runner.offered() == {"namespaces": {"a": 2, "": 1}}
+
+
 def test_delete_all_of_a_namespace_spares_the_others(shown: Benches) -> None:
     bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")], [cube(0, action=DELETEALL, ns="b")])
     assert xs(bench) == [1.0]

@@ -20,6 +20,7 @@ from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
+from webviz_displays.markers import MarkerArray
 from webviz_displays.point_cloud2 import PointCloud2
 from webviz_displays.tf import TF
 
@@ -67,6 +68,17 @@ def test_switches_of_hundreds_of_frames_are_searched_and_set_together(pane: Pane
     playwright.expect(options.nth(3)).to_have_attribute("aria-checked", "false")
     options.nth(3).click()
     pane.wait_for_set("frames", {"gone": False, "arm/link_293": True})
+
+
+def test_switches_by_names_of_the_display_tell_how_many_things_have_each(pane: Pane) -> None:
+    markers = MarkerArray(name="a", namespaces={"gone": False})
+    offered = {"namespaces": {"lanes": 12, "<b>cones</b>": 3, "": 1}}
+    pane.tab.loop.show(Row("a", "MarkerArray", markers, "a", {}, offered=offered))
+    row = pane.row("namespaces")
+    options = row.get_by_role("option")
+    playwright.expect(options).to_have_text(["(no name)1", "<b>cones</b>3", "gone", "lanes12"])
+    options.nth(3).click()
+    pane.wait_for_set("namespaces", {"gone": False, "lanes": False})
 
 
 def test_each_kind_of_property_has_its_control(pane: Pane) -> None:

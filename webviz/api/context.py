@@ -6,7 +6,7 @@ framework compares them with those of the previous call and updates the scene.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
@@ -240,6 +240,8 @@ class Context(Group):
         self.statuses: dict[str, Status] = {}
         self.color_scale: ColorScale | None = None
         """For the legend in the scene; set it to say which values colours stand for."""
+        self.offered: dict[str, Mapping[str, int]] = {}
+        """For switches by name: by their property, the names, and how many things have each."""
 
     def follow(
         self,

@@ -39,7 +39,7 @@ def Prop(
     unit: str = "",
     rviz: str = "",
     when: tuple[str, object] | None = None,
-    widget: Literal["", "frame", "slider"] = "",
+    widget: Literal["", "frame", "names", "slider"] = "",
     otherwise: str = "",
     gt: float | None = None,
     ge: float | None = None,
@@ -54,8 +54,9 @@ def Prop(
         rviz: RViz's name, if it differs from this name with spaces and capitals.
         when: (property, value) at which this property has an effect; several values as a tuple.
         widget: the control, if the type alone does not determine it; "frame" for the id of a frame,
-            or for switches by the ids of frames.
-        otherwise: of such switches, the property that holds for frames without one.
+            or for switches by the ids of frames; "names" for switches by names that the display
+            offers, see `Context.offered`.
+        otherwise: of switches, the property that holds for names without one.
         gt, ge, lt, le: bounds.
     """
     hints = {"unit": unit, "rviz": rviz, "when": when, "widget": widget, "otherwise": otherwise}

@@ -33,6 +33,7 @@ class Row:
         enabled: its own switch, whatever its groups are.
         color_scale: the meaning of its colours.
         revision: how often the display was changed, which is the same object then.
+        offered: names for switches, see `Context.offered`.
     """
 
     id: str
@@ -44,6 +45,7 @@ class Row:
     enabled: bool = True
     color_scale: ColorScale | None = None
     revision: int = 0
+    offered: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
 
     @property
     def level(self) -> Level:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
@@ -17,6 +18,8 @@ from webviz_displays.markers.report import report_markers, report_namespaces, re
 from webviz_displays.markers.store import Store
 
 SECOND = 1_000_000_000
+MAX_NAMES = 1000
+"""Namespaces that get a switch in the page."""
 
 
 @dataclass
@@ -42,7 +45,10 @@ class Markers(Display):
 
     namespaces: Annotated[
         dict[str, bool],
-        Prop(help="Switches of single namespaces by name; the markers of others are shown."),
+        Prop(
+            widget="names",
+            help="Switches of single namespaces by name; the markers of others are shown.",
+        ),
     ] = msgspec.field(default_factory=dict)
 
     def new_state(self) -> _State:
@@ -88,6 +94,8 @@ class Markers(Display):
         state.blocks.renew(store.table, changed, arrived, self._is_on, state.assets)
         state.assets.start(ctx)
         state.blocks.draw(ctx)
+        counts = store.table.namespaces.items()
+        ctx.offered["namespaces"] = dict(itertools.islice(counts, MAX_NAMES))
         report_markers(store, state.blocks, self._is_on, state.assets.loading, ctx)
 
     def tick(self, ctx: Context) -> None:

@@ -37,11 +37,13 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
         return Row(entry.id, "", None, own.name, status, entry.depth, own.enabled)
     kind = type_name(type(own))
     statuses: Mapping[str, Status] = {}
+    offered: Mapping[str, Mapping[str, int]] = {}
     scale = None
     if isinstance(content, Runner) and entry.is_enabled:
         statuses, scale = statuses_of(content), content.color_scale()
+        offered = content.offered()
     common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
-    return Row(*common, entry.revision)
+    return Row(*common, entry.revision, offered)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any
@@ -65,6 +65,7 @@ class Painter:
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
         self._scales: dict[str, ColorScale | None] = {}
+        self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
         self._drawn: dict[str, dict[int, Look]] = {}
         self._version = 0
         self._errand: _Errand | None = None
@@ -121,6 +122,7 @@ class Painter:
         self._state = _NO_STATE
         self._statuses.clear()
         self._scales.clear()
+        self._offered.clear()
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
@@ -180,6 +182,10 @@ class Painter:
         """Which values colours stand for, as the hooks said when they were last called."""
         return next((scale for scale in self._scales.values() if scale is not None), None)
 
+    def offered(self) -> dict[str, Mapping[str, int]]:
+        """Names for switches by property, as the hooks said when they were last called."""
+        return {path: names for said in self._offered.values() for path, names in said.items()}
+
     def context(self, display: Display, guard: Guard, frames: Frames) -> Context | None:
         """A context for hooks that do not draw; None without a state."""
         return self._context(frames) if self._has_state(display, guard) else None
@@ -229,6 +235,7 @@ class Painter:
         if not samples:
             self._statuses.pop(_voice(name), None)
             self._scales.pop(_voice(name), None)
+            self._offered.pop(_voice(name), None)
 
     def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
         """Draw a sample in a worker."""
@@ -289,6 +296,7 @@ class Painter:
         self._drawing.replace(scope, context, samples)
         self._statuses[voice or scope] = context.statuses
         self._scales[voice or scope] = context.color_scale
+        self._offered[voice or scope] = context.offered
 
 
 def _result(done: Future[None], context: Context) -> None:

@@ -168,6 +168,10 @@ class Runner:
         """Keep what is replaced for some seconds, so that `find` knows what browsers still show."""
         self._painter.remember(is_wanted)
 
+    def offered(self) -> Mapping[str, Mapping[str, int]]:
+        """See `Context.offered`."""
+        return self._painter.offered()
+
     def find(self, picks: Picks) -> dict[int, Found]:
         """What browsers picked, by its id; without what was on no screen in the last seconds."""
         return self._guard.attempt("selection", {}, self._painter.find, picks)

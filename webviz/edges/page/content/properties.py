@@ -22,7 +22,8 @@ def properties(state: State, id_: str) -> Mapping[str, Any]:
     """Of the display with this id; nothing if it is gone.
 
     "name" and "type"; "declared", see `form`; each value, see `values_of`; for each input
-    "topic." and its path: what is known of the topic; "worst" of the statuses.
+    "topic." and its path: what is known of the topic; for switches by name "offered." and their
+    path: the names, with how many things have each; "worst" of the statuses.
     """
     row = _row(state, id_)
     if row is None:
@@ -32,6 +33,7 @@ def properties(state: State, id_: str) -> Mapping[str, Any]:
         return told
     told["declared"] = form(type(row.display), IN_THE_TREE)
     told |= values_of(row.display, IN_THE_TREE)
+    told |= {f"offered.{path}": sendable(names) for path, names in row.offered.items()}
     return told | {f"topic.{name}": _live(topic, state) for name, _, topic in inputs(row.display)}
 
 

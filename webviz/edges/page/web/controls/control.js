@@ -3,8 +3,9 @@
 // A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
 // it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
 // that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
-// unless it is being edited; `describe(text)` is its tooltip; `focus()`. Some have an `end()`, and those
-// of properties with an "otherwise" get its value by `follow(value)`.
+// unless it is being edited; `describe(text)` is its tooltip; `focus()`. Some have an `end()`; those
+// of properties with an "otherwise" get its value by `follow(value)`; topics, and switches whose names
+// are "offered", get what messages tell of them by `live(known)`.
 
 import { checkbox, choice, text } from "./simple.js";
 import { color } from "./color.js";

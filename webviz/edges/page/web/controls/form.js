@@ -10,8 +10,8 @@ import { row } from "./property_row.js";
  *
  * `send(path, value)` sends what was entered and returns the promise of `act`. `name` is
  * what this browser remembers by which sections are folded. `marks`: whether what differs from the
- * default is marked. `command`: of the viewer, that `send` uses, if a role may not be allowed it. Returns `{element, update(values, changed), end()}`: values of a store with "value."
- * and "topic." before the paths, and which are new.
+ * default is marked. `command`: of the viewer, that `send` uses, if a role may not be allowed it. Returns `{element, update(values, changed), end()}`: values of a store with "value.",
+ * "offered." and "topic." before the paths, and which are new.
  */
 export function form(declared, { send, name, marks = true, command = "" }) {
   const rows = new Map();
@@ -97,6 +97,7 @@ export function form(declared, { send, name, marks = true, command = "" }) {
         const [kind, path] = split(key);
         if (!values.has(key)) continue;
         if (kind === "value") rows.get(path)?.update(values.get(key));
+        if (kind === "offered") rows.get(path)?.live(values.get(key));
         if (kind === "topic") lives.get(path)?.(values.get(key));
       }
       for (const { key, made } of followers) if (changed.has(key)) made.follow(values.get(key));

@@ -1,4 +1,5 @@
-// Switches by name, such as those of frames: check boxes with a search, for hundreds of names.
+// Switches by name, such as those of frames or of namespaces: check boxes with a search, for
+// hundreds of names.
 
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
@@ -12,13 +13,15 @@ const MOST_ROWS = 8;
 const ROW_PX = 24;
 
 /**
- * A dictionary of switches by the names of frames; see `control.js`. `follow(value)` sets what
- * holds for names that have no switch of their own.
+ * A dictionary of switches by the names of frames, or, if they are `offered`, by those that
+ * `live(known)` sets, with how many things have each; see `control.js`. `follow(value)` sets what holds
+ * for names that have no switch of their own.
  */
-export function switches(_, { label, change, refused }) {
+export function switches({ offered }, { label, change, refused }) {
   const height = touchable(ROW_PX);
   const noun = label.toLowerCase();
-  let frames = [];
+  let names = [];
+  let counts = {};
   let current = {};
   let otherwise = true;
   let shown = [];
@@ -52,7 +55,7 @@ export function switches(_, { label, change, refused }) {
 
   const isOn = (name) => (Object.hasOwn(current, name) ? current[name] : otherwise);
 
-  // What holds anyway needs no switch: frames that come and go leave nothing behind.
+  // What holds anyway needs no switch: names that come and go leave nothing behind.
   function put(names, value) {
     const own = new Map(Object.entries(current));
     for (const name of names) {
@@ -67,20 +70,22 @@ export function switches(_, { label, change, refused }) {
   function make() {
     const box = el("span", { class: "wv-box", "aria-hidden": "true" });
     const name = el("span", { class: "wv-ellipsis" });
-    const row = el("div", { class: "wv-switch" }, box, name);
-    row.wvParts = { box, name, mark: icon("check", 12) };
+    const count = el("span", { class: "wv-quiet wv-switch-count" });
+    const row = el("div", { class: "wv-switch" }, box, name, count);
+    row.wvParts = { box, name, count, mark: icon("check", 12) };
     return row;
   }
 
   function update(row, { key }) {
-    const { box, name, mark } = row.wvParts;
-    setText(name, plain(key));
+    const { box, name, count, mark } = row.wvParts;
+    setText(name, key === "" ? "(no name)" : plain(key));
+    setText(count, Object.hasOwn(counts, key) ? String(counts[key]) : "");
     set(row, { "aria-checked": String(isOn(key)), title: key.length > 30 ? plain(key, 1000) : null });
     setChildren(box, isOn(key) ? [mark] : []);
   }
 
   function show() {
-    const all = [...new Set([...frames, ...Object.keys(current)])].sort();
+    const all = [...new Set([...names, ...Object.keys(current)])].sort();
     const words = wordsOf(search.value);
     shown = all.filter((name) => words.every((word) => name.toLowerCase().includes(word)));
     list.element.style.height = `${Math.min(shown.length, MOST_ROWS) * height}px`;
@@ -91,8 +96,8 @@ export function switches(_, { label, change, refused }) {
     set(empty, { hidden: shown.length > 0 });
   }
 
-  const end = watch("frames", (values) => {
-    frames = values.get("frames") ?? [];
+  const end = offered ? () => {} : watch("frames", (values) => {
+    names = values.get("frames") ?? [];
     show();
   });
   show();
@@ -104,6 +109,11 @@ export function switches(_, { label, change, refused }) {
     focus: () => search.focus(),
     describe: (text) => set(list.element, { "aria-description": text }),
     update: state.show,
+    live(known) {
+      counts = known;
+      names = Object.keys(known);
+      show();
+    },
     follow(value) {
       otherwise = value;
       show();
