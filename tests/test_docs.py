@@ -53,6 +53,18 @@ def test_every_link_leads_to_a_file_and_a_heading(path: Path) -> None:
             assert anchor in anchors(target.read_text(encoding="utf-8")), f"no heading {link}"
 
 
+def test_every_promise_names_tests_that_exist() -> None:
+    text = (docs.ROOT / "SECURITY.md").read_text(encoding="utf-8")
+    tables = re.findall(r"\| promise \| held by \|\n\|[-|]+\n((?:\|.+\n)+)", text)
+    assert tables
+    for row in "".join(tables).splitlines():
+        named = re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", row)
+        assert named, row
+        for path, test in named:
+            source = (docs.ROOT / path).read_text(encoding="utf-8")
+            assert f"\ndef {test}(" in source, f"{path}::{test}"
+
+
 @pytest.mark.parametrize("path", GUIDES, ids=lambda path: path.name)
 def test_every_file_that_a_guide_names_exists(path: Path) -> None:
     text = path.read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 import playwright.sync_api as playwright
@@ -99,6 +99,14 @@ class View(Page):
         return True
 
 
+class HasPort(Protocol):
+    """What is needed of a server, which may be in another process."""
+
+    def get_port(self) -> int:
+        """Its port on this machine."""
+        ...
+
+
 class Peer:
     """A program that talks to the server as a browser's websocket does.
 
@@ -107,7 +115,7 @@ class Peer:
         headers: more headers for the handshake.
     """
 
-    def __init__(self, server: viser.ViserServer, **headers: str) -> None:
+    def __init__(self, server: HasPort, **headers: str) -> None:
         self._socket = websockets.sync.client.connect(
             f"ws://127.0.0.1:{server.get_port()}",
             subprotocols=[f"viser-v{viser.__version__}"],  # pyright: ignore[reportArgumentType]

@@ -1,0 +1,89 @@
+"""What an attack is: cases that follow from a seed and a number, and what became of each."""
+
+from __future__ import annotations
+
+import abc
+import enum
+from dataclasses import dataclass
+from random import Random
+
+
+class Outcome(enum.Enum):
+    """What became of a case that broke no promise."""
+
+    REFUSED = "refused"
+    """The viewer refused it, by a sentence, a status or the end of the connection."""
+    SURVIVED = "survived"
+    """The viewer took or ignored it, and went on."""
+
+
+class Violation(Exception):
+    """A promise was broken; the message says which."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One input for the viewer.
+
+    Args:
+        name: of a file that holds `data`; says how it is sent.
+        data: what is sent.
+    """
+
+    name: str
+    data: bytes
+
+
+class Attack(abc.ABC):
+    """One kind of attack."""
+
+    kind: str
+    """Its name, also that of its folder in the corpus."""
+
+    def start(self) -> None:  # noqa: B027 - most start nothing
+        """Start what the attack needs, once before the first case."""
+
+    @abc.abstractmethod
+    def draw(self, random: Random) -> Case:
+        """A case; the same for the same state of `random`."""
+
+    @abc.abstractmethod
+    def strike(self, case: Case) -> Outcome:
+        """Try a case.
+
+        Raises:
+            Violation: a promise was broken.
+        """
+
+    def close(self) -> None:  # noqa: B027 - most start nothing
+        """End what it has started."""
+
+
+def random_of(seed: int, kind: str, number: int) -> Random:
+    """The source of a case, independent of all others."""
+    return Random(f"{seed} {kind} {number}")
+
+
+def mutated(random: Random, data: bytes) -> bytes:
+    """Data with one to four changes of the kinds that parsers get wrong."""
+    changed = bytearray(data)
+    for _ in range(random.randint(1, 4)):
+        at = random.randrange(len(changed) + 1)
+        match random.randrange(7):
+            case 0 if at < len(changed):
+                changed[at] ^= 1 << random.randrange(8)
+            case 1:
+                del changed[at:]
+            case 2:
+                del changed[at : at + random.randint(1, 16)]
+            case 3:
+                changed[at:at] = random.randbytes(random.randint(1, 16))
+            case 4:  # a length, or a number
+                extreme = random.choice((0, 1, 2**31 - 1, 2**31, 2**32 - 1, 0x7FC00000, 0x7F800000))
+                changed[at : at + 4] = extreme.to_bytes(4, "little")
+            case 5:  # the same part again
+                changed[at:at] = changed[at : at + random.randint(1, 64)] * random.randint(1, 8)
+            case _:
+                other = random.randrange(len(changed) + 1)
+                changed[at : at + 8] = changed[other : other + 8]
+    return bytes(changed)

@@ -1,0 +1,173 @@
+"""Files that a user may be given: descriptions of robots, meshes, configs and bags."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from random import Random
+
+import trimesh
+from bags import strings
+from PIL import Image
+from rosbags.rosbag2 import StoragePlugin
+from trimesh.exchange.dae import export_collada
+
+from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
+
+READ_S = 60.0
+"""For one small file, on a busy machine."""
+URDF = """\
+<robot name="r"><material name="m"><color rgba="1 0 0 .5"/></material>
+<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
+</inertial><visual><origin xyz="1 2 3" rpy=".1 .2 .3"/><geometry><box size="1 2 3"/></geometry>
+<material name="m"/></visual><collision><geometry><sphere radius="1"/></geometry></collision></link>
+<link name="b"><visual><geometry><cylinder radius="1" length="2"/></geometry></visual></link>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="j" multiplier="2"/></joint>
+</robot>
+"""
+YAML = """\
+version: 1
+fixed_frame: map
+view: {distance: 14, pitch: 1.0, focal_point: [4, 3, 0]}
+displays:
+- type: Group
+  name: Front
+  displays:
+  - {type: LaserScan, topic: {name: /scan, reliability: best_effort}, size: 0.05}
+- {type: Grid, color: [1, 2, 3], offset: [0, 0, 1e3]}
+"""
+RVIZ = """\
+Panels:
+  - Class: rviz_common/Displays
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Grid, Name: Grid, Cell Size: 1, Color: 160; 160; 164}
+    - Class: rviz_default_plugins/LaserScan
+      Topic: {Value: /scan, Depth: 5, Reliability Policy: Best Effort}
+  Global Options: {Fixed Frame: map, Background Color: 48; 48; 48}
+  Views: {Current: {Class: rviz_default_plugins/Orbit, Distance: 10}}
+"""
+
+
+def corpus() -> dict[str, bytes]:
+    """A good file of each kind, by name."""
+    found = {"robot.urdf": URDF.encode(), "a.yaml": YAML.encode(), "a.rviz": RVIZ.encode()}
+    box = trimesh.creation.box((1, 2, 3))
+    for suffix in ("stl", "ply", "obj", "glb"):
+        data = box.export(file_type=suffix)
+        found[f"box.{suffix}"] = data if isinstance(data, bytes) else str(data).encode()
+    found["box.dae"] = _timeless(export_collada(box))
+    with tempfile.TemporaryDirectory() as folder:
+        picture = Path(folder) / "a.png"
+        Image.new("RGB", (4, 4)).save(picture)
+        found["texture.png"] = picture.read_bytes()
+        for storage in (StoragePlugin.MCAP, StoragePlugin.SQLITE3):
+            bag = strings(0, 1, 2).write(Path(folder) / storage.name, storage)
+            (file,) = (each for each in bag.iterdir() if each.suffix != ".yaml")
+            found[f"bag{file.suffix}"] = file.read_bytes()
+    return found
+
+
+def _timeless(collada: bytes) -> bytes:
+    """A file without time and random names, so that a seed gives the same attack again."""
+    names = dict.fromkeys(re.findall(rb"[0-9a-f]{32}", collada))
+    for number, name in enumerate(names):
+        collada = collada.replace(name, b"name%d" % number)
+    return re.sub(rb"<(created|modified)>[^<]*", rb"<\1>", collada)
+
+
+class Files(Attack):
+    """Reads changed files in a process of its own, as the viewer reads them.
+
+    Args:
+        folder: for the files.
+    """
+
+    kind = "files"
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._good = corpus()
+        self._reader: subprocess.Popen[str] | None = None
+
+    def start(self) -> None:
+        self._reader = self._started()
+
+    def draw(self, random: Random) -> Case:
+        name = random.choice(sorted(self._good))
+        data = self._good[name]
+        if name.endswith((".urdf", ".yaml", ".rviz", ".dae", ".obj")) and random.random() < 0.5:
+            return Case(name, _with_odd_words(random, data.decode()))
+        return Case(name, mutated(random, data))
+
+    def strike(self, case: Case) -> Outcome:
+        path = self._folder / case.name
+        path.write_bytes(case.data)
+        reader = self._reader = self._reader or self._started()
+        assert reader.stdin is not None
+        assert reader.stdout is not None
+        timer = threading.Timer(READ_S, reader.kill)
+        timer.start()
+        try:
+            reader.stdin.write(f"{path}\n")
+            reader.stdin.flush()
+            line = reader.stdout.readline()
+        except BrokenPipeError:
+            line = ""
+        finally:
+            is_late = not timer.is_alive()
+            timer.cancel()
+        if not line:
+            self.close()
+            how = f"takes longer than {READ_S:g} s" if is_late else "ends the process"
+            raise Violation(f"reading {case.name} {how}")
+        found = json.loads(line)
+        if found["broken"]:
+            raise Violation(found["broken"])
+        return Outcome.REFUSED if found["refused"] else Outcome.SURVIVED
+
+    def close(self) -> None:
+        if self._reader is not None:
+            self._reader.kill()
+            self._reader.communicate()
+        self._reader = None
+
+    def _started(self) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-m", "tests.attack.reader"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+
+ODD = (
+    "",
+    "nan",
+    "-inf",
+    "1e308",
+    "-1",
+    "0",
+    "99999999999999999999",
+    "&x;",
+    "a b c",
+    "\x7f",
+    "*a",
+    "[[",
+)
+
+
+def _with_odd_words(random: Random, text: str) -> bytes:
+    """A text of which some words are others."""
+    words = text.split(" ")
+    for _ in range(random.randint(1, 4)):
+        index = random.randrange(len(words))
+        start, quote, rest = words[index].partition('"')
+        words[index] = f"{start}{quote}{random.choice(ODD)}{quote if rest else ''}"
+    return " ".join(words).encode()

@@ -1,0 +1,71 @@
+"""The process that reads attacked files as the viewer does: names in, answers in JSON out."""
+
+from __future__ import annotations
+
+import json
+import logging
+import resource
+import sys
+import traceback
+from pathlib import Path
+
+from webviz.api.errors import Error
+from webviz.engine.sources.bag import BagSource
+from webviz.files import opening
+from webviz_urdf import Resolver, load_robot
+from webviz_urdf.loading import MAX_MEMORY
+from webviz_urdf.robot import RobotDescriptionError
+from webviz_urdf.textures import TextureError, open_image
+
+MESH = (
+    "<robot name='r'><link name='a'><visual><geometry><mesh filename='{}'/></geometry></visual>"
+    "</link></robot>"
+)
+
+
+class _Refused(Exception):
+    pass
+
+
+def read(path: Path) -> None:
+    """Read a file; raises what the viewer shows as a sentence."""
+    match path.suffix:
+        case ".yaml" | ".rviz":
+            opening.text_of(opening.load(path), path.name)
+        case ".mcap" | ".db3":
+            source = BagSource(path)
+            try:
+                source.offers()
+                source.play(source.end_ns)
+            finally:
+                source.close()
+        case ".png":
+            open_image(path).load()
+        case ".urdf":
+            load_robot(path.read_bytes().decode(errors="replace"), Resolver(roots=[]))
+        case _:
+            robot = load_robot(MESH.format(path), Resolver(roots=[path.parent]))
+            if robot.missing:
+                raise _Refused
+
+
+def main() -> None:
+    """Read files until there are no more names."""
+    logging.disable()
+    resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
+    for line in sys.stdin:
+        broken, is_refused = "", False
+        try:
+            read(Path(line.rstrip("\n")))
+        except (Error, RobotDescriptionError, TextureError, _Refused) as error:
+            is_refused = True
+            broken = f"several lines: {error}" if "\n" in str(error) else ""
+        except MemoryError:
+            is_refused = True
+        except Exception:
+            broken = traceback.format_exc()
+        print(json.dumps({"refused": is_refused, "broken": broken}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,124 @@
+"""Runs all attacks on one viewer for some seconds."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing
+from pathlib import Path
+
+from tests.attack.attack import Attack, Case, Violation, random_of
+from tests.attack.dds import Dds
+from tests.attack.files import Files
+from tests.attack.http_requests import Requests
+from tests.attack.report import Breach, Report
+from tests.attack.saving import Saving
+from tests.attack.simulator import Simulator
+from tests.attack.sockets import Sockets, kind_of
+from tests.attack.target import Target
+from tests.attack.uploads import Uploads
+from webviz.edges.access.roles import Role
+from webviz.shell.testing.domain import isolated_domain
+
+CORPUS = Path(__file__).parent / "corpus"
+"""Cases that once broke a promise, in a folder per kind: NUMBER__NAME."""
+TURN_S = 2.0
+"""How long one kind attacks before the next does."""
+MOST_BREACHES = 20
+ROLES = (None, *Role)
+KINDS = (
+    *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
+    *map(kind_of, ROLES),
+)
+"""Of attacks."""
+
+
+def run(
+    seed: int, seconds: float, folder: Path, only: Sequence[str] = (), first: int = 0
+) -> Report:
+    """Attack a viewer.
+
+    Args:
+        seed: of all cases; the same seed gives each kind the same cases in the same order.
+        seconds: for attacks, besides those of the corpus and the start of the viewer.
+        folder: for the files of the viewer and of the attacks.
+        only: of KINDS; all if it is empty.
+        first: number of the first case of each kind.
+    """
+    report = Report(seed)
+    with ExitStack() as stack:
+        domain = stack.enter_context(isolated_domain())
+        # Their processes start while the viewer does.
+        attacks = _started(local_attacks(folder), only, stack)
+        target = stack.enter_context(closing(Target(folder / "viewer", dict(os.environ))))
+        attacks += _started(remote_attacks(target, domain), only, stack)
+        for attack in attacks:
+            _replay(attack, target, report)
+        _attack(attacks, target, report, seconds, first)
+        try:
+            target.restore()
+            target.wait_until_answered()
+        except Violation as violation:
+            report.breaches.append(Breach("end", "", str(violation)))
+        report.slowest_s, report.memory_mb = target.slowest_s, target.memory_mb
+    return report
+
+
+def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -> list[Attack]:
+    chosen = [attack for attack in attacks if not only or attack.kind in only]
+    for attack in chosen:
+        stack.enter_context(closing(attack)).start()
+    return chosen
+
+
+def local_attacks(folder: Path) -> Iterator[Attack]:
+    """Those that attack no viewer, but what it reads and how it saves."""
+    for class_ in (Files, Saving):
+        own = folder / class_.kind
+        own.mkdir()
+        yield class_(own)
+
+
+def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
+    """Those that attack a viewer."""
+    yield Dds(domain)
+    for role in ROLES:
+        yield Sockets(target, role)
+    yield Requests(target)
+    yield Uploads(target)
+    yield Simulator(target)
+
+
+def _replay(attack: Attack, target: Target, report: Report) -> None:
+    for path in sorted((CORPUS / attack.kind.replace(" ", "_")).glob("*__*")):
+        case = Case(path.name.partition("__")[2], path.read_bytes())
+        _strike(attack, case, path.name, target, report)
+
+
+def _attack(
+    attacks: Sequence[Attack], target: Target, report: Report, seconds: float, first: int
+) -> None:
+    numbers = dict.fromkeys((attack.kind for attack in attacks), first)
+    end = time.monotonic() + seconds
+    turn_s = min(TURN_S, seconds / len(attacks))
+    while time.monotonic() < end and len(report.breaches) < MOST_BREACHES and target.is_alive:
+        for attack in attacks:
+            turn_end = time.monotonic() + turn_s
+            while True:
+                number = numbers[attack.kind]
+                numbers[attack.kind] += 1
+                case = attack.draw(random_of(report.seed, attack.kind, number))
+                _strike(attack, case, number, target, report)
+                if time.monotonic() > turn_end or not target.is_alive:
+                    break
+
+
+def _strike(attack: Attack, case: Case, number: int | str, target: Target, report: Report) -> None:
+    try:
+        outcome = attack.strike(case)
+        target.check()
+    except Violation as violation:
+        report.breaches.append(Breach(attack.kind, number, str(violation), case))
+    else:
+        report.add(attack.kind, outcome)

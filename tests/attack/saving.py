@@ -1,0 +1,60 @@
+"""Saving while the disk is full, and while the program is killed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from random import Random
+
+from tests.attack.attack import Attack, Case, Outcome, Violation
+
+
+class Saving(Attack):
+    """Lets a process fork children that save, and ends or limits them at random moments.
+
+    Args:
+        folder: for its files.
+    """
+
+    kind = "saving"
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._saver: subprocess.Popen[str] | None = None
+
+    def start(self) -> None:
+        self._saver = self._started()
+
+    def draw(self, random: Random) -> Case:
+        how = random.choice(("kill config", "kill picture", "full config", "full picture"))
+        return Case(how, str(random.uniform(0.0, 0.03)).encode())
+
+    def strike(self, case: Case) -> Outcome:
+        saver = self._saver = self._saver or self._started()
+        assert saver.stdin is not None
+        assert saver.stdout is not None
+        # A file is kept from case to case: it is always a version that was saved once.
+        suffix = "png" if case.name.endswith("picture") else "yaml"
+        path = self._folder / suffix / f"saved.{suffix}"
+        path.parent.mkdir(exist_ok=True)
+        saver.stdin.write(f"{case.name} {case.data.decode()} {path}\n")
+        saver.stdin.flush()
+        answer = saver.stdout.readline().strip()
+        if answer not in ("survived", "refused"):
+            raise Violation(answer or "the process that saves has ended")
+        return Outcome(answer)
+
+    def close(self) -> None:
+        if self._saver is not None:
+            self._saver.kill()
+            self._saver.communicate()
+        self._saver = None
+
+    def _started(self) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-m", "tests.attack.saver"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )

@@ -1,0 +1,183 @@
+"""The viewer that is attacked, as a user starts it, and what holds of it at any time."""
+
+from __future__ import annotations
+
+import contextlib
+import http.client
+import re
+import sys
+import threading
+import time
+from pathlib import Path
+
+import psutil
+import websockets.exceptions
+from program import Program
+
+from tests.attack.attack import Violation
+from tests.attack.visitor import Visitor
+from webviz.api.registry import display_types
+from webviz.edges.access.roles import LINKS, Role
+
+ANSWER_S = 20.0
+"""In which the viewer must answer whatever else it is sent; a busy machine takes seconds."""
+MEMORY_MB = 1500.0
+"""Of the viewer, its simulator and what reads meshes for it; 450 MB when nothing happens."""
+INTERNAL = re.compile(r"^.*(?:Traceback|[Ii]nternal (?:server )?error|handler failed).*$", re.M)
+"""Lines of the log that an internal error leaves."""
+EVERY_S = 0.5
+SECRETS = {role: f"token-of-the-attacked-{role.label}" for role in Role}
+PARAMETERS = {role: parameter for parameter, role in LINKS.items()}
+TOKENS = {
+    f"WEBVIZ_TOKEN_{parameter.upper()}": SECRETS[role] for role, parameter in PARAMETERS.items()
+}
+
+
+def config() -> str:
+    """A config with a display of each type."""
+    rows = [f"- {{type: {name}}}" for name in display_types() if name != "Group"]
+    return "\n".join(["version: 1", "fixed_frame: map", "displays:", *rows, ""])
+
+
+def homes(folder: Path) -> dict[str, str]:
+    """The environment of a program whose user has nothing but an empty folder."""
+    return {
+        "HOME": str(folder),
+        "XDG_CONFIG_HOME": str(folder / "config"),
+        "XDG_STATE_HOME": str(folder / "state"),
+    }
+
+
+class Target:
+    """A viewer with a simulated robot, and a bystander who looks at it.
+
+    Args:
+        folder: for its files.
+        environment: of its process, with the ROS domain.
+    """
+
+    def __init__(self, folder: Path, environment: dict[str, str]) -> None:
+        self.folder = folder
+        self.configs = folder / "configs"
+        self.configs.mkdir(parents=True)
+        self.config = config()
+        path = self.configs / "attacked.yaml"
+        path.write_text(self.config)
+        home = folder / "home"
+        home.mkdir()
+        self._program = Program(
+            [sys.executable, "-m", "webviz", "demo", "-d", str(path), "--port", "0"],
+            {**environment, **TOKENS, "PYTHONUNBUFFERED": "1", **homes(home)},
+            folder / "log.txt",
+        )
+        self.port = int(self._program.url().rpartition(":")[2])
+        self.process = psutil.Process(self._program.process.pid)
+        self._cookies: dict[Role, str] = {}
+        self._read = 0
+        self.slowest_s = self.memory_mb = 0.0
+        self._fault = ""
+        self._is_closed = threading.Event()
+        self._answered = threading.Event()
+        self._bystander = self.visitor(Role.OWNER)
+        self._watch = threading.Thread(target=self._watch_over, daemon=True)
+        self._watch.start()
+
+    def headers(self, role: Role | None) -> dict[str, str]:
+        """Headers of requests by somebody of a role; None is somebody without a token."""
+        if role is None:
+            return {}
+        if role not in self._cookies:
+            connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=ANSWER_S)
+            with contextlib.closing(connection):
+                connection.request("GET", f"/?{PARAMETERS[role]}={SECRETS[role]}")
+                given = connection.getresponse().headers["Set-Cookie"]
+            self._cookies[role] = given.partition(";")[0]
+        return {"Cookie": self._cookies[role]}
+
+    def visitor(self, role: Role) -> Visitor:
+        """Somebody of a role who looks at the viewer."""
+        return Visitor(self.port, **self.headers(role))
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether the viewer runs."""
+        return self._program.process.poll() is None
+
+    def check(self) -> None:
+        """Raise Violation if a promise is broken since the last check."""
+        if (status := self._program.process.poll()) is not None:
+            raise Violation(f"the viewer has ended with status {status}: {self._tail()}")
+        if self._fault:
+            fault, self._fault = self._fault, ""
+            raise Violation(fault)
+        log = self._program.output()[self._read :]
+        self._read += len(log)
+        if found := INTERNAL.search(log):
+            raise Violation(f"an internal error in the log: {log[found.start() :][:2000]}")
+        outside = {path.name for path in self.folder.iterdir()} - {"configs", "home", "log.txt"}
+        if outside:
+            raise Violation(f"files outside of the folder of configs: {outside}")
+
+    def wait_until_answered(self) -> None:
+        """Wait until the bystander is answered once more, then check."""
+        self._answered.clear()
+        self._answered.wait(2 * ANSWER_S)
+        self.check()
+
+    def restore(self) -> None:
+        """Put back what attacks have opened, changed or removed."""
+        visitor = self.visitor(Role.OWNER)
+        try:
+            level, text = visitor.do("Load", ANSWER_S, text=self.config, name="attacked.yaml")
+        except (TimeoutError, websockets.exceptions.ConnectionClosed) as error:
+            raise Violation(f"the viewer does not open its own config: {error!r}") from error
+        finally:
+            visitor.close()
+        if level == "error":
+            raise Violation(f"the viewer does not open its own config: {text}")
+
+    def close(self) -> None:
+        """End the viewer, which must end by itself."""
+        self._is_closed.set()
+        self._watch.join()
+        self._bystander.close()
+        if self._program.process.poll() is None:
+            self._program.end()
+
+    def _watch_over(self) -> None:
+        while not self._is_closed.wait(EVERY_S):
+            try:
+                self._look()
+            except Violation as violation:
+                self._fault = str(violation)
+            except OSError as error:
+                self._fault = f"the viewer does not answer: {error!r}"
+            except websockets.exceptions.ConnectionClosed as error:
+                self._fault = f"the bystander was thrown out: {error}"
+                with contextlib.suppress(OSError, websockets.exceptions.WebSocketException):
+                    self._bystander = self.visitor(Role.OWNER)
+            self._answered.set()
+
+    def _look(self) -> None:
+        start = time.monotonic()
+        with contextlib.closing(
+            http.client.HTTPConnection("127.0.0.1", self.port, timeout=ANSWER_S)
+        ) as connection:
+            connection.request("HEAD", "/", headers=self.headers(Role.OWNER))
+            connection.getresponse().read()
+        self._bystander.do("Pause", ANSWER_S, paused=False)
+        self.slowest_s = max(self.slowest_s, time.monotonic() - start)
+        self._measure()
+
+    def _measure(self) -> None:
+        total = 0
+        with contextlib.suppress(psutil.NoSuchProcess):
+            for process in (self.process, *self.process.children(recursive=True)):
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    total += process.memory_info().rss
+        self.memory_mb = max(self.memory_mb, total / 1e6)
+        if total / 1e6 > MEMORY_MB:
+            raise Violation(f"the viewer has {total / 1e6:.0f} MB of memory")
+
+    def _tail(self) -> str:
+        return self._program.output()[-1000:]

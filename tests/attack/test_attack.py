@@ -1,0 +1,55 @@
+"""All attacks for some seconds, with another seed each time; and that a seed gives them again."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from typing import cast
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+from tests.attack.attack import Case, random_of
+from tests.attack.run import KINDS, local_attacks, remote_attacks, run
+from tests.attack.target import INTERNAL, Target
+
+SECONDS = 6.0
+
+
+def test_a_viewer_withstands_all_attacks(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = run(random.randrange(2**32), SECONDS, tmp_path)
+    with capsys.disabled():
+        print(f"\n{report}")
+    again = f"Again: make attack ARGS='--seed {report.seed}'"
+    assert report.breaches == [], f"{report}\n{again}"
+    assert report.counts.keys() == set(KINDS)
+
+
+def test_a_seed_gives_the_same_attack_again(tmp_path: Path) -> None:
+    first, again, other = (
+        _drawn(tmp_path / name, seed) for name, seed in zip("abc", (7, 7, 8), strict=True)
+    )
+    assert first.keys() == set(KINDS)
+    assert first == again
+    for kind, cases in first.items():
+        assert cases != other[kind], kind
+
+
+def _drawn(folder: Path, seed: int) -> dict[str, list[Case]]:
+    folder.mkdir()
+    # Cases depend on no viewer.
+    nobody = cast(Target, None)
+    attacks = [*local_attacks(folder), *remote_attacks(nobody, domain=0)]
+    return {
+        attack.kind: [attack.draw(random_of(seed, attack.kind, number)) for number in range(20)]
+        for attack in attacks
+    }
+
+
+def test_what_an_internal_error_leaves_in_the_log_is_noticed() -> None:
+    assert INTERNAL.search("webviz: ok\nTraceback (most recent call last):\n")
+    assert INTERNAL.search("webviz.server: connection handler failed: TypeError: unhashable\n")
+    assert not INTERNAL.search("webviz: Ignored a message of a browser: unknown kind.\n")
