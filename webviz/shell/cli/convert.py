@@ -27,7 +27,7 @@ def validate(
 ) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     if not files:
-        raise ValueError("Missing SOURCE. Give the file to read.")
+        raise ValueError("`webviz convert` needs SOURCE.")
     if check:
         if strange := [path for path in files if not config_file.is_rviz(path)]:
             raise ValueError(f"--check needs .rviz files, got {strange[0]}.")

@@ -17,6 +17,8 @@ from webviz.shell.pictures.offline_viewer import LOADING
 if TYPE_CHECKING:
     import playwright.sync_api as playwright
 
+WHOLE = ".wv-on #root { inset: 0 !important }"
+"""Gives the scene the whole page, also what panels and time bar lie over."""
 PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
@@ -69,6 +71,7 @@ class Snapshots:
         check_size(size)
         try:
             with launched() as browser, self._open(browser, url, size) as page:
+                page.tab.add_style_tag(content=WHOLE)
                 page.resize_picture(*size)
                 page.pixels()  # the first picture of a tab is smoothed differently
                 client = page.evaluate("() => window.webviz.browser")
