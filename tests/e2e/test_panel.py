@@ -27,7 +27,7 @@ def picture(page: Page) -> Pixels:
         page.tab.wait_for_timeout(1000)
         page.draw()
         now = page.pixels()
-        if (now == before).all():
+        if np.array_equal(now, before):
             return now
         before = now
     raise AssertionError("the picture does not come to rest")

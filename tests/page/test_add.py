@@ -120,7 +120,7 @@ def test_types_have_the_messages_that_they_show_and_a_small_picture() -> None:
     assert found["LaserScan"]["topics"] == [SCAN]
     sizes = {name: len(each["picture"]) for name, each in found.items() if "Everything" not in name}
     assert {name for name, size in sizes.items() if not size} == {"Group"}
-    assert sum(sizes.values()) < 30_000
+    assert sum(sizes.values()) < 1500 * len(sizes)
 
 
 def test_a_closed_dialog_costs_nothing(

@@ -75,7 +75,7 @@ class Nav2Goal(Tool):
     def done(self, stroke: Stroke, ctx: ToolContext) -> None:
         """Send the goal in the fixed frame. Like RViz's, its stamp is 0: the newest transform."""
         poses = [{"header": {"frame_id": ctx.fixed_frame}, "pose": p} for p in stroke.poses]
-        x, y, _ = stroke.position
+        x, y = (round(value, 2) + 0.0 for value in stroke.position[:2])  # no -0.00
         label = f"{len(poses)} waypoints" if stroke.several else f"x {x:.2f} y {y:.2f} m"
         send = functools.partial(
             ctx.send_goal, label=label, stroke=stroke, feedback=progress, fault=_fault
