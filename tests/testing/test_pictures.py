@@ -177,6 +177,7 @@ def browsers() -> list[psutil.Process]:
         process
         for process, line in command_lines().items()
         if "--remote-debugging-pipe" in line and "--type" not in line
+        if not line.startswith("/bin/sh ")  # by which Debian starts it
     ]
 
 
