@@ -1,8 +1,7 @@
-"""All attacks for some seconds, with another seed each time; and that a seed gives them again."""
+"""All attacks for some seconds, and that a seed gives them again."""
 
 from __future__ import annotations
 
-import random
 from pathlib import Path
 from typing import cast
 
@@ -15,14 +14,17 @@ from tests.attack.run import KINDS, local_attacks, remote_attacks, run
 from tests.attack.target import INTERNAL, Target
 
 SECONDS = 6.0
-# Uploads of megabytes may wait longer for their answer on a busy machine; `make attack` tries them.
+SEED = 11
+"""One seed, so that a failure is due to a change; `make attack` takes another each time."""
+# Of all uploads that were tried, one of 3.5 MB had no answer in time, for a reason that is not
+# known yet: `make attack` tries them.
 TRIED = [kind for kind in KINDS if kind != "uploads"]
 
 
 def test_a_viewer_withstands_all_attacks(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    report = run(random.randrange(2**32), SECONDS, tmp_path, TRIED)
+    report = run(SEED, SECONDS, tmp_path, TRIED)
     with capsys.disabled():
         print(f"\n{report}")
     again = f"Again: make attack ARGS='--seed {report.seed}'"
