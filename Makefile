@@ -21,7 +21,7 @@ PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 # Neither a browser nor a ROS graph.
-QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays messages pipeline \
+QUICK := $(wildcard tests/test_*.py) $(addprefix tests/,access config displays images messages pipeline \
 	rviz sources transforms views)
 # Processes for the others, one more than processors: they wait for browsers and ROS graphs.
 WAITING := 3
