@@ -12,6 +12,7 @@ from webviz.api.views import View
 from webviz.edges.scene import ViserScene
 from webviz.engine.state import State
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
+from webviz.shell.pictures.browser_scripts import CANVAS
 from webviz.shell.pictures.offline_viewer import LOADING
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ class Snapshots:
         try:
             with launched() as browser, self._open(browser, url, size) as page:
                 page.tab.add_style_tag(content=WHOLE)
-                page.resize_picture(*size)
+                page.wait_for(lambda: page.evaluate(CANVAS) == [*size], "a scene of its size")
                 page.pixels()  # the first picture of a tab is smoothed differently
                 client = page.evaluate("() => window.webviz.browser")
                 if view is not None:
