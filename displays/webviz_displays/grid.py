@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz import Color, Context, Details, Display, Hit, Prop, Sample
 from webviz.data.transforms import REACH_M
-from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.colors import LineAlpha, faded_color
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 
 MOST_LINES = 200_000
@@ -50,15 +50,7 @@ class Grid(Display):
         ),
     ] = 0.03
     color: Annotated[Color, Prop(help="Colour of the lines.")] = (160, 160, 164)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            widget="slider",
-            help="Lines are opaque in the browser; alpha fades them towards dark grey.",
-        ),
-    ] = 0.5
+    alpha: LineAlpha = 0.5
     plane: Annotated[
         Literal["XY", "XZ", "YZ"], Prop(help="Plane of the frame in which the grid lies.")
     ] = "XY"

@@ -25,7 +25,7 @@ from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import Rows, evenly
-from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.colors import LineAlpha, faded_color
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
 
 F64 = NDArray[np.float64]
@@ -51,15 +51,7 @@ class Path(Display):
         Prop(ge=0.001, unit="m", when=("line_style", "Billboards"), help="Width of the line."),
     ] = 0.03
     color: Annotated[Color, Prop(help="Colour of the line.")] = (25, 255, 0)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            widget="slider",
-            help="Lines are opaque in the browser; alpha fades them towards dark grey.",
-        ),
-    ] = 1.0
+    alpha: LineAlpha = 1.0
     buffer_length: Annotated[int, Prop(ge=1, help="How many of the newest paths to show.")] = 1
     offset: Annotated[
         tuple[float, float, float],

@@ -135,7 +135,7 @@ class ActionServer:
             self._publish_status()
             self._begin(goal)
         values = {"accepted": is_accepted, "stamp": info.stamp}
-        return _response(f"{self._parts.send_goal}_Response", values, type(response))
+        return response_of(f"{self._parts.send_goal}_Response", values, type(response))
 
     def _cancel(self, request: CancelGoal.Request, response: CancelGoal.Response) -> Any:
         id = bytes(request.goal_info.goal_id.uuid)
@@ -166,7 +166,7 @@ class ActionServer:
         status = goal.status if goal else GoalStatus.STATUS_UNKNOWN
         values = {"status": status, "result": goal.result if goal else {}}
         name = f"{self._parts.get_result}_Response"
-        self._respond(_response(name, values, self._result_class), header)
+        self._respond(response_of(name, values, self._result_class), header)
 
     def _publish_status(self) -> None:
         statuses = [GoalStatus(goal_info=g.info, status=g.status) for g in self._goals.values()]
@@ -178,5 +178,6 @@ def _as_sent(request: Any, response: Any) -> Any:
     return request
 
 
-def _response(name: str, values: Mapping[str, Any], cls: Any) -> Any:
+def response_of(name: str, values: Mapping[str, Any], cls: Any) -> Any:
+    """A response for rclpy, also of a type that was composed, from values by field."""
     return from_cdr(encode(name, values), cls)

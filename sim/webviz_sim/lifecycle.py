@@ -6,8 +6,9 @@ from typing import Any
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from webviz.data.messages import decode, encode, interfaces
-from webviz.edges.ros.types import from_cdr, service_class, to_cdr
+from webviz.data.messages import decode, interfaces
+from webviz.edges.ros.types import service_class, to_cdr
+from webviz_sim.action_server import response_of
 
 MANAGE = "nav2_msgs/srv/ManageLifecycleNodes"
 MANAGER = "lifecycle_manager_navigation"
@@ -37,7 +38,6 @@ class Lifecycle:
         self._state = "active"
         self._left = left
         manage = service_class(MANAGE)
-        self._response_class = manage.Response
         node.create_service(Trigger, f"{MANAGER}/is_active", self._answer)
         node.create_service(manage, f"{MANAGER}/manage_nodes", self._manage)
 
@@ -53,7 +53,7 @@ class Lifecycle:
     def _manage(self, request: Any, response: Any) -> Any:
         parts = interfaces.service(MANAGE)
         is_done = self._step(decode(parts.request, to_cdr(request)).command)
-        return from_cdr(encode(parts.response, {"success": is_done}), self._response_class)
+        return response_of(parts.response, {"success": is_done}, type(response))
 
     def _step(self, command: int) -> bool:
         """Carry out a command, if the state allows it."""

@@ -63,7 +63,7 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
     )
 
     title = part(interaction_mode=Control.MENU, description="Options")
-    assert (title.facing, title.shapes.contents[0].text) == ("view_facing", "Options")
+    assert (title.control.facing, title.shapes.contents[0].text) == ("view_facing", "Options")
     np.testing.assert_allclose(title.shapes.positions[0], (-0.05, 0.0, 2.35))
     for mode in (0, 2, 7, 8, 9):
         assert len(part(interaction_mode=mode).shapes) == 0
@@ -72,8 +72,8 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
 def test_what_messages_leave_out_is_filled_in() -> None:
     result = made(controls=[{"orientation": {"w": 0.0}, "markers": [{"type": 1}]}, {}, {}])
     assert isinstance(result, Completed)
-    assert (result.scale, result.parts[0].wxyz) == (1.0, (1.0, 0.0, 0.0, 0.0))
-    assert [each.name for each in result.parts] == ["", "_u0", "_u1"]
+    assert (result.scale, result.parts[0].control.wxyz) == (1.0, (1.0, 0.0, 0.0, 0.0))
+    assert [each.control.name for each in result.parts] == ["", "_u0", "_u1"]
     assert result.parts[0].shapes.scales.tolist() == [[1.0, 1.0, 1.0]]
     arrow = {"type": 0, "scale": {"x": 0.1}, "points": [{}, {"x": 1.0}]}
     assert part(markers=[arrow]).shapes.scales.tolist() == [[0.1, 1.0, 0.0]]

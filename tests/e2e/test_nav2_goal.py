@@ -172,7 +172,7 @@ def test_the_panel_shows_nav2_starts_and_stops_it_and_cancels_the_goals_of_all(p
     reads("Distance left")
     button(page, "Cancel all goals").click()
     reads("navigate_to_pose 1 cancelled.")
-    reads("follow_waypoints None cancelled: there is none.")
+    reads("follow_waypoints Nothing cancelled: no goal is active.")
     reads("navigate_to_pose State cancelled")
     page.tab.locator(".wv-plugin").get_by_role("button", name="Pause").click()
     reads("Navigation inactive")

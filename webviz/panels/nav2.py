@@ -30,7 +30,7 @@ UNDER_WAY = (1, 2, 3)
 STATUS = "action_msgs/msg/GoalStatusArray"
 CANCEL = "action_msgs/srv/CancelGoal"
 RETURN_CODES = {
-    0: "there is none",
+    0: "no goal is active",
     1: "rejected",
     2: "no such goal",
     3: "the goal has ended already",
@@ -149,8 +149,8 @@ class Nav2(Panel):
         for label, manager in self._managers().items():
 
             def answered(response: Any, label: str = label) -> None:
-                text = "Done." if response.success else "Failed; see the log of the node."
-                self._say(label, text)
+                failure = "Failed. See the log of the lifecycle manager."
+                self._say(label, "Done." if response.success else failure)
 
             self.send(
                 CallService(
@@ -171,8 +171,8 @@ class Nav2(Panel):
 
             def answered(response: Any, name: str = name) -> None:
                 count = len(response.goals_canceling)
-                refused = RETURN_CODES.get(response.return_code, "")
-                self._say(name, f"{count} cancelled." if count else f"None cancelled: {refused}.")
+                reason = RETURN_CODES.get(response.return_code, "unknown reason")
+                self._say(name, f"{count} cancelled." if count else f"Nothing cancelled: {reason}.")
 
             self.send(
                 CallService(

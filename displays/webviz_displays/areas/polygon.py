@@ -21,7 +21,7 @@ from webviz import (
     compose,
 )
 from webviz.data.words import counted
-from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.colors import LineAlpha, faded_color
 from webviz_displays.shared.geometry import is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
@@ -36,15 +36,7 @@ class Polygon(Display):
         Topic, Input("geometry_msgs/msg/PolygonStamped"), Prop(help="Topic of the polygons.")
     ] = Topic("/local_costmap/published_footprint")
     color: Annotated[Color, Prop(help="Colour of the outline.")] = (25, 255, 0)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            widget="slider",
-            help="Lines are opaque in the browser; alpha fades them towards dark grey.",
-        ),
-    ] = 1.0
+    alpha: LineAlpha = 1.0
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

@@ -7,31 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from webviz import Pose
-from webviz.api.handles import Facing, MenuEntry, Mode
+from webviz.api.handles import Control, Facing, MenuEntry, Mode
 from webviz.data.messages.markers import Marker, MarkerSequence
 from webviz.data.rotations import normalized
 from webviz_displays.interactive_markers.handles import handles_of
 from webviz_displays.interactive_markers.menus import menu_of
 
-MODES: tuple[Mode, ...] = (
-    "none",
-    "menu",
-    "button",
-    "move_axis",
-    "move_plane",
-    "rotate_axis",
-    "move_rotate",
-    "move_3d",
-    "rotate_3d",
-    "move_rotate_3d",
-)
+MODES: tuple[Mode, ...] = get_args(Mode)
+FACINGS: tuple[Facing, ...] = get_args(Facing)
 """By the constants of visualization_msgs/InteractiveMarkerControl."""
-FACINGS: tuple[Facing, ...] = ("inherit", "fixed", "view_facing")
 MAX_CONTROLS = 200
 MAX_SHAPES = 2000
 """Markers of a control."""
@@ -44,22 +33,13 @@ class Part:
     """A control with all that it needs.
 
     Args:
-        name: unique in its marker.
-        mode, facing: see `webviz.api.handles.Control`.
-        wxyz: its orientation in the marker.
+        control: with a name that is unique in its marker.
         is_independent: whether its shapes keep the orientation of the marker.
-        is_always_visible: whether it is shown while another tool is active.
-        help: what it does.
         shapes: to draw.
     """
 
-    name: str
-    mode: Mode
-    facing: Facing
-    wxyz: Wxyz
+    control: Control
     is_independent: bool
-    is_always_visible: bool
-    help: str
     shapes: MarkerSequence
 
 
@@ -165,16 +145,15 @@ def _part(name: str, control: Any, scale: float) -> Part:
             facing, is_independent = "view_facing", False
     elif len(shapes) > MAX_SHAPES:
         raise _Invalid(f"has {len(shapes)} markers; the limit is {MAX_SHAPES}.")
-    return Part(
+    made = Control(
         name=name,
         mode=mode,
         facing=facing,
         wxyz=wxyz,
-        is_independent=is_independent,
         is_always_visible=bool(control.always_visible),
         help=str(control.description),
-        shapes=_with_sizes(shapes),
     )
+    return Part(made, is_independent, _with_sizes(shapes))
 
 
 def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:

@@ -149,22 +149,24 @@ class InteractiveMarkers(Display):
         if server is None or marker is None or grip.control >= len(marker.made.parts):
             return
         part, frames = marker.made.parts[grip.control], ctx.frames
-        if part.mode == "none" or (
+        if part.control.mode == "none" or (
             grip.kind == "choose" and not can_choose(marker.made.menu, grip.entry)
         ):
             return
 
         def send(event: int, *, is_placed: bool = True, entry: int = 0) -> None:
             point = grip.point if is_placed else None
-            values = values_of(event, marker, part.name, frames, server.client_id, point, entry)
+            values = values_of(
+                event, marker, part.control.name, frames, server.client_id, point, entry
+            )
             if values is not None:
                 server.outgoing.add(values)
 
         if grip.kind == "press":
             marker.press()
-        is_moved = grip.pose is not None and _moves(part.mode) and marker.is_held
+        is_moved = grip.pose is not None and _moves(part.control.mode) and marker.is_held
         if is_moved and grip.pose is not None:
-            is_moved = marker.drag(part.name, grip.pose, grip.turned, frames)
+            is_moved = marker.drag(part.control.name, grip.pose, grip.turned, frames)
             server.version += is_moved
         if grip.kind == "press":
             send(POSE_UPDATE, is_placed=False)
@@ -174,7 +176,7 @@ class InteractiveMarkers(Display):
         elif grip.kind == "hold":
             send(KEEP_ALIVE, is_placed=False)
         elif grip.kind == "release":
-            if part.mode == "button":
+            if part.control.mode == "button":
                 send(BUTTON_CLICK)
             send(POSE_UPDATE, is_placed=False)
             send(MOUSE_UP)

@@ -95,8 +95,8 @@ class Shown:
         for index, (part, nodes) in enumerate(zip(made.parts, self._nodes, strict=True)):
             group = whole
             if has_own_group(part):
-                wxyz = orientation(part, place.pose, marker.turned.get(part.name, 0.0))
-                key = f"{marker.key}.{index}{'v' * (part.facing == 'view_facing')}"
+                wxyz = orientation(part, place.pose, marker.turned.get(part.control.name, 0.0))
+                key = f"{marker.key}.{index}{'v' * (part.control.facing == 'view_facing')}"
                 group = self._group(ctx, place, key, wxyz)
             group.nodes.update(nodes)
         if look.axes:
@@ -130,11 +130,11 @@ class Shown:
             files, missing, named = self._assets.of(batch)
             self.requests |= named
             for _, level, text in (*missing, *faults_of(batch)):
-                # Servers make shapes that can be gripped but not seen; that is no fault.
+                # Invisible shapes that can be gripped are deliberate.
                 if level is Level.ERROR and not self.fault:
-                    self.fault = f"Control '{part.name}': {text}"
+                    self.fault = f"Control '{part.control.name}': {text}"
             nodes = nodes_of(batch, files)
-            if part.mode != "none" and (batch.types == Marker.TEXT_VIEW_FACING).any():
+            if part.control.mode != "none" and (batch.types == Marker.TEXT_VIEW_FACING).any():
                 nodes["grip"] = _around_texts(batch)
             whose = f"c{index}/{marker.key}"
             self._nodes.append({f"{whose}/{key}": node for key, node in nodes.items()})
@@ -161,10 +161,10 @@ class Shown:
             self._pinned[index, row] = pinned
             pose = compose(pinned, own)
             positions[row], wxyzs[row] = pose.position, pose.wxyz
-        if part.facing == "view_facing" and has_own_group(part):
+        if part.control.facing == "view_facing" and has_own_group(part):
             # Pages turn the axes of the control to the camera.
-            positions = positions @ matrices(part.wxyz)
-            wxyzs = multiply_many(conjugate(part.wxyz), wxyzs)
+            positions = positions @ matrices(part.control.wxyz)
+            wxyzs = multiply_many(conjugate(part.control.wxyz), wxyzs)
         return replace(batch, positions=positions, wxyzs=wxyzs).only(np.flatnonzero(is_fine))
 
     def _pin(
@@ -182,19 +182,20 @@ class Shown:
         if at is None or base is None:
             self.lost = frames.why_not(frame, stamp_ns)
             return None
-        wxyz = orientation(part, place.pose, marker.turned.get(part.name, 0.0))
+        wxyz = orientation(part, place.pose, marker.turned.get(part.control.name, 0.0))
         return compose(_inverse(compose(base, Pose(place.pose.position, wxyz))), at)
 
 
 def has_own_group(part: Part) -> bool:
     """Whether the shapes of a control are turned apart from the marker."""
-    return part.facing == "fixed" or (part.facing == "view_facing" and not part.is_independent)
+    facing = part.control.facing
+    return facing == "fixed" or (facing == "view_facing" and not part.is_independent)
 
 
 def orientation(part: Part, pose: Pose, turned: float) -> tuple[float, float, float, float]:
     """Of the group of a control, given the pose of its marker; pages turn it to the camera."""
-    if part.facing == "fixed":
-        x, y, z = matrices(part.wxyz)[:, 0].tolist()
+    if part.control.facing == "fixed":
+        x, y, z = matrices(part.control.wxyz)[:, 0].tolist()
         return from_axis_angle((x, y, z), turned)
     return (1.0, 0.0, 0.0, 0.0) if has_own_group(part) else pose.wxyz
 

@@ -25,11 +25,11 @@ def details(marker: Tracked, index: int | None) -> Details:
         values["Description"] = made.description
     if index is not None and index < len(made.parts):
         part = made.parts[index]
-        values["Control"] = part.name or "(no name)"
-        values["Interaction"] = part.mode.replace("_", " ")
-        if part.help:
-            values["Help"] = part.help
-        if turned := marker.turned.get(part.name):
+        values["Control"] = part.control.name or "(no name)"
+        values["Interaction"] = part.control.mode.replace("_", " ")
+        if part.control.help:
+            values["Help"] = part.control.help
+        if turned := marker.turned.get(part.control.name):
             values["Turned by"] = f"{math.degrees(turned):.1f}°"
     values[f"Pose in {place.frame}"] = place.pose
     values["Scale"] = made.scale

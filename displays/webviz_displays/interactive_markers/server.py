@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from webviz import Frames
-from webviz.api.handles import Control, Handle
+from webviz.api.handles import Handle
 from webviz_displays.interactive_markers.client import Client, News
 from webviz_displays.interactive_markers.completion import completed, pose_of
 from webviz_displays.interactive_markers.drawing import Shown
@@ -135,15 +136,7 @@ def _handle(marker: Tracked, place: Place, aids: bool, refusal: str) -> Handle:
         name=made.name,
         frame=place.frame,
         controls=tuple(
-            Control(
-                name=part.name,
-                mode=part.mode,
-                facing=part.facing,
-                wxyz=part.wxyz,
-                is_always_visible=part.is_always_visible,
-                help=part.help,
-                turned=marker.turned.get(part.name, 0.0),
-            )
+            replace(part.control, turned=marker.turned.get(part.control.name, 0.0))
             for part in made.parts
         ),
         menu=made.menu,

@@ -63,7 +63,7 @@ class Tracked:
     def update(self, made: Completed) -> None:
         """Take a new version; while it is dragged, its pose waits for the end."""
         self.made, self.problem = made, ""
-        names = {part.name for part in made.parts}
+        names = {part.control.name for part in made.parts}
         self.turned = {name: angle for name, angle in self.turned.items() if name in names}
         self.version += 1
         self.put(Place(made.frame, made.stamp_ns, made.pose))

@@ -6,9 +6,16 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
 from webviz.data.messages import PoseSequence
-from webviz_displays.poses.pose_set import Shape, is_invisible, pose_details, pose_set
+from webviz_displays.poses.pose_set import (
+    ArrowAlpha,
+    ArrowColor,
+    Shape,
+    is_invisible,
+    pose_details,
+    pose_set,
+)
 from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.history import HistoryLength
 
@@ -31,23 +38,9 @@ class ParticleCloud(Display):
     topic: Annotated[
         Topic, Input("nav2_msgs/msg/ParticleCloud"), Prop(help="Topic of the particles.")
     ] = Topic("/particle_cloud")
-    shape: Annotated[
-        Shape, Prop(help="Draw arrows of lines along x, solid ones, or all three axes.")
-    ] = "Arrow (Flat)"
-    color: Annotated[
-        Color, Prop(when=("shape", ("Arrow (Flat)", "Arrow (3D)")), help="Colour of the arrows.")
-    ] = (255, 25, 0)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            widget="slider",
-            when=("shape", ("Arrow (Flat)", "Arrow (3D)")),
-            help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards "
-            "dark grey.",
-        ),
-    ] = 1.0
+    shape: Shape = "Arrow (Flat)"
+    color: ArrowColor = (255, 25, 0)
+    alpha: ArrowAlpha = 1.0
     min_arrow_length: Annotated[
         float, Prop(gt=0, le=LONGEST, unit="m", help="Length of a particle without weight.")
     ] = 0.02

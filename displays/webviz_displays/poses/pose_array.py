@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
 from webviz.data import messages
-from webviz_displays.poses.pose_set import Shape, is_invisible, pose_details, pose_set
+from webviz_displays.poses.pose_set import (
+    ArrowAlpha,
+    ArrowColor,
+    Shape,
+    is_invisible,
+    pose_details,
+    pose_set,
+)
 from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.history import HistoryLength
 
@@ -24,23 +31,9 @@ class PoseArray(Display):
     topic: Annotated[
         Topic, Input("geometry_msgs/msg/PoseArray"), Prop(help="Topic of the poses.")
     ] = Topic("/poses")
-    shape: Annotated[
-        Shape, Prop(help="Draw arrows of lines along x, solid ones, or all three axes.")
-    ] = "Arrow (Flat)"
-    color: Annotated[
-        Color, Prop(when=("shape", ("Arrow (Flat)", "Arrow (3D)")), help="Colour of the arrows.")
-    ] = (255, 25, 0)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            widget="slider",
-            when=("shape", ("Arrow (Flat)", "Arrow (3D)")),
-            help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards "
-            "dark grey.",
-        ),
-    ] = 1.0
+    shape: Shape = "Arrow (Flat)"
+    color: ArrowColor = (255, 25, 0)
+    alpha: ArrowAlpha = 1.0
     arrow_length: Annotated[
         float, Prop(gt=0, le=LONGEST, unit="m", when=BY_FLAT, help="Length of flat arrows.")
     ] = 0.3

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Details, Group, Hit, Pose, Rgb, Sample
+from webviz import Color, Context, Details, Group, Hit, Pose, Prop, Rgb, Sample
 from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
@@ -21,7 +21,25 @@ from webviz_displays.shared.rods import add_solid_arrows, rods
 
 F64 = NDArray[np.float64]
 Ids = NDArray[np.intp]
-Shape = Literal["Arrow (Flat)", "Arrow (3D)", "Axes"]
+
+Shape = Annotated[
+    Literal["Arrow (Flat)", "Arrow (3D)", "Axes"],
+    Prop(help="Draw arrows of lines along x, solid ones, or all three axes."),
+]
+"""A property: as what the poses are drawn."""
+_BY_ARROWS = ("shape", ("Arrow (Flat)", "Arrow (3D)"))
+ArrowColor = Annotated[Color, Prop(when=_BY_ARROWS, help="Colour of the arrows.")]
+ArrowAlpha = Annotated[
+    float,
+    Prop(
+        ge=0,
+        le=1,
+        widget="slider",
+        when=_BY_ARROWS,
+        help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards dark "
+        "grey.",
+    ),
+]
 
 MOST_POSES = 50_000
 """Poses drawn per message; browsers draw three lines or two solids for each."""

@@ -8,10 +8,15 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from webviz import Color, ColorScale, Context, Details, Hit, Pose, Prop, Sample
+from webviz import ColorScale, Context, Details, Hit, Pose, Prop, Sample
 from webviz_displays.shared.colors import RAINBOW, ramp
 from webviz_displays.shared.geometry import origin_near
-from webviz_displays.shared.points_display import PointStyle
+from webviz_displays.shared.points_display import (
+    InvertRainbow,
+    MaxColor,
+    MinColor,
+    PointStyle,
+)
 
 LOWEST = Prop(help="Value that gets the minimum colour.")
 HIGHEST = Prop(help="Value that gets the maximum colour.")
@@ -32,15 +37,9 @@ class ScalarDisplay(PointStyle):
             help="Colour from red (low) to magenta (high) instead of between two colours.",
         ),
     ] = True
-    invert_rainbow: Annotated[
-        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
-    ] = False
-    min_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
-    ] = (0, 0, 0)
-    max_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
-    ] = (255, 255, 255)
+    invert_rainbow: InvertRainbow = False
+    min_color: MinColor = (0, 0, 0)
+    max_color: MaxColor = (255, 255, 255)
     min_intensity: Annotated[float, LOWEST] = 0.0
     max_intensity: Annotated[float, HIGHEST] = 1.0
 

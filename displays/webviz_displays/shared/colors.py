@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Rgb
+from webviz import Prop, Rgb
 
 U8 = NDArray[np.uint8]
 F64 = NDArray[np.float64]
@@ -25,6 +26,17 @@ RAINBOW: tuple[Rgb, ...] = (
     (255, 0, 255),
 )
 """From red to magenta: hue 0 to 300 degrees at full saturation and value."""
+
+LineAlpha = Annotated[
+    float,
+    Prop(
+        ge=0,
+        le=1,
+        widget="slider",
+        help="Lines are opaque in the browser; alpha fades them towards dark grey.",
+    ),
+]
+"""A property: what `faded` takes."""
 
 _PART = 1 << 14
 """Values per block, so that intermediate arrays stay in the cache."""

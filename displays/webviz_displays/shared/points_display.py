@@ -138,6 +138,13 @@ class PointStyle(Display):
         group.points("points", xyz, colors, size, outline, ids)
 
 
+InvertRainbow = Annotated[
+    bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
+]
+MinColor = Annotated[Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")]
+MaxColor = Annotated[Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")]
+
+
 class PointsDisplay(PointStyle):
     """Base of displays that colour points by a value."""
 
@@ -152,15 +159,9 @@ class PointsDisplay(PointStyle):
             help="Colour from red (low) to magenta (high) instead of between two colours.",
         ),
     ] = True
-    invert_rainbow: Annotated[
-        bool, Prop(when=("use_rainbow", True), help="Colour from magenta (low) to red (high).")
-    ] = False
-    min_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
-    ] = (0, 0, 0)
-    max_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
-    ] = (255, 255, 255)
+    invert_rainbow: InvertRainbow = False
+    min_color: MinColor = (0, 0, 0)
+    max_color: MaxColor = (255, 255, 255)
     autocompute_intensity_bounds: Annotated[
         bool,
         Prop(when=BY_INTENSITY, help="Compute the lowest and highest value from each message."),

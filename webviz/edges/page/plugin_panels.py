@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import inspect
 import logging
 import queue
 import threading
@@ -112,20 +111,16 @@ class PluginPanels:
 
 
 def _types() -> list[Mapping[str, str]]:
-    """The types of panels: name, title, and what each is for."""
+    """The types of panels: name and title."""
     return [
-        {
-            "type": name,
-            "title": clean(cls.title or name),
-            "hint": clean((inspect.getdoc(cls) or "").partition("\n")[0]),
-        }
+        {"type": name, "title": clean(cls.title or name)}
         for name, cls in sorted(plugin_types(Panel).items())
     ]
 
 
 def _note_refusal(answer: Future[str]) -> None:
     if not answer.cancelled() and (error := answer.exception()) is not None:
-        log.warning("A panel: %s", error)
+        log.warning("A panel sent a command that was refused: %s", error)
 
 
 class _Tab:

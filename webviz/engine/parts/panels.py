@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from concurrent.futures import CancelledError, Future
 from typing import Any
 
@@ -82,13 +82,7 @@ class PanelsPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """The tabs."""
-        count: Counter[str] = Counter()
-        tabs = []
-        for id, panel in self.list.usable().items():
-            name = type_name(type(panel))
-            count[name] += 1
-            tabs.append(PanelTab(id, name if count[name] == 1 else f"{name} {count[name]}", panel))
-        return {"panels": tuple(tabs)}
+        return {"panels": tuple(self._tabs())}
 
     def statuses(self) -> Mapping[str, Status]:
         """Which panels cannot be used."""
@@ -97,7 +91,14 @@ class PanelsPart(Part):
     def _attended(self) -> list[Panel]:
         if not self._open:
             return []
-        return [tab.panel for tab in self.state()["panels"] if tab.tab in self._open]
+        return [tab.panel for tab in self._tabs() if tab.tab in self._open]
+
+    def _tabs(self) -> Iterator[PanelTab]:
+        count: Counter[str] = Counter()
+        for id, panel in self.list.usable().items():
+            name = type_name(type(panel))
+            count[name] += 1
+            yield PanelTab(id, name if count[name] == 1 else f"{name} {count[name]}", panel)
 
     def _topics(self, panel: Panel, hook: str) -> Mapping[str, str]:
         """What a panel says of its topics; nothing if it fails to."""
