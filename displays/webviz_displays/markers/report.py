@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 
 from webviz import Context, Level
@@ -123,11 +122,10 @@ def report_waiting(store: Store, ctx: Context) -> None:
 def report_namespaces(store: Store, is_on: Callable[[str], bool], ctx: Context) -> None:
     """Report how many markers each namespace has, and when the newest arrived."""
     table = store.table
-    counts: Counter[str] = Counter()
+    counts = table.namespaces
     newest: dict[str, int] = {}
     received = table.wanted["received_ns"]
     for (namespace, _), row in table.rows.items():
-        counts[namespace] += 1
         newest[namespace] = max(newest.get(namespace, 0), int(received[row]))
     for namespace, count in sorted(counts.items())[:NAMED]:
         age = (ctx.frames.now_ns - newest[namespace]) / SECOND

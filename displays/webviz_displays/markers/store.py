@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Frames, Pose
-from webviz.api.nodes import same
 from webviz.data.messages.markers import NOTHING, Content, MarkerSequence
 from webviz.data.rotations import matrices, multiply_many, normalized, w_first
 from webviz_displays.markers.actions import Key, effect_of
+from webviz_displays.markers.contents import detached, is_same, size_of
 from webviz_displays.markers.faults import is_valid
 from webviz_displays.markers.table import FOREVER, LOOK, Table
 
@@ -297,45 +297,6 @@ class Store:
                 self._todo.update(rows)
         self.changed.update(loose)
         self.version += 1
-
-
-def is_same(a: Content, b: Content) -> bool:
-    """Whether two contents are equal."""
-    if a is b:
-        return True
-    if (a is NOTHING) != (b is NOTHING):
-        return False
-    return (
-        (a.text, a.mesh_resource, a.texture_resource, a.mesh_file.filename)
-        == (b.text, b.mesh_resource, b.texture_resource, b.mesh_file.filename)
-        and _equal(a.points, b.points)
-        and _equal(a.colors, b.colors)
-        and _equal(a.uv_coordinates, b.uv_coordinates)
-        and _equal(a.mesh_file.data, b.mesh_file.data)
-        and _equal(a.texture.data, b.texture.data)
-    )
-
-
-def _equal(a: NDArray[Any], b: NDArray[Any]) -> bool:
-    return len(a) == len(b) and (not len(a) or same(a, b))
-
-
-def size_of(content: Content) -> int:
-    """Bytes of a content."""
-    arrays = (content.points, content.colors, content.uv_coordinates)
-    files = len(content.mesh_file.data) + len(content.texture.data)
-    return sum(array.nbytes for array in arrays) + files + len(content.text)
-
-
-def detached(content: Content) -> Content:
-    """A copy that does not keep the message alive, of which it may be a small part."""
-    if content is NOTHING:
-        return content
-    values: dict[str, Any] = {name: getattr(content, name) for name in Content.__struct_fields__}
-    for name in ("points", "colors", "uv_coordinates"):
-        if len(values[name]):
-            values[name] = values[name].copy()
-    return Content(**values)
 
 
 def _trim(remembered: dict[Key, Any]) -> None:
