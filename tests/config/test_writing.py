@@ -57,8 +57,10 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
                 }
     parts = typing.get_args(hint)
     match typing.get_origin(hint) or hint:
-        case types.UnionType:
-            return st.one_of([structs(part) for part in parts])
+        case types.UnionType | typing.Union:
+            return st.one_of([values_of(part, {}) for part in parts])
+        case types.NoneType:
+            return st.none()
         case origin if origin is Literal:
             return st.sampled_from(parts)
         case origin if origin is tuple and Ellipsis in parts:

@@ -14,15 +14,23 @@ import webviz
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.engine.commands import Load, Redo, Refresh, Reset, SetToolProperty, Undo, UseTool
+from webviz.engine.own_names import own_names
+from webviz.engine.pipeline.guard import Guard
 from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
+from webviz.files.opening import parse
+from webviz.panels.nav2 import Nav2
 from webviz.shell.testing.source import HandFedSource
 
 POINT = ((1.0, 2.0, 0.0),)
 TYPE = "geometry_msgs/msg/PointStamped"
 NO_PUBLISH = "This viewer was started with --no-publish. Restart it without this option."
 OF_START = (
-    "{} is not in the list `publish` of the config that webviz was started with. Add it there, "
-    "and restart."
+    "{0} is not in the list `publish` of the config that webviz was started with. Add it there, "
+    "or use `--allow-publish {0}`, and restart."
+)
+UNUSED = (
+    "No tool or panel of the config that webviz was started with uses {0}. "
+    "Restart with `--allow-publish {0}`."
 )
 OF_CONFIG = "{} is not in the list `publish` of this config. Add it to the file."
 
@@ -152,6 +160,73 @@ def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
     assert refusals(b) == narrowed
     b.do(Undo(steps=100))
     assert set(refusals(b)) == {"Publish Point"}
+
+
+def test_without_a_list_a_viewer_writes_only_what_its_config_uses(make: Callable[..., Any]) -> None:
+    b = make(publish=None)
+    assert refusals(b) == {}
+    assert use(b) == "Published to /goal_pose, 1 subscription."
+    b.do(SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel_raw"))
+    assert refusals(b) == {"2D Goal Pose": UNUSED.format("/cmd_vel_raw")}
+    assert use(b) == UNUSED.format("/cmd_vel_raw")
+    # Nor can a config that is opened from a page; it can have a list.
+    opened = "version: 1\ntools: [{type: GoalPose, topic: /cmd_vel_raw}]\n"
+    b.do(Load(opened, "x.yaml"))
+    assert use(b) == UNUSED.format("/cmd_vel_raw")
+    b.do(Load(f"{opened}publish: ['/*']\n", "x.yaml"))
+    assert use(b) == UNUSED.format("/cmd_vel_raw")
+    b.do(Load("version: 1\npublish: []\n", "x.yaml"))
+    assert use(b) == OF_CONFIG.format("/goal_pose")
+
+
+def test_names_that_are_allowed_besides_need_no_list(make: Callable[..., Any]) -> None:
+    for publish in (None, ()):
+        b = make(publish=publish, allow_publish=("/robot/*",))
+        b.do(SetToolProperty("2D Goal Pose", "topic.name", "/robot/goal"))
+        assert use(b) == "Published to /robot/goal, 1 subscription."
+
+
+USED = """
+version: 1
+displays:
+- {type: Group, displays: [{type: InteractiveMarkers, interactive_markers_namespace: menus}]}
+- {type: Nothing}
+tools:
+- {type: Teleop, topic: {name: drive}}
+- {type: Nav2Goal, navigate_to_pose: ""}
+panels: [{type: Nav2, namespace: arm}]
+"""
+
+
+def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
+    config = parse(USED, "x.yaml")
+    names = set(own_names(config, Guard("", True)))
+    managers = {f"lifecycle_manager_{each}" for each in ("navigation", "localization")}
+    services = {f"{each}/{name}" for each in managers for name in ("is_active", "manage_nodes")}
+    actions = {"navigate_to_pose", "navigate_through_poses", "follow_waypoints"}
+    panel = services | actions
+    assert names == {
+        "drive",
+        "/navigate_through_poses",
+        "/follow_waypoints",
+        "menus/feedback",
+        # Displays and panels that pages may add.
+        "/*/feedback",
+        *(f"/arm/{name}" for name in panel),
+        *(f"/{name}" for name in panel),
+    }
+
+
+def test_a_plug_in_that_cannot_name_what_it_uses_adds_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def uses(panel: object) -> tuple[str, ...]:
+        raise RuntimeError("broken")
+
+    monkeypatch.setattr(Nav2, "uses", property(uses))
+    names = own_names(parse("version: 1\n", "x.yaml"), Guard("", strict=False))
+    assert "/goal_pose" in names
+    assert not any("lifecycle" in name for name in names)
 
 
 def test_every_button_says_that_a_source_can_only_be_read(make: Callable[..., Any]) -> None:

@@ -28,6 +28,7 @@ from webviz.engine.commands import (
     SetBackground,
     SetFrameRate,
     SetProperty,
+    SetToolProperty,
     WriteDisplays,
 )
 from webviz.engine.requests import MAX_FILES
@@ -210,6 +211,19 @@ def test_the_last_session_is_kept_in_a_file_of_its_own(
     [axes] = load(path).displays
     assert isinstance(axes, Axes)
     assert axes.length == 2.5
+
+
+def test_a_session_keeps_the_list_of_what_may_be_written(
+    tmp_path: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench(publish=None, autosave=tmp_path / "last.yaml")
+    do(b, SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel_raw"))
+    b.viewer.close()
+    kept = load(tmp_path / "last.yaml")
+    assert any(getattr(tool, "topic", Topic()).name == "/cmd_vel_raw" for tool in kept.tools)
+    assert kept.settings.publish is not None
+    assert "/goal_pose" in kept.settings.publish
+    assert "/cmd_vel_raw" not in kept.settings.publish
 
 
 @pytest.mark.skipif(os.geteuid() == 0 and not Path("/dev/full").exists(), reason="no /dev/full")

@@ -32,7 +32,8 @@ class Bench:
         autosave: Path | None = None,
         cameras: Cameras | None = None,
         parts: Sequence[Callable[[Core], Part]] = (),
-        publish: tuple[str, ...] = ("/*",),
+        publish: tuple[str, ...] | None = ("/*",),
+        allow_publish: Sequence[str] = (),
         may_publish: bool = True,
         graph: Any = None,
     ) -> None:
@@ -47,6 +48,7 @@ class Bench:
             self.scene,
             self.states.append,
             may_publish=may_publish,
+            allow_publish=allow_publish,
             autosave=autosave,
             parts=parts,
             strict=strict,

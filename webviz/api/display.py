@@ -107,6 +107,11 @@ class Display(Declared, kw_only=True):
         """
         return None
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The topics it publishes on: they may be written unless the config says otherwise."""
+        return ()
+
     def history(self) -> Keep:
         """How much history to hold; all held samples stay drawn."""
         return Keep()

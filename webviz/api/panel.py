@@ -164,10 +164,15 @@ class Panel(Declared, kw_only=True, dict=True):
             message: decoded, read-only.
         """
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The services and actions it sends to: they may be written unless the config says no."""
+        return ()
+
     def publications(self) -> Mapping[str, str]:
         """The topics to publish on while the tab is open: message types by full name.
 
-        Messages are sent by the command `webviz.commands.Publish`. Without this, the first message
-        of a topic gets lost while subscribers connect.
+        Messages are sent by the command `webviz.commands.Publish`. Other topics are refused unless
+        somebody allows them, and their first messages get lost while subscribers connect.
         """
         return {}

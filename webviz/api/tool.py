@@ -292,7 +292,10 @@ class Tool(Declared, kw_only=True):
 
     @property
     def uses(self) -> tuple[str, ...]:
-        """The services and actions it sends to, for the button to say whether that is allowed."""
+        """The services and actions it sends to.
+
+        They may be written unless the config says otherwise, and its button says if they may not.
+        """
         return ()
 
     @property

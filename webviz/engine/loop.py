@@ -13,6 +13,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.driving import Helms
+from webviz.engine.own_names import own_names
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
@@ -58,6 +59,7 @@ class FrameLoop:
         show: called with the state whenever panels should be updated.
         path: the file of the config, None if it has none.
         may_publish: whether tools may publish, call services and send goals.
+        allow_publish: names to which they may, besides those of the config.
         autosave: a file that follows every change, None for no autosave.
         parts: factories of additional parts.
         strict: let exceptions of displays through, for tests.
@@ -73,6 +75,7 @@ class FrameLoop:
         *,
         path: Path | None = None,
         may_publish: bool = True,
+        allow_publish: Sequence[str] = (),
         autosave: Path | None = None,
         parts: Sequence[Callable[[Core], Part]] = (),
         strict: bool = False,
@@ -86,7 +89,12 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._shown = State()
-        rights = Rights(may_publish, config.settings.publish)
+        rights = Rights(
+            may_publish,
+            config.settings.publish,
+            own_names(config, self._guard),
+            tuple(allow_publish),
+        )
         gate = Gate(source, rights, lambda: self._settings.settings.publish)
         core = self._core = Core(source, gate, scene, self._guard, clock)
         services = Services(

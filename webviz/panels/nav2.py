@@ -75,6 +75,15 @@ class Nav2(Panel):
         self.answer = ui.area()
         self.progress = ui.area()
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """Services of the managers, and the actions whose goals it cancels."""
+        services = ("is_active", "manage_nodes")
+        return (
+            *(f"{name}/{service}" for name in self._managers().values() for service in services),
+            *map(self._full, ACTIONS),
+        )
+
     def subscriptions(self) -> Mapping[str, str]:
         """Status and feedback of the actions."""
         found = {}

@@ -70,6 +70,12 @@ class InteractiveMarkers(Display):
         bool, Prop(help="Draw controls as transparent as their server says, else opaque.")
     ] = True
 
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """Feedback, also to servers that are chosen later: such topics have no other use."""
+        namespace = self.interactive_markers_namespace.rstrip("/")
+        return "/*/feedback", *([f"{namespace}/feedback"] if namespace else [])
+
     def new_state(self) -> _State:
         """Not connected."""
         return _State()

@@ -9,6 +9,8 @@ from concurrent.futures import Future, wait
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from webviz.data.disk import in_thread
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Part
@@ -61,6 +63,10 @@ class AutosavePart(Part):
     def _save(self) -> None:
         """Begin to save the state, if it changed."""
         config = self._files.config()
+        if config.settings.publish is None:
+            # What pages have changed must not become the list of the next start.
+            names = self.core.gate.rights.names
+            config.settings = msgspec.structs.replace(config.settings, publish=names)
         values = config_file.document(config)
         is_busy = self._saving is not None and not self._saving.done()
         if is_busy or values == self._saved:

@@ -29,10 +29,19 @@ class Rights:
         may_publish: whether anything may be.
         publish: the list of the config with which the viewer was started; those of other configs
             narrow it.
+        own: what its tools, displays and panels use, which is the list if the config has none.
+        also: allowed besides, whatever configs say.
     """
 
     may_publish: bool = True
-    publish: AllowList = ("/*",)
+    publish: AllowList | None = ("/*",)
+    own: AllowList = ()
+    also: AllowList = ()
+
+    @property
+    def names(self) -> AllowList:
+        """The list that holds, without what is allowed besides."""
+        return self.own if self.publish is None else self.publish
 
 
 class Gate:
@@ -41,14 +50,21 @@ class Gate:
     Args:
         source: whose graph it is.
         rights: of the viewer.
-        publish: the list of the current config.
+        publish: the list of the current config, None if it has none.
     """
 
-    def __init__(self, source: Source, rights: Rights, publish: Callable[[], AllowList]) -> None:
+    def __init__(
+        self, source: Source, rights: Rights, publish: Callable[[], AllowList | None]
+    ) -> None:
         self._source = source
         self._rights = rights
         self._publish = publish
-        self._pattern = functools.lru_cache(maxsize=2)(self._compiled)
+        self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
+
+    @property
+    def rights(self) -> Rights:
+        """As decided where the viewer was started."""
+        return self._rights
 
     def refusal(self, name: str) -> str:
         """Why nothing may be sent to a topic, service or action: a sentence; "" if it may.
@@ -62,14 +78,25 @@ class Gate:
         if not self._rights.may_publish:
             return "This viewer was started with --no-publish. Restart it without this option."
         name = name.partition(_OF_ACTION)[0]
-        if not self._is_on(self._rights.publish, name):
-            return (
-                f"{name} is not in the list `publish` of the config that webviz was started with. "
-                "Add it there, and restart."
-            )
-        if not self._is_on(self._publish(), name):
+        if self._is_on(self._rights.also, name):
+            return ""
+        if not self._is_on(self._rights.names, name):
+            return self._not_from_the_start(name)
+        narrowed = self._publish()
+        if narrowed is not None and not self._is_on(narrowed, name):
             return f"{name} is not in the list `publish` of this config. Add it to the file."
         return ""
+
+    def _not_from_the_start(self, name: str) -> str:
+        if self._rights.publish is None:
+            return (
+                f"No tool or panel of the config that webviz was started with uses {name}. "
+                f"Restart with `--allow-publish {name}`."
+            )
+        return (
+            f"{name} is not in the list `publish` of the config that webviz was started with. "
+            f"Add it there, or use `--allow-publish {name}`, and restart."
+        )
 
     def advertise(
         self, outlets: Collection[Outlet], stopping: Collection[Outlet] = ()

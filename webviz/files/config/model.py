@@ -24,7 +24,6 @@ STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 _WORD = "[A-Za-z_*][A-Za-z0-9_*]*"
 Name = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^(~?/)?{_WORD}(/{_WORD})*$")]
 """Of a topic, service or action; `*` stands for any characters."""
-EVERYTHING = ("/*",)
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):
@@ -37,10 +36,12 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
         60.0
     )
     publish: Annotated[
-        tuple[Name, ...],
-        msgspec.Meta(max_length=1000),
-        Prop(help="Topics, services and actions that tools may use; * matches any characters."),
-    ] = EVERYTHING
+        Annotated[tuple[Name, ...], msgspec.Meta(max_length=1000)] | None,
+        Prop(
+            help="Topics, services and actions that may be written, instead of those that the "
+            "tools, displays and panels use; * matches any characters."
+        ),
+    ] = None
     view: View = Orbit()
     """The view new browsers start with."""
     views: dict[str, View] = {}

@@ -10,7 +10,6 @@ import msgspec
 
 from webviz.api.declared import Color
 from webviz.files.config import Config, ConfigError, Location, Settings, YamlDocument
-from webviz.files.config.model import EVERYTHING
 from webviz.files.config.reading import refuse_too_many
 from webviz.files.rviz import values, views
 from webviz.files.rviz.displays import Kept, read_items, write_items
@@ -100,9 +99,9 @@ def write(config: Config) -> tuple[str, Report]:
         manager["Views"] = kept_views
     rest = {**rest, MANAGER: manager} if rest else NEW_FILE
     tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), report)
-    if config.settings.publish != EVERYTHING:
+    if config.settings.publish is not None:
         report.note("Settings", "publish", "unsupported in .rviz files; not written")
-    own = msgspec.structs.replace(config.settings, rviz={}, views={}, publish=EVERYTHING)
+    own = msgspec.structs.replace(config.settings, rviz={}, views={}, publish=None)
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
     if tools is not None:

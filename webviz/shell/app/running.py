@@ -29,6 +29,7 @@ from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config
+from webviz.files.config.model import Name
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
@@ -72,6 +73,7 @@ class Running:
         autosave: Path | None = None,
         config_folders: Sequence[str | os.PathLike[str]] = (),
         publish: bool = True,
+        allow_publish: Sequence[str] = (),
         certfile: str | os.PathLike[str] | None = None,
         keyfile: str | os.PathLike[str] | None = None,
         trust_proxies: Sequence[str] = (),
@@ -81,6 +83,7 @@ class Running:
     ) -> None:
         with contextlib.ExitStack() as stack:
             closing = _Closing(stack)
+            _check_names(allow_publish)
             if source is not None:
                 closing.add("The source of messages", source.close)
             files = [Path(file) for file in plugins]
@@ -129,6 +132,7 @@ class Running:
                 self._show,
                 path=path,
                 may_publish=publish,
+                allow_publish=allow_publish,
                 autosave=autosave,
             )
             self._pages = Pages(
@@ -312,6 +316,16 @@ class _Closing:
         thread.join(patience_s)
         if thread.is_alive():
             log.warning("%s did not close within %.1f s.", what, patience_s)
+
+
+def _check_names(names: Sequence[str]) -> None:
+    for name in names:
+        try:
+            msgspec.convert(name, Name)
+        except msgspec.ValidationError:
+            raise Error(
+                f"{name!r} is not a valid name to publish on. Use one such as /cmd_vel or /arm/*."
+            ) from None
 
 
 def _tls(

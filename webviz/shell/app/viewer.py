@@ -56,7 +56,10 @@ class Viewer(Running):
         autosave: file to which every change is saved.
         config_folders: from which ROS may open configs, besides the folder of `config`.
         publish: whether tools may publish, call services and send goals, as far as the list
-            `publish` of the config allows. Configs opened later can only narrow it.
+            `publish` of the config allows; without it, those that the config uses. Configs opened
+            later can only narrow it.
+        allow_publish: names of topics, services and actions that are allowed besides; * matches
+            any characters.
         certfile: PEM file with a certificate, to serve https.
         keyfile: PEM file with its private key; None if `certfile` contains it.
         trust_proxies: IP addresses or networks of proxies whose forwarded headers are used.

@@ -60,6 +60,7 @@ def serve(
             autosave=_last_session() if options.autosave else None,
             config_folders=options.config_folder,
             publish=not options.no_publish,
+            allow_publish=options.allow_publish,
             certfile=options.certfile,
             keyfile=options.keyfile,
             trust_proxies=options.trust_proxy,

@@ -32,6 +32,8 @@ class ViewingOptions(ConfigOptions):
     """Also ask browsers on this machine for a link with a token, see `webviz token`."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
+    allow_publish: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
+    """Let tools use this topic, service or action, besides those of the config (repeatable)."""
     no_publish: Flag = False
     """Watch only: no tool may publish, call a service or send a goal."""
     no_control: Flag = False
