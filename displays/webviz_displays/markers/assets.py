@@ -106,8 +106,8 @@ class Assets:
         pictures: dict[int, bytes] = {}
         faults: list[Fault] = []
         requests: set[LoadRequest] = set()
-        types = (Marker.MESH_RESOURCE, Marker.TRIANGLE_LIST)
-        for row in np.flatnonzero(np.isin(batch.types, types)).tolist():
+        has_file = (batch.types == Marker.MESH_RESOURCE) | (batch.types == Marker.TRIANGLE_LIST)
+        for row in np.flatnonzero(has_file).tolist():
             request = _request(int(batch.types[row]), batch.contents[row])
             if isinstance(request, str):
                 faults.append((row, Level.ERROR, request))

@@ -32,6 +32,7 @@ class Batch:
         colors: float32 (N, 4), RGBA; 0 to 1, other values are clamped when drawn.
         own_materials: bool (N,), whether meshes keep the materials of their file.
         contents: the fields whose size varies.
+        counts: (N,), the points of each.
         ids: (N,), what a marker is selected by.
     """
 
@@ -42,6 +43,7 @@ class Batch:
     colors: F32
     own_materials: NDArray[np.bool_]
     contents: Sequence[Content]
+    counts: Rows
     ids: NDArray[np.int64]
 
     def __len__(self) -> int:
@@ -57,6 +59,7 @@ class Batch:
             self.colors[rows],
             self.own_materials[rows],
             [self.contents[row] for row in rows.tolist()],
+            self.counts[rows],
             self.ids[rows],
         )
 
@@ -71,6 +74,7 @@ def batch_of(markers: MarkerSequence) -> Batch:
         markers.colors,
         markers.own_materials,
         markers.contents,
+        np.array([len(content.points) for content in markers.contents], np.intp),
         np.arange(len(markers)),
     )
 

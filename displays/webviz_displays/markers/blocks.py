@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Context, Level, Node, Pose
+from webviz import Context, Group, Level, Node, Pose
 from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.faults import faults_of
 from webviz_displays.markers.nodes import nodes_of
@@ -67,7 +67,7 @@ class Blocks:
         table: Table,
         changed: Iterable[int],
         arrived: Set[LoadRequest],
-        is_on: Callable[[str], bool],
+        off: Set[str],
         assets: Assets,
     ) -> None:
         """Make the nodes of the blocks that have a changed row.
@@ -76,23 +76,24 @@ class Blocks:
             table: of the markers.
             changed: rows.
             arrived: files that have been loaded.
-            is_on: whether the markers of a namespace are drawn.
+            off: namespaces whose markers are not drawn.
             assets: the files that they name.
         """
         rows = set(changed)
         if not self._blocks:
             rows |= set(table.rows.values())
+        is_drawn = table.is_shown & ~table.in_namespaces(off) if off else table.is_shown
         dirty = {n for n, block in self._blocks.items() if not arrived.isdisjoint(block.requests)}
         for row in rows:
             was_large = row in self._large
-            is_large = len(table.shown_contents[row].points) > LARGE
+            is_large = bool(table.counts[row] > LARGE)
             (self._large.add if is_large else self._large.discard)(row)
             if is_large or was_large:
                 dirty.add(-1 - row)
             if not (is_large and was_large):
                 dirty.add(row // BLOCK)
         for number in dirty:
-            block = self._make(number, table, is_on, assets)
+            block = self._make(number, table, is_drawn, assets)
             if block is None:
                 self._blocks.pop(number, None)
             else:
@@ -100,32 +101,31 @@ class Blocks:
 
     def draw(self, ctx: Context) -> None:
         """Add the nodes to a context."""
+        groups: dict[Place, Group] = {}
         for number, block in self._blocks.items():
-            for (frame, origin), nodes in block.nodes.items():
-                key = ",".join(f"{metres:g}" for metres in origin)
-                group = ctx.follow(frame or None, offset=Pose(origin), key=key)
+            for place, nodes in block.nodes.items():
+                if place not in groups:
+                    frame, origin = place
+                    key = ",".join(f"{metres:g}" for metres in origin)
+                    groups[place] = ctx.follow(frame or None, offset=Pose(origin), key=key)
                 for name, node in nodes.items():
-                    group.add(f"{name} in {number}", node)
+                    groups[place].add(f"{name} in {number}", node)
 
     def _make(
-        self, number: int, table: Table, is_on: Callable[[str], bool], assets: Assets
+        self, number: int, table: Table, is_drawn: NDArray[np.bool_], assets: Assets
     ) -> Block | None:
         if number < 0:
-            rows = [-1 - number] if -1 - number in self._large else []
+            rows = np.array([-1 - number] if -1 - number in self._large else [], np.intp)
         else:
-            end = min((number + 1) * BLOCK, len(table.keys))
-            rows = [row for row in range(number * BLOCK, end) if row not in self._large]
-        drawn = [
-            row
-            for row in rows
-            if table.is_shown[row] and (key := table.keys[row]) and is_on(key[0])
-        ]
-        if not drawn:
+            rows = np.arange(number * BLOCK, min((number + 1) * BLOCK, len(table.keys)))
+            rows = rows[table.counts[rows] <= LARGE]
+        drawn = rows[is_drawn[rows]]
+        if not len(drawn):
             return None
         nodes: dict[Place, Mapping[str, Node]] = {}
         faults: dict[int, tuple[Level, str]] = {}
         requests: set[LoadRequest] = set()
-        for place, some in _by_group(table, np.array(drawn, np.intp)):
+        for place, some in _by_group(table, drawn):
             batch = table.batch(some, place[1])
             files, missing, named = assets.of(batch)
             requests |= named

@@ -91,12 +91,12 @@ class Markers(Display):
         store.expire(ctx.frames.now_ns)
         store.place(ctx.frames)
         changed, store.changed = store.changed, set()
-        state.blocks.renew(store.table, changed, arrived, self._is_on, state.assets)
+        state.blocks.renew(store.table, changed, arrived, self._off, state.assets)
         state.assets.start(ctx)
         state.blocks.draw(ctx)
         counts = store.table.namespaces.items()
         ctx.offered["namespaces"] = dict(itertools.islice(counts, MAX_NAMES))
-        report_markers(store, state.blocks, self._is_on, state.assets.loading, ctx)
+        report_markers(store, state.blocks, self._off, state.assets.loading, ctx)
 
     def tick(self, ctx: Context) -> None:
         """Report the namespaces, and what waits for a transform."""
@@ -106,7 +106,7 @@ class Markers(Display):
             return
         second = ctx.frames.now_ns // SECOND
         if state.readout[0] != second:
-            report_namespaces(state.store, self._is_on, ctx)
+            report_namespaces(state.store, self._off, ctx)
             report_waiting(state.store, ctx)
             state.readout = second, dict(ctx.statuses)
         ctx.statuses.update(state.readout[1])
@@ -119,8 +119,10 @@ class Markers(Display):
             return super().inspect(hit, ctx)
         return marker_details(state.store.table, serial, ctx.frames.now_ns)
 
-    def _is_on(self, namespace: str) -> bool:
-        return self.namespaces.get(namespace, True)
+    @property
+    def _off(self) -> set[str]:
+        """The namespaces that are switched off."""
+        return {name for name, is_on in self.namespaces.items() if not is_on}
 
 
 class Marker(Markers):

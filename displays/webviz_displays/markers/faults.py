@@ -33,17 +33,11 @@ TYPES = (
 Fault = tuple[int, Level, str]
 """The row of a marker in its batch, and a sentence about it."""
 
-_SOLID = (Marker.CUBE, Marker.SPHERE, Marker.CYLINDER, Marker.CUBE_LIST, Marker.SPHERE_LIST)
 _LINES = (Marker.LINE_STRIP, Marker.LINE_LIST)
 _LISTS = (*_LINES, Marker.CUBE_LIST, Marker.SPHERE_LIST, Marker.POINTS, Marker.TRIANGLE_LIST)
-_ONE_COLOR = (
-    Marker.ARROW,
-    Marker.CUBE,
-    Marker.SPHERE,
-    Marker.CYLINDER,
-    Marker.TEXT_VIEW_FACING,
-    Marker.ARROW_STRIP,
-)
+_SHAPES = (Marker.CUBE, Marker.SPHERE, Marker.CYLINDER)
+_HAS_CONTENT = ~np.isin(np.arange(len(TYPES)), _SHAPES)
+"""Which types need more than a scale and a color to be seen."""
 
 
 def type_name(type_: int) -> str:
@@ -66,7 +60,7 @@ def _is_valid(content: Content, scale: NDArray[np.float64], type_: int) -> bool:
     if len(content.points):
         with np.errstate(invalid="ignore", over="ignore"):
             factor = max(1.0, float(np.abs(scale).max())) if type_ == Marker.TRIANGLE_LIST else 1.0
-            reach = float(np.abs(content.points).max()) * factor
+            reach = max(float(content.points.max()), -float(content.points.min())) * factor
         if not reach < FARTHEST:  # NaN included
             return False
     if len(content.colors) and not np.isfinite(content.colors).all():
@@ -77,12 +71,9 @@ def _is_valid(content: Content, scale: NDArray[np.float64], type_: int) -> bool:
 def faults_of(batch: Batch) -> Iterator[Fault]:
     """Why markers cannot be seen, one sentence for each that cannot."""
     types, scales, alphas = batch.types, batch.scales, batch.colors[:, 3]
-    suspects = (types < 0) | (types >= len(TYPES))
-    suspects |= np.isin(types, _ONE_COLOR) & (alphas <= 0.0)
-    suspects |= np.isin(types, _SOLID) & (scales == 0.0).any(axis=1)
-    suspects |= (types == Marker.ARROW) | (types == Marker.ARROW_STRIP)
-    suspects |= np.isin(types, (*_LISTS, Marker.TEXT_VIEW_FACING, Marker.MESH_RESOURCE))
-    for row in np.flatnonzero(suspects).tolist():
+    is_known = (types >= 0) & (types < len(TYPES))
+    can_fail = (~is_known) | (alphas <= 0.0) | (scales == 0.0).any(axis=1)
+    for row in np.flatnonzero(can_fail | _HAS_CONTENT[np.where(is_known, types, 0)]).tolist():
         content = batch.contents[row]
         color = batch.colors[row]
         if fault := _fault(int(types[row]), content, scales[row].tolist(), color):

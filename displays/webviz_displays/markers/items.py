@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from webviz.data.rotations import matrices
 from webviz_displays.markers.batch import F32, F64, Batch, Rows
 
 _MANY = 4
-"""Markers above which they are rotated together."""
+"""Markers above which they are moved together."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,17 +19,14 @@ class Items:
 
     Args:
         xyz: float64 (M, 3), in the coordinates of the group, metres.
-        colors: float32 (M, 4), RGBA; that of the marker unless each of its points has one.
+        colors: float32 (M, 4), RGBA, that of the marker unless each of its points has one; (1, 4)
+            if all are equal.
         rows: (M,), the marker in the batch that each belongs to.
     """
 
     xyz: F64
     colors: F32
     rows: Rows
-
-    def only(self, chosen: NDArray[Any] | slice) -> Items:
-        """Some of the items."""
-        return Items(self.xyz[chosen], self.colors[chosen], self.rows[chosen])
 
 
 def items_of(batch: Batch, rows: Rows, points: list[F64] | None = None) -> Items:
@@ -43,27 +38,34 @@ def items_of(batch: Batch, rows: Rows, points: list[F64] | None = None) -> Items
     if not len(owners):
         return Items(np.zeros((0, 3)), np.zeros((0, 4), np.float32), owners)
     xyz = points[0] if len(points) == 1 else np.concatenate(points)
-    colors = batch.colors[owners]
     ends = np.cumsum(counts)
-    for content, count, end in zip(contents, counts.tolist(), ends.tolist(), strict=True):
-        if count and len(content.colors) == count:
-            colors[end - count : end] = content.colors
+    own = [
+        (slice(end - count, end), content.colors)
+        for content, count, end in zip(contents, counts.tolist(), ends.tolist(), strict=True)
+        if count and len(content.colors) == count
+    ]
+    if not own and (batch.colors[rows] == batch.colors[rows[0]]).all():
+        colors = batch.colors[rows[:1]]
+    else:
+        colors = batch.colors[owners]
+        for part, each in own:
+            colors[part] = each
     return Items(_placed(batch, rows, counts, xyz, owners), colors, owners)
 
 
 def _placed(batch: Batch, rows: Rows, counts: Rows, xyz: F64, owners: Rows) -> F64:
     """Points moved from the coordinates of their markers to those of the group."""
     is_turned = (batch.wxyzs[rows, 1:] != 0.0).any(axis=1)
-    moved = xyz + batch.positions[owners]
-    if not is_turned.any():
-        return moved
-    rotations = matrices(batch.wxyzs[rows])
     if len(rows) > _MANY:
-        turned = np.einsum("nij,nj->ni", np.repeat(rotations, counts, axis=0), xyz)
-        return turned + batch.positions[owners]
+        if is_turned.any():
+            rotations = np.repeat(matrices(batch.wxyzs[rows]), counts, axis=0)
+            xyz = np.einsum("nij,nj->ni", rotations, xyz)
+        return xyz + batch.positions[owners]
+    moved = np.empty_like(xyz)
     ends = np.cumsum(counts)
-    for index in np.flatnonzero(is_turned).tolist():
-        part = slice(ends[index] - counts[index], ends[index])
-        moved[part] = np.einsum("ij,nj->ni", rotations[index], xyz[part])
-        moved[part] += batch.positions[rows[index]]
+    for row, turned, start, end in zip(rows, is_turned, ends - counts, ends, strict=True):
+        part = xyz[start:end]
+        if turned:
+            part = np.einsum("ij,nj->ni", matrices(batch.wxyzs[row]), part)
+        np.add(part, batch.positions[row], out=moved[start:end])
     return moved

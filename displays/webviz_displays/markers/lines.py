@@ -2,59 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Labels, Lines, Node, Points, Rgb
 from webviz.data.messages.markers import Marker
-from webviz_displays.markers.batch import F32, U8, Batch, opacities, rgb
+from webviz_displays.markers.batch import F32, U8, Batch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
 from webviz_displays.shared.colors import faded
 
 
 def lines_of(batch: Batch) -> dict[str, Node]:
     """A node for the lines of each width."""
-    is_strip = (batch.types == Marker.LINE_STRIP) & (batch.scales[:, 0] > 0.0)
-    counts = np.array([len(content.points) for content in batch.contents], np.intp)
-    is_list = (batch.types == Marker.LINE_LIST) & (batch.scales[:, 0] > 0.0) & (counts % 2 == 0)
-    strips = items_of(batch, np.flatnonzero(is_strip))
-    pairs = items_of(batch, np.flatnonzero(is_list))
-    is_joined = np.flatnonzero(strips.rows[:-1] == strips.rows[1:])
-    starts, ends = strips.only(is_joined), strips.only(is_joined + 1)
-    firsts, seconds = pairs.only(slice(None, None, 2)), pairs.only(slice(1, None, 2))
-    segments = np.concatenate(
-        (
-            np.stack((starts.xyz, ends.xyz), axis=1),
-            np.stack((firsts.xyz, seconds.xyz), axis=1),
-        )
-    )
-    colors = np.concatenate(
-        (
-            np.stack((starts.colors, ends.colors), axis=1),
-            np.stack((firsts.colors, seconds.colors), axis=1),
-        )
-    )
-    rows = np.concatenate((starts.rows, firsts.rows))
-    is_visible = colors[..., 3].max(axis=1, initial=0.0) > 0.0
+    widths, counts = batch.scales[:, 0], batch.counts
+    is_list = (batch.types == Marker.LINE_LIST) & (counts % 2 == 0)
+    is_line = is_list | (batch.types == Marker.LINE_STRIP)
     nodes: dict[str, Node] = {}
-    for width, some in _by_value(batch.scales[rows, 0], is_visible):
-        xyz = segments[some].astype(np.float32)
-        ids = batch.ids[rows[some]]
-        nodes[f"lines {width:.6g}"] = Lines(xyz, _opaque(colors[some]), width, "m", ids)
+    for width, of_width in _by_value(widths, is_line & (counts > 1) & (widths > 0.0)):
+        items = items_of(batch, np.flatnonzero(of_width))
+        ends_of = _pairing(items.rows, is_list[items.rows])
+        colors = ends_of(items.colors) if len(items.colors) > 1 else items.colors[None]
+        is_visible = (colors[..., 3] > 0.0).any(axis=1)
+        chosen = slice(None) if is_visible.all() else is_visible
+        if is_visible.any():
+            xyz = ends_of(items.xyz)[chosen].astype(np.float32)
+            ids = batch.ids[ends_of(items.rows)[chosen, 0]]
+            nodes[f"lines {width:.6g}"] = Lines(xyz, _opaque(colors[chosen]), width, "m", ids)
     return nodes
+
+
+def _pairing(rows: Rows, is_list: NDArray[np.bool_]) -> Callable[[NDArray[Any]], NDArray[Any]]:
+    """What makes the ends (S, 2, ...) of line segments of the values (M, ...) of points.
+
+    Args:
+        rows: (M,), the marker of each point.
+        is_list: (M,), whether that is a LINE_LIST, not a LINE_STRIP.
+    """
+    if is_list.all():
+        return lambda values: values.reshape(-1, 2, *values.shape[1:])
+    is_first = np.r_[True, rows[1:] != rows[:-1]]
+    starts = np.flatnonzero(is_first)
+    number = np.arange(len(rows)) - np.repeat(starts, np.diff(np.r_[starts, len(rows)]))
+    firsts = np.flatnonzero(~is_first[1:] & ~(is_list & (number % 2 == 1))[:-1])
+    return lambda values: np.stack((values[firsts], values[firsts + 1]), axis=1)
 
 
 def points_of(batch: Batch) -> dict[str, Node]:
     """A node for the points of each size."""
-    items = items_of(batch, np.flatnonzero(batch.types == Marker.POINTS))
-    sizes = batch.scales[items.rows, 0]
+    sizes = batch.scales[:, 0]
     nodes: dict[str, Node] = {}
-    for size, some in _by_value(sizes, (items.colors[:, 3] > 0.0) & (sizes > 0.0)):
-        xyz = items.xyz[some].astype(np.float32)
-        ids = batch.ids[items.rows[some]]
-        nodes[f"points {size:.6g}"] = Points(xyz, _opaque(items.colors[some]), size, "square", ids)
+    is_list = (batch.types == Marker.POINTS) & (batch.counts > 0)
+    for size, of_size in _by_value(sizes, is_list & (sizes > 0.0)):
+        items = items_of(batch, np.flatnonzero(of_size))
+        is_visible = items.colors[:, 3] > 0.0
+        chosen = slice(None) if is_visible.all() else is_visible
+        if is_visible.any():
+            xyz, ids = items.xyz[chosen].astype(np.float32), batch.ids[items.rows[chosen]]
+            colors = _opaque(items.colors[chosen])
+            nodes[f"points {size:.6g}"] = Points(xyz, colors, size, "square", ids)
     return nodes
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import heapq
+from collections.abc import Set
 
 from webviz import Context, Level
 from webviz.data.words import counted, listed
@@ -15,15 +16,13 @@ NAMED = 10
 SECOND = 1_000_000_000
 
 
-def report_markers(
-    store: Store, blocks: Blocks, is_on: Callable[[str], bool], loading: int, ctx: Context
-) -> None:
+def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ctx: Context) -> None:
     """Report how many markers are drawn, and why others are not.
 
     Args:
         store: all markers.
         blocks: what is drawn of them.
-        is_on: whether the markers of a namespace are drawn.
+        off: namespaces whose markers are not drawn.
         loading: how many files are being loaded.
         ctx: receives the statuses.
     """
@@ -39,7 +38,7 @@ def report_markers(
     }
     faults = {**refused, **faults}
     shown = sum(block.shown for block in blocks)
-    _report_total(store, shown, is_on, ctx)
+    _report_total(store, shown, off, ctx)
     worst = sorted(faults.items(), key=lambda item: -item[1][0])
     for key, (level, text) in worst[:NAMED]:
         (ctx.error if level is Level.ERROR else ctx.warn)(f"Marker {_name(key)}", text)
@@ -72,12 +71,12 @@ def report_markers(
         )
 
 
-def _report_total(store: Store, shown: int, is_on: Callable[[str], bool], ctx: Context) -> None:
+def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None:
     table = store.table
     total = len(table)
     namespaces = table.namespaces
-    off = sorted(name for name in namespaces if not is_on(name))
-    hidden = sum(namespaces[name] for name in off)
+    named_off = sorted(off & namespaces.keys())
+    hidden = sum(namespaces[name] for name in named_off)
     waiting = sum(len(rows) for rows in store.waiting.values())
     if not total:
         ctx.warn("Markers", f"No markers.{_last_expired(store, ctx)}")
@@ -88,8 +87,8 @@ def _report_total(store: Store, shown: int, is_on: Callable[[str], bool], ctx: C
         else counted(total, "marker")
     )
     parts = [f"{text} in {counted(len(namespaces), 'namespace')}"]
-    if off:
-        parts.append(f"{hidden} in namespaces that are switched off ({listed(off, NAMED)})")
+    if named_off:
+        parts.append(f"{hidden} in namespaces that are switched off ({listed(named_off, NAMED)})")
     if waiting:
         parts.append(f"{waiting} waiting for a transform")
     (ctx.ok if shown else ctx.warn)("Markers", "; ".join(parts) + ".")
@@ -119,18 +118,16 @@ def report_waiting(store: Store, ctx: Context) -> None:
     ctx.error("Transform", f"{counted(count, 'marker')}{first} {verb} for a transform. {reason}")
 
 
-def report_namespaces(store: Store, is_on: Callable[[str], bool], ctx: Context) -> None:
+def report_namespaces(store: Store, off: Set[str], ctx: Context) -> None:
     """Report how many markers each namespace has, and when the newest arrived."""
     table = store.table
     counts = table.namespaces
-    newest: dict[str, int] = {}
     received = table.wanted["received_ns"]
-    for (namespace, _), row in table.rows.items():
-        newest[namespace] = max(newest.get(namespace, 0), int(received[row]))
-    for namespace, count in sorted(counts.items())[:NAMED]:
-        age = (ctx.frames.now_ns - newest[namespace]) / SECOND
-        off = "" if is_on(namespace) else ", switched off"
-        text = f"{counted(count, 'marker')}{off}, the newest {age:.1f} s ago."
+    for namespace in heapq.nsmallest(NAMED, counts):
+        newest = int(received[table.in_namespaces([namespace])].max())
+        age = (ctx.frames.now_ns - newest) / SECOND
+        how = ", switched off" if namespace in off else ""
+        text = f"{counted(counts[namespace], 'marker')}{how}, the newest {age:.1f} s ago."
         ctx.ok(f"Namespace '{namespace}'", text)
     if len(counts) > NAMED:
         ctx.ok("Other namespaces", f"{len(counts) - NAMED} more.")

@@ -142,12 +142,12 @@ def _lists(batch: Batch) -> Iterator[Solids]:
         scales = np.abs(batch.scales[of])
         where = items.xyz, batch.wxyzs[of]
         is_ball = shape == "sphere"  # boxes need their shading to be seen as such
-        yield Solids(shape, *where, scales, items.colors, batch.ids[of], is_ball)
+        colors = np.broadcast_to(items.colors, (len(of), 4))
+        yield Solids(shape, *where, scales, colors, batch.ids[of], is_ball)
 
 
 def _arrows(batch: Batch) -> Iterator[Solids]:
-    is_arrow = batch.types == Marker.ARROW
-    counts = np.array([len(content.points) for content in batch.contents])
+    is_arrow, counts = batch.types == Marker.ARROW, batch.counts
     along_x = np.flatnonzero(is_arrow & (counts != 1) & (counts != 2))
     if len(along_x):
         yield from _arrows_along_x(batch.only(along_x))

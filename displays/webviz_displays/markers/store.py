@@ -268,7 +268,9 @@ class Store:
             is_changed |= content is not table.shown_contents[row]
             if is_changed or (is_locked and frame != table.shown_frames[row]):
                 self.changed.add(row)
-            table.shown_contents[row], table.shown_frames[row] = content, frame
+            if content is not table.shown_contents[row]:
+                table.show_content(row, content)
+            table.shown_frames[row] = frame
         self.version += 1
 
     def _move(self, frames: Frames) -> None:

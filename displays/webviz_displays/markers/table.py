@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,8 @@ class Table:
         wanted_contents, shown_contents: the fields whose size varies.
         frames, shown_frames: of the newest version, and of the one that is drawn.
         keys: None for a row that is free.
-        is_shown: whether `shown` is valid.
+        is_shown: whether `shown` is valid, which it is not in a free row.
+        counts: how many points are drawn of each marker.
         serials: a number that no other marker has, (ns, id) of two lives included.
     """
 
@@ -55,8 +57,11 @@ class Table:
         self.wanted: NDArray[Any] = np.zeros(_FIRST, LOOK + _TIMES)
         self.shown: NDArray[Any] = np.zeros(_FIRST, LOOK)
         self.is_shown = np.zeros(_FIRST, np.bool_)
+        self.counts = np.zeros(_FIRST, np.intp)
         self.serials = np.zeros(_FIRST, np.int64)
         self.wanted["expires_ns"] = FOREVER
+        self._namespace_of = np.full(_FIRST, -1)
+        self._numbers: dict[str, int] = {}
         self._free: list[int] = []
         self._serial = 0
 
@@ -81,6 +86,7 @@ class Table:
         self.serials[row] = self._serial
         self.rows[key], self.keys[row] = row, key
         self.namespaces[key[0]] += 1
+        self._namespace_of[row] = self._numbers.setdefault(key[0], self._serial)
         self.is_shown[row] = False
         self.wanted["expires_ns"][row] = FOREVER
         return row
@@ -91,16 +97,23 @@ class Table:
         self.keys[row] = None
         self.namespaces[key[0]] -= 1
         if not self.namespaces[key[0]]:
-            del self.namespaces[key[0]]
+            del self.namespaces[key[0]], self._numbers[key[0]]
+        self._namespace_of[row] = -1
         self.is_shown[row] = False
         self.wanted["expires_ns"][row] = FOREVER
-        self.wanted_contents[row] = self.shown_contents[row] = NOTHING
+        self.wanted_contents[row] = NOTHING
+        self.show_content(row, NOTHING)
         heapq.heappush(self._free, row)
         return row
 
-    def used(self) -> NDArray[np.intp]:
-        """The rows of all markers."""
-        return np.array(list(self.rows.values()), np.intp)
+    def show_content(self, row: int, content: Content) -> None:
+        """Draw other points, texts and files of a marker."""
+        self.shown_contents[row], self.counts[row] = content, len(content.points)
+
+    def in_namespaces(self, names: Iterable[str]) -> NDArray[np.bool_]:
+        """Which rows have a marker of some namespaces."""
+        numbers = [number for name in names if (number := self._numbers.get(name)) is not None]
+        return np.isin(self._namespace_of, numbers)
 
     def batch(self, rows: NDArray[np.intp], origin: tuple[float, float, float]) -> Batch:
         """The markers in some rows as they are drawn, relative to an origin."""
@@ -113,14 +126,16 @@ class Table:
             some["color"],
             some["own_materials"],
             [self.shown_contents[row] for row in rows.tolist()],
+            self.counts[rows],
             self.serials[rows],
         )
 
     def _grow(self) -> None:
         size = 2 * len(self.wanted)
-        for name in ("wanted", "shown", "is_shown", "serials"):
+        for name in ("wanted", "shown", "is_shown", "counts", "serials", "_namespace_of"):
             old = getattr(self, name)
             new = np.zeros(size, old.dtype)
             new[: len(old)] = old
             setattr(self, name, new)
         self.wanted["expires_ns"][size // 2 :] = FOREVER
+        self._namespace_of[size // 2 :] = -1

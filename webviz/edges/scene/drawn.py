@@ -97,7 +97,10 @@ def finite(*arrays: NDArray[np.floating[Any]], along: Sequence[Any] = ()) -> lis
 
 def finite_rows(array: NDArray[np.floating[Any]]) -> NDArray[np.bool_]:
     """Which rows of an array are finite."""
-    return np.asarray(np.isfinite(array).all(axis=tuple(range(1, array.ndim))))
+    is_finite = np.isfinite(array)
+    if is_finite.all():  # nearly always, and ten times as fast as row by row
+        return np.ones(len(array), np.bool_)
+    return np.asarray(is_finite.all(axis=tuple(range(1, array.ndim))))
 
 
 def _is_same(a: Props, b: Props) -> bool:
