@@ -30,6 +30,7 @@ from webviz.shell.testing.source import HandFedSource
 SHARED = Path(__file__).parents[3] / "shared/data"
 PCD = SHARED / "clouds/251370668.pcd"
 BAG = SHARED / "bags/macfirst_floor_take_2"
+MARKERS = "visualization_msgs/msg/MarkerArray"
 COUNT = 360_000
 """Points of a cloud; a tenth cannot be drawn, and of the others 300 000 are."""
 CONFIG = """
@@ -39,6 +40,7 @@ displays:
 - {type: PointCloud2, name: Cloud, topic: /cloud, size: 0.15}
 - {type: Grid}
 - {type: LaserScan, name: Scan, topic: /scan, size: 0.02, enabled: false}
+- {type: MarkerArray, name: Markers, topic: /markers, enabled: false}
 """
 TITLE = ".wv-selection [data-thing] .wv-field-name"
 
@@ -180,6 +182,37 @@ def isolated_beams(scan: Any) -> NDArray[np.intp]:
     np.fill_diagonal(distances, np.inf)
     is_alone = np.nanmin(distances, axis=1, initial=np.inf) > 0.035
     return np.flatnonzero(is_alone & np.isfinite(places[:, 0]))
+
+
+def test_clicks_on_markers_get_their_ids_texts_and_shapes_over_lines_included(
+    viewer: webviz.Viewer, source: HandFedSource, page: Page
+) -> None:
+    """From far above, where the camera of the view is, 20 cm are hardly nearer than the grid."""
+    viewer.do(SetFixedFrame("map"))
+    viewer.do(SetProperty("display4", "enabled", True))
+    look = {"scale": {"x": 0.2, "y": 0.2, "z": 0.4}, "color": {"g": 1.0, "a": 1.0}}
+    box, text = (2.0, 0.4), (-2.4, 1.4)
+    markers = [
+        {"id": 3, "type": 1, "pose": place(*box, 0.2), **look},
+        {"id": 4, "type": 9, "pose": place(*text, 0.5), "text": "Dock", **look},
+    ]
+    array = {"markers": [{"ns": "room", "header": header("map", 0), **each} for each in markers]}
+    source.put("/markers", MARKERS, encode(MARKERS, array))
+    page.tab.keyboard.press("Escape")
+    page.tab.keyboard.press("s")
+    viewer.do(ShowView(checked_view({"type": "TopDownOrtho", "scale": 60.0})))
+    page.draw()
+    for at, title in ((box, "Marker room/3"), (text, "Marker room/4")):
+        page.tab.mouse.click(*on_screen(page, at))
+        wait_for_titles(page, [title])
+    told = page.tab.locator(".wv-selection").inner_text().split("\n")
+    assert told[told.index("Type") + 1] == "TEXT_VIEW_FACING"
+    assert told[told.index("Text") + 1] == "Dock"
+    viewer.do(SetProperty("display4", "enabled", False))
+
+
+def place(x: float, y: float, z: float) -> dict[str, Any]:
+    return {"position": {"x": x, "y": y, "z": z}, "orientation": {"w": 1.0}}
 
 
 def test_boxes_select_and_keys_add_and_remove(

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
+from webviz.api.ports import Namespace
 from webviz.engine.by_topic import Pick, no_display, picks
 from webviz.engine.commands import AddDisplay
 
@@ -20,6 +21,11 @@ class Map(Display):
 
 class Outline(Display):
     source: Annotated[Topic, Input(GRID)] = Topic()
+
+
+class Handles(Display):
+    of: str = ""
+    offered_for = Namespace("of", "a/msg/Update", "/update")
 
 
 DISPLAYS = {"Outline": Outline, "Map": Map}
@@ -42,6 +48,12 @@ def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None
 def test_a_pick_adds_the_display_with_its_topic() -> None:
     pick = Pick("/map", "Outline", "source", GRID)
     assert pick.command() == AddDisplay("Outline", {"source": "/map"})
+
+
+def test_a_display_of_a_namespace_is_offered_for_its_topic() -> None:
+    topics = {"/a/b/update": ("a/msg/Update",), "/odd": ("a/msg/Update",)}
+    (pick,) = picks(topics, {"Handles": Handles})
+    assert pick.command() == AddDisplay("Handles", {"of": "/a/b"})
 
 
 def test_a_topic_without_a_display_says_why() -> None:

@@ -155,9 +155,11 @@ class Group:
         height: float,
         below: bool = False,
         colors: ArrayLike | Rgb = (255, 255, 255),
+        ids: Ids | None = None,
     ) -> None:
         """Draw texts; see `webviz.api.nodes.Labels`."""
-        self.nodes[key] = nodes.Labels(_f32(positions, 3), texts, height, below, _colors(colors))
+        xyz = _f32(positions, 3)
+        self.nodes[key] = nodes.Labels(xyz, texts, height, below, _colors(colors), ids)
 
     def instances(
         self,

@@ -26,7 +26,7 @@ import msgspec
 from webviz.api.declared import Declared, Topic
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details, Hit, noun_of
-from webviz.api.ports import Input
+from webviz.api.ports import Input, Namespace
 from webviz.api.properties import properties_of
 
 if TYPE_CHECKING:
@@ -96,6 +96,9 @@ class Display(Declared, kw_only=True):
     """Whether it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
     sync: ClassVar[Sync | None] = None
     """Inputs that are drawn together; others are drawn as their messages arrive."""
+
+    offered_for: ClassVar[Namespace | None] = None
+    """What Add by topic offers it for, besides the topics of its inputs."""
 
     name: Annotated[str, msgspec.Meta(description="Shown in the list of displays.")] = ""
     enabled: Annotated[bool, msgspec.Meta(description="Draw this display.")] = True

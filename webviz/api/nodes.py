@@ -139,6 +139,7 @@ class Labels(_Node):
         height: of a line, metres; that of capitals is 0.6 of it, as in RViz.
         below: whether texts are below their positions on the screen, instead of centred.
         colors: uint8 (N, 3), or one colour for all, drawn in 32 steps per channel.
+        ids: (N,), such as the index of each in the message; None numbers them from 0.
     """
 
     positions: F32
@@ -146,6 +147,7 @@ class Labels(_Node):
     height: float
     below: bool = False
     colors: U8 | Rgb = (255, 255, 255)
+    ids: Ids | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)

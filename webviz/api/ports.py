@@ -60,6 +60,21 @@ class Input:
 
 
 @dataclass(frozen=True)
+class Namespace:
+    """A text property that names a namespace, and the topic there by which one is known.
+
+    Args:
+        input: the property.
+        type: the message type of the topic.
+        ending: of its name, such as "/update".
+    """
+
+    input: str
+    type: str
+    ending: str
+
+
+@dataclass(frozen=True)
 class Output:
     """Marks a `Topic` property as an output of a tool.
 

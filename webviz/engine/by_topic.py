@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from webviz.api.display import Display, inputs_of
+from webviz.api.ports import Namespace
 from webviz.engine.commands import AddDisplay
 
 
@@ -18,16 +19,23 @@ class Pick:
         display: name of the display type.
         input: the property that takes the topic.
         message: the type of its messages.
+        namespace: that the property takes instead of the topic, "" if it does not.
     """
 
     topic: str
     display: str
     input: str
     message: str
+    namespace: str = ""
+
+    @property
+    def values(self) -> dict[str, str]:
+        """The property of the display, and its value."""
+        return {self.input: self.namespace or self.topic}
 
     def command(self) -> AddDisplay:
         """Add this display with this topic."""
-        return AddDisplay(self.display, {self.input: self.topic})
+        return AddDisplay(self.display, self.values)
 
 
 def picks(
@@ -41,17 +49,30 @@ def picks(
         displays: display classes by name.
     """
     takers: dict[str, list[tuple[str, str]]] = {}
+    endings: dict[str, list[tuple[str, Namespace]]] = {}
     for name, cls in displays.items():
+        if (known := cls.offered_for) is not None:
+            endings.setdefault(known.type, []).append((name, known))
         for input, spec in inputs_of(cls).items():
             # What comes beside another topic, such as updates of a map, is not shown by itself.
             if not spec.follows:
                 for type_ in spec.types:
                     takers.setdefault(type_, []).append((name, input))
+    live = [(topic, message) for topic, messages in topics.items() for message in messages]
     return sorted(
-        Pick(topic, name, input, message)
-        for topic, messages in topics.items()
-        for message in messages
-        for name, input in takers.get(message, ())
+        [
+            *(
+                Pick(topic, name, input, message)
+                for topic, message in live
+                for name, input in takers.get(message, ())
+            ),
+            *(
+                Pick(topic, name, known.input, message, topic.removesuffix(known.ending))
+                for topic, message in live
+                for name, known in endings.get(message, ())
+                if topic.endswith(known.ending) and topic != known.ending
+            ),
+        ]
     )
 
 

@@ -9,7 +9,9 @@ from typing import Annotated
 
 from webviz import Context, Details, Display, Hit, Prop, Sample, Status
 from webviz.api.handles import Grip, Handle
+from webviz.api.ports import Namespace
 from webviz.api.wire import Wire
+from webviz_displays.interactive_markers.client import UPDATE
 from webviz_displays.interactive_markers.drawing import Look
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
@@ -53,6 +55,7 @@ class InteractiveMarkers(Display):
     """Objects of a server that people move, turn and click, such as goals for a robot arm."""
 
     rviz = "rviz_default_plugins/InteractiveMarkers"
+    offered_for = Namespace("interactive_markers_namespace", UPDATE, "/update")
 
     interactive_markers_namespace: Annotated[
         str,

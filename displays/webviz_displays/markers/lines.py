@@ -79,7 +79,8 @@ def texts_of(batch: Batch) -> dict[str, Node]:
         texts = tuple(batch.contents[row].text for row in np.flatnonzero(some).tolist())
         positions = batch.positions[some].astype(np.float32)
         colors = _opaque(batch.colors[some])
-        nodes[f"texts {height:.6g}"] = Labels(positions, texts, height, colors=colors)
+        ids = batch.ids[some]
+        nodes[f"texts {height:.6g}"] = Labels(positions, texts, height, colors=colors, ids=ids)
     return nodes
 
 

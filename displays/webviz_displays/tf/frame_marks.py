@@ -92,7 +92,8 @@ def add_arrows(group: Group, marks: Marks, tips: F64, scale: float) -> None:
 def add_names(group: Group, marks: Marks, scale: float) -> None:
     """Names below the origins, from any viewpoint."""
     texts = tuple(marks.names.tolist())
-    group.labels("names", marks.positions, texts, TEXT_HEIGHT * scale, below=True)
+    height = TEXT_HEIGHT * scale
+    group.labels("names", marks.positions, texts, height, below=True, ids=marks.names)
 
 
 def _add(

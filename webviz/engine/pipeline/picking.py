@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz.api.context import Group, Placement
 from webviz.api.frames import Frames, compose
-from webviz.api.nodes import Arrows, Axes, Instances, Lines, Mesh, Models, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Models, Points, Pose
 from webviz.api.picking import Hit
 from webviz.api.sample import Sample
 from webviz.data.rotations import matrices
@@ -25,7 +25,7 @@ TOLERANCE = 1e-6
 ARROW_TOLERANCE = 1e-4
 """Of positions that a browser computed along an arrow."""
 
-Items = Points | Lines | Arrows | Axes | Instances | Models
+Items = Points | Lines | Arrows | Axes | Labels | Instances | Models
 """Nodes whose items are selected one by one."""
 
 N = TypeVar("N", bound=Items)

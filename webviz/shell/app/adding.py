@@ -70,4 +70,4 @@ def by_topic(
         names = ", ".join(pick.display for pick in fitting)
         raise Error(f"Several displays show {topic}. Give the type: {names}.")
     rest = {name: value for name, value in properties.items() if name != "topic"}
-    return fitting[0].display, {fitting[0].input: topic, **rest}
+    return fitting[0].display, {**fitting[0].values, **rest}

@@ -15,7 +15,7 @@ from webviz.engine.state import State
 def topics(state: State, _: str) -> Mapping[str, Any]:
     """By name: "types", "nodes" that publish it, "subscribers", "qos", "show" and "why".
 
-    "show" has the displays that fit, each with the property that takes the topic; "why" says why
+    "show" has the displays that fit, each with the properties that show the topic; "why" says why
     there is none.
     """
     return _topics(state.offers, display_types())
@@ -66,7 +66,7 @@ def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> Mapping[
         "nodes": [publisher.node or "a DDS program" for publisher in publishers],
         "subscribers": offer.subscribers,
         "qos": _qos(publishers),
-        "show": [[pick.display, pick.input] for pick in fits],
+        "show": [[pick.display, pick.values] for pick in fits],
         "why": "" if fits else no_display(types),
     }
 

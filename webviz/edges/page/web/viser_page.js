@@ -29,6 +29,7 @@ const NEEDS = {
   "configuredMaxOrbitDistance": "views from far away",
   "backgroundMaterial.uniforms": "the background of views that follow a frame",
   "nodeRefFromName": "nodes of the scene by their names",
+  nodePoseData: "picking texts",
   "messageQueue.push()": "controls that go, and noticing that the server is silent",
   "firstMessageBatch": "poses and data in one step, and views after a lost connection",
   "drainMessageQueue()": "poses and data in one step",
@@ -95,6 +96,9 @@ export const backgroundMaterial = () => page().backgroundMaterial;
 /** All nodes of the scene by their names; some may be undefined. */
 export const nodes = () => page().nodeRefFromName;
 export const node = (name) => page().nodeRefFromName[name];
+
+/** Where a node is relative to its parent, also of one that is no object, such as a text. */
+export const positionOf = (name) => page().nodePoseData[name]?.position;
 
 export const requestRender = () => page().requestRender();
 export const sendCamera = () => page().sendCamera();

@@ -43,8 +43,13 @@ const OUTLINED = `
     gl_FragColor = vec4(mix(around, vColor, smoothstep(-soft, soft, inside)), alpha);
   }`;
 
+let group = null;
+
+/** The boxes behind the letters, one of a mesh for each text: where the texts are, and how large. */
+export const boxes = () =>
+  group ? group.children.filter(({ renderOrder }) => renderOrder === BOXES) : [];
+
 export function install() {
-  let group = null;
   viser.beforeRender((gl, scene) => {
     if (!group || !group.parent) {
       scene.traverse((object) => object.renderOrder === BOXES && (group = object.parent));

@@ -148,13 +148,13 @@ function rows({ way, types, topics, traffic, shown }, checked) {
         },
       ];
     }
-    return offer.show.map(([display, input]) => ({
+    return offer.show.map(([display, values]) => ({
       ...about,
       id: `${topic} ${display}`,
       icon: typeIcon(display),
       line: `${display} · ${offer.types.join(", ")}`,
       checked: checked.has(`${topic} ${display}`),
-      pick: { type: display, values: { [input]: topic } },
+      pick: { type: display, values },
     }));
   });
 }

@@ -34,6 +34,13 @@ export function onCanvasAt([x, y]) {
 export const depthOf = (point) =>
   -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;
 
+/** How many metres a pixel is at a depth. */
+export function pixelAt(depth) {
+  const { elements } = viser.camera().projectionMatrix;
+  const w = elements[15] - elements[11] * depth; // depth, or 1 without perspective
+  return (2 * w) / (elements[5] * viser.canvas().clientHeight);
+}
+
 /** Where a point of an object is on the canvas, in CSS pixels, or null behind the camera. */
 export function project({ m, v, wide, tall }, [x, y, z]) {
   const w = m[3] * x + m[7] * y + m[11] * z + m[15];

@@ -3,9 +3,11 @@
 import * as viser from "../../viser_page.js";
 import { anchorOf } from "./pick.js";
 import { lineOf } from "./lines.js";
+import { cornersOf } from "./texts.js";
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
+const AROUND = [[0, 1], [1, 2], [2, 3], [3, 0]];
 const EDGES = CORNERS.flatMap((from) =>
   [1, 2, 4].filter((bit) => !(from & bit)).map((bit) => [from, from | bit]),
 );
@@ -33,6 +35,7 @@ function isSame(pick, object, moves) {
 
 function make(pick, object) {
   const place = (xyz, matrix) => vector(xyz).applyMatrix4(matrix);
+  if (object.isText) return { points: cornersOf(object), edges: AROUND };
   if (object.isPoints) return { points: [place(pick.local, object.matrixWorld)], edges: [] };
   if (object.isLineSegments2) {
     const ends = lineOf(object, pick.item).map((xyz) => place(xyz, object.matrixWorld));
@@ -83,7 +86,7 @@ function cell(pick, object) {
     const corner = [(start[0] + right) * steps[0], (start[1] + up) * steps[1], 0];
     return vector(corner).applyMatrix4(object.matrixWorld);
   });
-  return { points, edges: [[0, 1], [1, 2], [2, 3], [3, 0]] };
+  return { points, edges: AROUND };
 
   // The picture is around its middle, which is in a cell if their number is odd.
   function shift(axis) {

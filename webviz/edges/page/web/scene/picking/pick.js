@@ -2,13 +2,14 @@
 
 import { casterAt } from "../rays.js";
 import * as viser from "../../viser_page.js";
-import { depthOf, lensOf, onCanvasAt, project } from "./lens.js";
+import { depthOf, lensOf, onCanvasAt, pixelAt, project } from "./lens.js";
 import { lineAt, lineCount, lineOf } from "./lines.js";
 import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
+import { isTextIn, textAt } from "./texts.js";
 import { isTile, things } from "./things.js";
 
 const NEAR_PX = 4; // what the pointer means although it is not quite on it
-const BEHIND = 1e-3; // how much farther pictures count, for what lies on them; a share
+const PLANE_PX = 1; // what is as close together in depth lies in one plane
 
 /**
  * The thing under a point of the window, or null: `{group, key, number, at, color}` as the server knows
@@ -51,6 +52,7 @@ export function pickIn({ left, top, right, bottom }, most) {
 }
 
 function hitOf({ object, name }, at, caster, reach) {
+  if (object.isText) return textAt(object, at);
   if (object.isPoints) return pointAt(object, at, reach);
   if (object.isLineSegments2) return lineAt(object, at, reach);
   const [hit] = caster.intersectObject(object, false).sort((a, b) => a.distance - b.distance);
@@ -59,22 +61,24 @@ function hitOf({ object, name }, at, caster, reach) {
   const point = caster.ray.at(hit.distance, viser.camera().position.clone());
   const found = { number: hit.instanceId ?? null, off: 0, depth: depthOf(point), point };
   if (!isTile(name)) return found;
-  return { ...found, depth: found.depth * (1 + BEHIND), layer: object.renderOrder };
+  // Farther than what lies on it.
+  return { ...found, depth: found.depth + PLANE_PX * pixelAt(found.depth), layer: object.renderOrder };
 }
 
 // Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
 function isNearer(a, b) {
-  if (b && Math.abs(a.depth - b.depth) < BEHIND * b.depth && a.rank !== b.rank) {
-    return a.rank > b.rank;
-  }
+  if (b && isLevel(a, b) && a.rank !== b.rank) return a.rank > b.rank;
   return !b || a.depth < b.depth;
 }
 
-const rankOf = (object) => (object.isPoints ? 2 : object.isLineSegments2 ? 1 : 0);
+const isLevel = (a, b) => Math.abs(a.depth - b.depth) < PLANE_PX * pixelAt(b.depth);
+
+const rankOf = ({ isText, isPoints, isLineSegments2 }) =>
+  isText || isPoints ? 2 : isLineSegments2 ? 1 : 0;
 
 // Pictures of one plane lie over each other by their layer.
 function isOver(a, b) {
-  if (b && Math.abs(a.depth - b.depth) < BEHIND * b.depth) return a.layer >= b.layer;
+  if (b && isLevel(a, b)) return a.layer >= b.layer;
   return isNearer(a, b);
 }
 
@@ -85,6 +89,7 @@ function described(found, caster) {
   const local = anchorOf(object, number);
   const inThree = (xyz) =>
     viser.camera().position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
+  if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
   if (object.isPoints) {
     const more = { number: number + first, item: number, color: colorOf(object, number) };
     return { ...thing, ...more, at: local, local, point: inThree(local) };
@@ -106,6 +111,7 @@ function onRay({ depth }, caster) {
 
 /** Where an item is in the coordinates of its object; of a mesh, its middle. */
 export function anchorOf(object, number) {
+  if (object.isText) return object.local;
   if (object.isPoints) return pointOf(object, number);
   if (object.isLineSegments2) return lineOf(object, number)[0] ?? [];
   if (number === null) {
@@ -120,6 +126,7 @@ export function anchorOf(object, number) {
 // Lines count when they are in the box as a whole: else a box on a grid would take most of it.
 function itemsIn(object, box, take) {
   if (object.isPoints) return pointsIn(object, box, take);
+  if (object.isText) return isTextIn(object, box) ? take(object.number) : undefined;
   const lens = lensOf(object);
   const isIn = (xyz) => {
     const place = xyz.length ? project(lens, xyz) : null;

@@ -2,18 +2,24 @@
 
 import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
+import { texts } from "./texts.js";
 
 const { ROOT, TILE_PREFIX, PART_PREFIX, POINTS_PER_PART } = constants;
 
 /**
- * All that displays draw and that can be seen: `{object, name, node, ordinal}`; `name` is that of viser's
- * node, see `nodeNamed`, and `ordinal` counts the objects of one.
+ * All that displays draw and that can be seen: `{object, name, node, ordinal}`; `object` is of three.js
+ * or a text, see `texts`, `name` is that of viser's node, see `nodeNamed`, and `ordinal` counts the
+ * objects of one.
  */
 export function things() {
   const names = new Map(Object.entries(viser.nodes()).map(([name, node]) => [node, name]));
   const counts = new Map();
   const found = [];
   visit(viser.node(ROOT), ROOT);
+  for (const text of texts()) {
+    const node = nodeNamed(text.name);
+    if (node) found.push({ ...text, node, ordinal: 0 });
+  }
   return found;
 
   function visit(object, outer) {
