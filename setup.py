@@ -1,8 +1,36 @@
-"""Entry points and ROS's own files; everything else stands in pyproject.toml."""
+"""What colcon needs to know too, which does not read pyproject.toml; the rest stands there."""
 
-from setuptools import setup
+from pathlib import Path
+from xml.etree import ElementTree
+
+from setuptools import find_namespace_packages, setup
+
+FOLDERS = {
+    "webviz_displays": "displays/webviz_displays",
+    "webviz_urdf": "urdf/webviz_urdf",
+    "webviz_sim": "sim/webviz_sim",
+}
+DATA = "py.typed *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.css head.html"
+
+
+def files(folder: str, *patterns: str) -> list[str]:
+    """The files of a folder, relative to this one, as `data_files` wants them."""
+    return sorted(str(path) for pattern in patterns for path in Path(folder).glob(pattern))
+
 
 setup(
+    name="webviz",
+    # The one place of the version, which tools of ROS read there.
+    version=ElementTree.parse("package.xml").findtext("version"),
+    license="Apache-2.0",
+    python_requires=">=3.11,<3.14",
+    packages=[
+        name
+        for folder in (".", "displays", "urdf", "sim")
+        for name in find_namespace_packages(folder, include=["webviz*"])
+    ],
+    package_dir=FOLDERS,
+    package_data={"": DATA.split()},
     entry_points={
         "console_scripts": [
             "webviz = webviz.shell.cli:program",
@@ -56,8 +84,18 @@ setup(
             "Nav2 = webviz.panels.nav2:Nav2",
         ],
     },
+    # What `ros2 run`, `ros2 launch` and RViz look for. RViz finds the demo robot's meshes in the
+    # package webviz_urdf, by which its description names them. Links lead from ros/ to files of
+    # packages, as colcon --symlink-install cannot link to those whose folder has another name.
     data_files=[
-        ("share/ament_index/resource_index/packages", ["resource/webviz"]),
+        ("share/ament_index/resource_index/packages", files("ros/resource", "*")),
         ("share/webviz", ["package.xml"]),
+        ("share/webviz/launch", files("ros/launch", "*.launch.py")),
+        ("share/webviz/params", files("ros/params", "*.yaml")),
+        ("share/webviz/config", files("webviz/shell/cli", "*.yaml")),
+        ("share/webviz/worlds", files("ros/worlds", "*.*")),
+        ("share/webviz_urdf/demo", files("ros/robot", "*.urdf")),
+        ("share/webviz_urdf/demo/meshes", files("ros/robot/meshes", "*.*")),
+        ("lib/webviz", ["ros/sim"]),
     ],
 )

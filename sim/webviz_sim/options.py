@@ -1,6 +1,7 @@
 """The ROS parameters of the simulator and their valid values."""
 
 import math
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,13 @@ class Option:
     low: float = -math.inf
     high: float = math.inf
     read_only: bool = False
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """Its limits for those who describe it, None without any; they must be finite."""
+        if math.isinf(self.low) and math.isinf(self.high):
+            return None
+        return max(self.low, -sys.float_info.max), min(self.high, sys.float_info.max)
 
     def refusal(self, name: str, value: Any) -> str | None:
         """Why a value is invalid, in one sentence; None if it is valid."""

@@ -4,7 +4,12 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Empty
@@ -36,10 +41,7 @@ class SimNode(Node):
         self.add_on_set_parameters_callback(self._check)
         self.add_post_set_parameters_callback(self._apply)
         for name, option in options.OPTIONS.items():
-            descriptor = ParameterDescriptor(
-                description=option.help, read_only=option.read_only, dynamic_typing=True
-            )
-            self.declare_parameter(name, option.default, descriptor)
+            self.declare_parameter(name, option.default, _descriptor(option))
 
         values = self._values
         world = load_world(values["world"] or options.BUILDING)
@@ -118,3 +120,19 @@ class SimNode(Node):
 
     def _warn(self, sentence: str) -> None:
         self.get_logger().warning(sentence)
+
+
+def _descriptor(option: options.Option) -> ParameterDescriptor:
+    """What `ros2 param describe` says about a parameter."""
+    # Typed dynamically, a rate of 10 is as good as one of 10.0.
+    described = ParameterDescriptor(
+        description=option.help, read_only=option.read_only, dynamic_typing=True
+    )
+    if option.range is not None:
+        low, high = option.range
+        if type(option.default) is int:
+            limits = IntegerRange(from_value=int(low), to_value=int(high), step=0)
+            described.integer_range = [limits]
+        else:
+            described.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    return described

@@ -6,11 +6,14 @@ import gc
 import logging
 import os
 import sys
+import threading
+import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
+from webviz.edges.access.starting import link
 from webviz.files.config import Config
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
@@ -98,6 +101,11 @@ def _announce(options: ViewingOptions, viewer: Viewer) -> None:
         logging.getLogger("webviz.journal").setLevel(logging.INFO)
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)
     sys.stdout.flush()
+    if options.open:
+        tokens = viewer.access.tokens if viewer.access.asks else ()
+        address = next((link(viewer.url, token) for token in tokens), "") or viewer.url
+        # Browsers in a terminal run until they are closed.
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
 def _last_session() -> Path:

@@ -40,5 +40,7 @@ class ViewingOptions(ConfigOptions):
     """Let no parameter or service of the ROS node change the viewer."""
     autosave: Flag = False
     """Save the session in ~/.local/state/webviz; restore it unless -d is given."""
+    open: Flag = False
+    """Open the page in a browser of this machine."""
     debug: Flag = False
     """Show viser's own panel beside the page."""
