@@ -2,6 +2,7 @@
 
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,15 +27,16 @@ class Option:
         """Its limits for those who describe it, None without any; they must be finite."""
         if math.isinf(self.low) and math.isinf(self.high):
             return None
-        return max(self.low, -sys.float_info.max), min(self.high, sys.float_info.max)
+        return float(max(self.low, -sys.float_info.max)), float(min(self.high, sys.float_info.max))
 
     def refusal(self, name: str, value: Any) -> str | None:
         """Why a value is invalid, in one sentence; None if it is valid."""
         kind = type(self.default)
         if kind is list:
-            if len(value) in (0, 3) and all(map(math.isfinite, value)):
+            # rcl reads an empty list of a file as a parameter without a value.
+            if value is None or (_is_list(value) and len(value) in (0, 3)):
                 return None
-            return f"{name} must be [x, y, yaw] or [], not {list(value)}."
+            return f"{name} must be [x, y, yaw] or [], not {value}."
         # A rate of 10 means 10.0.
         if type(value) is not kind and not (kind is float and type(value) is int):
             return f"{name} must be {_KINDS[kind]}, not {value!r}."
@@ -82,6 +84,13 @@ OPTIONS = {
         "otherwise measure all beams at the stamp.",
     ),
 }
+
+
+def _is_list(value: Any) -> bool:
+    """Whether a value is a list of finite numbers."""
+    if isinstance(value, str | bytes) or not isinstance(value, Sequence):
+        return False
+    return all(isinstance(each, int | float) and math.isfinite(each) for each in value)
 
 
 def refusal(values: dict[str, Any]) -> str | None:
