@@ -15,6 +15,7 @@ import photos
 import pytest
 import trimesh
 from clouds import CLOUD, xyz_cloud
+from mapping_scenes import MAPPING_SCENES
 from plain_scenes import PLAIN_SCENES
 
 import webviz_displays
@@ -232,6 +233,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "RobotModel": robots,
     "TF": frames,
     **PLAIN_SCENES,
+    **MAPPING_SCENES,
 }
 
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
@@ -278,6 +280,12 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
             "enable_transparency",
             "enabled",
         )
+    },
+    # Without limits at first.
+    **{
+        (name, path): {path: value}
+        for name in ("OccupancyGrid", "ColorOccupancyGrid", "OccupancyGridStamped")
+        for path, value in {"max_height": 0.3, "min_height": 0.3}.items()
     },
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},

@@ -13,6 +13,7 @@ import pytest
 from clouds import CLOUD, xyz_cloud
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mapping_scenes import MAPPING_MESSAGES
 from plain_scenes import PLAIN_MESSAGES
 
 from webviz import Display
@@ -24,8 +25,12 @@ from webviz.data.messages.typestore import Field, fields
 from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.grid_map import GridMap
+from webviz_displays.imu import Imu, Mag
+from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
-from webviz_displays.map import Map
+from webviz_displays.map import Costmap, Map
+from webviz_displays.octomap import OccupancyGrid
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
@@ -41,6 +46,7 @@ from webviz_displays.sensors import FluidPressure, PointCloud, Range, Temperatur
 from webviz_displays.shared.geometry import FARTHEST
 from webviz_displays.shared.pose_properties import PoseShape
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
+from webviz_displays.voxel_grid import VoxelGrid
 
 Benches = Callable[..., Any]
 Values = dict[str, Any]
@@ -80,6 +86,7 @@ MESSAGES: dict[str, Values] = {
         "<parent link='arm'/><child link='sensor'/></joint></robot>"
     },
     **PLAIN_MESSAGES,
+    **MAPPING_MESSAGES,
 }
 """A message of each type that draws something."""
 
@@ -117,6 +124,13 @@ DISPLAYS: list[Callable[[], Display]] = [
     Temperature,
     FluidPressure,
     lambda: PointCloud(style="Boxes"),
+    OccupancyGrid,
+    GridMap,
+    lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
+    lambda: VoxelGrid(show_unknown=True, show_free=True),
+    Costmap,
+    lambda: Imu(acceleration_properties=AccelerationSettings(enable_acceleration=True)),
+    lambda: Mag(is_2d=False),
 ]
 
 LAST = "\x7f"
@@ -174,7 +188,7 @@ def send(at: Any, name: str, values: Values) -> None:
     if fields(type_name)[0].base == "std_msgs/msg/Header":
         values.setdefault("header", header("sensor", at.now_ns))
     cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
-    topic = getattr(at.display, name).name or "/map_updates"
+    topic = getattr(at.display, name).name or f"{at.display.topic.name}_updates"
     at.send_bytes(type_name, cdr, topic)
     at.turn()
     deadline = time.monotonic() + 60

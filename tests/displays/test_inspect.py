@@ -10,6 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
+from grid_maps import GRID_MAP, grid_map
+from mapping_scenes import COSTMAP, FIELD, IMU, VOXEL_GRID, hill
+from octrees import OCTOMAP
 from robot_arm import ARM, describe, place_arm
 
 from webviz import Context, Details, Display, Frames
@@ -19,9 +22,12 @@ from webviz.engine.pipeline.details import details_tree
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
+from webviz_displays.grid_map import GridMap
+from webviz_displays.imu import Imu, Mag
 from webviz_displays.laser_scan import LaserScan
-from webviz_displays.map import Map
+from webviz_displays.map import Costmap, Map
 from webviz_displays.markers import MarkerArray
+from webviz_displays.octomap import ColorOccupancyGrid
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
@@ -36,6 +42,7 @@ from webviz_displays.robot_model import RobotModel
 from webviz_displays.sensors import PointCloud, Range, Temperature
 from webviz_displays.tf import TF
 from webviz_displays.vectors import Effort, Wrench
+from webviz_displays.voxel_grid import VoxelGrid
 
 NAN = math.nan
 Benches = Callable[..., Any]
@@ -238,6 +245,41 @@ def cell_of_a_grid(bench: Benches) -> Details:
     return one_of(bench, GridCells(), "nav_msgs/msg/GridCells", values, "cells", None, clicked)
 
 
+def voxel_of_an_octree(bench: Benches) -> Details:
+    """The one on top, which is the last along the curve through the tree."""
+    at = bench(ColorOccupancyGrid())
+    at.transform("map", "odom")
+    at.send(OCTOMAP, hill("ColorOcTree"), frame="odom")
+    at.turn()
+    return pick(at, "voxels", 4)
+
+
+def cell_of_a_grid_map(bench: Benches) -> Details:
+    """Rows are along -x."""
+    layers = {"elevation": lambda x, y: x, "variance": lambda x, y: 0.25}
+    values = grid_map(layers, (3, 4), 0.5, (1, 2))
+    return one_of(bench, GridMap(), GRID_MAP, values, "surface", None, (0.4, -0.7, 0.5))
+
+
+def voxel_of_a_costmap(bench: Benches) -> Details:
+    return one_of(bench, VoxelGrid(), "nav2_msgs/msg/VoxelGrid", VOXEL_GRID, "marked", 1)
+
+
+def cell_of_a_costmap(bench: Benches) -> Details:
+    at = bench(Costmap())
+    at.send("nav2_msgs/msg/Costmap", COSTMAP, frame="map", topic="/local_costmap/costmap_raw")
+    at.turn()
+    return pick(at, "tile 0 0", None, (0.6, 0.6, 0.0))
+
+
+def inertial_sensor(bench: Benches) -> Details:
+    return one_of(bench, Imu(), "sensor_msgs/msg/Imu", IMU, "axes", 0)
+
+
+def magnetic_field(bench: Benches) -> Details:
+    return one_of(bench, Mag(), "sensor_msgs/msg/MagneticField", FIELD, "heads", 0)
+
+
 def torque(bench: Benches) -> Details:
     values = {"wrench": {"force": {"x": 1.5}, "torque": {"z": -2.0}}}
     type_name = "geometry_msgs/msg/WrenchStamped"
@@ -400,6 +442,22 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     point: ("Point 0", {"Point in odom": {"fields": {"x": "1", "y": "2.5", "z": "0"}}}),
     last_side_of_a_polygon: ("Side 2", {"Length": "5 m", "Points in the polygon": "3"}),
     cell_of_a_grid: ("Cell 2", {"Size": "1 m x 0.5 m", "Cells in the message": "3"}),
+    voxel_of_an_octree: (
+        "Occupied voxel",
+        {"Occupancy": "62.2%", "Log-odds": "0.5", "Size": "0.5 m", "Depth": "16",
+         "Color": "r 0, g 255, b 0"},
+    ),
+    cell_of_a_grid_map: (
+        "Cell 0, 3", {"elevation": "0.5", "variance": "0.25", "Size of a cell": "0.5 m"}
+    ),
+    voxel_of_a_costmap: ("Voxel 0, 0, 1", {"State": "marked"}),
+    cell_of_a_costmap: ("Cell 1, 1", {"Value": "254, lethal"}),
+    inertial_sensor: (
+        "Inertial sensor",
+        {"Orientation": "x 0.0000, y 0.0000, z 0.6000, w 0.8000",
+         "Acceleration in odom": "1, 0, 9 m/s²"},
+    ),
+    magnetic_field: ("Magnetic field", {"Field in odom": "2e-05, 1e-05, -4e-05 T"}),
     torque: ("Wrench 0", {"Force in odom": "1.5, 0, 0 N", "Torque in odom": "0, 0, -2 Nm"}),
     effort_of_a_joint: (
         "Joint elbow", {"Effort": "2 Nm", "Largest effort": "8 Nm", "Link": "odom"}

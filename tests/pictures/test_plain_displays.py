@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
+from grid_maps import grid_map
+from octrees import Node, binary, full
 
 from webviz import Display
 from webviz.api.display import inputs_of
@@ -15,6 +18,11 @@ from webviz.api.views import Orbit
 from webviz.shell.testing import Stage, turned
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.grid import Grid
+from webviz_displays.grid_map import GridMap
+from webviz_displays.imu import Imu, Mag
+from webviz_displays.imu.imu import AccelerationSettings, BoxSettings
+from webviz_displays.map import Costmap
+from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyGridStamped
 from webviz_displays.poses import (
     ParticleCloud,
     PointStamped,
@@ -31,6 +39,7 @@ from webviz_displays.sensors import (
     Temperature,
 )
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
+from webviz_displays.voxel_grid import VoxelGrid
 
 Values = dict[str, Any]
 
@@ -87,7 +96,59 @@ HILL = [
     for i in range(-10, 11)
     for j in range(-10, 11)
 ]
+STEPS = range(-10, 11)
+
+
+def summit(x: float, y: float) -> float:
+    """Height of a hill with a hollow, metres."""
+    distance = math.hypot(x, y)
+    return 0.8 * math.exp(-2.0 * distance**2) - 0.4 * math.exp(-30.0 * distance**2)
+
+
+def landscape() -> Node:
+    """The hill as voxels of 0.1 m, down to the ground below it."""
+    root = Node()
+    for x, y in product(STEPS, STEPS):
+        top = int(10 * summit(x / 10, y / 10))
+        for z in range(-1, top + 1):
+            root.place((x, y, z), log_odds=2.0, color=(40 + 20 * top, 90 + 12 * (x % 2), 60))
+    return root
+
+
+def obstacles() -> Values:
+    """Walls around unknown space, 16 levels of 0.05 m."""
+    near = [max(abs(x), abs(y)) for y in range(-10, 11) for x in range(-10, 11)]
+    columns = [0x00FF_00FF if d == 8 else 0xF if d < 8 else 0 for d in near]
+    return {
+        "data": columns,
+        "origin": vector(-1.05, -1.05, 0.0),
+        "resolutions": vector(0.1, 0.1, 0.05),
+        "size_x": 21,
+        "size_y": 21,
+        "size_z": 16,
+    }
+
+
+def inflated() -> Values:
+    """Costs around two obstacles."""
+    cells = [
+        min(math.hypot(x - 12, y - 14), math.hypot(x - 30, y - 24))
+        for y in range(40)
+        for x in range(40)
+    ]
+    costs = [254 if d < 3 else 253 if d < 5 else int(max(0, 252 - 22 * (d - 5))) for d in cells]
+    origin = {"position": vector(-1.0, -1.0, 0.0), "orientation": {"w": 1.0}}
+    size = {"size_x": 40, "size_y": 40, "resolution": 0.05, "origin": origin}
+    return {"metadata": size, "data": costs}
+
+
 SONAR = {"field_of_view": 0.5, "min_range": 0.2, "max_range": 4.0, "range": 1.4}
+BOX = BoxSettings(enable_box=True, x_scale=0.6, y_scale=0.4, z_scale=0.2, box_alpha=0.6)
+ACCELERATION = AccelerationSettings(enable_acceleration=True, acc_vector_scale=0.1)
+TILTED = {
+    "orientation": dict(zip("xyzw", turned(roll=0.3, yaw=0.5), strict=True)),
+    "linear_acceleration": vector(0.0, 2.9, 9.4),
+}
 BIG: Values = {"style": "Spheres", "size": 0.8}
 
 CASES = [
@@ -121,6 +182,22 @@ CASES = [
     Case("illuminance", Illuminance(**BIG), ({"illuminance": 900.0},)),
     Case("relative_humidity", RelativeHumidity(**BIG), ({"relative_humidity": 0.65},)),
     Case("point_cloud", PointCloud(size=0.06), ({"points": HILL},)),
+    Case("occupancy_grid", OccupancyGrid(), (binary(landscape()),)),
+    Case(
+        "color_occupancy_grid",
+        ColorOccupancyGrid(voxel_coloring="Cell Color"),
+        (full(landscape(), kind="ColorOcTree"),),
+    ),
+    Case(
+        "occupancy_grid_stamped",
+        OccupancyGridStamped(max_octree_depth=15),
+        (full(landscape(), kind="OcTreeStamped"),),
+    ),
+    Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (21, 21), 0.1, (5, 9)),)),
+    Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
+    Case("costmap", Costmap(), (inflated(),)),
+    Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
+    Case("mag", Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),
 ]
 
 

@@ -1,5 +1,6 @@
 """Occupancy grids: maps and costmaps."""
 
+from webviz_displays.map.costmap import Costmap
 from webviz_displays.map.display import Map
 
-__all__ = ["Map"]
+__all__ = ["Costmap", "Map"]

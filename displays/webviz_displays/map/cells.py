@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import floor
 
 from webviz import Details, Pose, compose
 from webviz_displays.map.palettes import Scheme
 from webviz_displays.map.tiles import Corner, TiledGrid
 
-_MEANINGS: dict[Scheme, dict[int, str]] = {
+MEANINGS: dict[Scheme, dict[int, str]] = {
     "map": {-1: "unknown", 0: "free", 100: "occupied"},
     "costmap": {-1: "unknown", 0: "free", 99: "inscribed", 100: "lethal"},
     "raw": {},
 }
+"""Of values with a meaning, by scheme."""
 
 
 def tile_key(corner: Corner) -> str:
@@ -22,7 +24,10 @@ def tile_key(corner: Corner) -> str:
 
 
 def cell_details(
-    grid: TiledGrid, corner: Corner, point: tuple[float, float, float], scheme: Scheme
+    grid: TiledGrid,
+    corner: Corner,
+    point: tuple[float, float, float],
+    told: Callable[[int], str | int],
 ) -> Details | None:
     """The cell at a point, None if there is none.
 
@@ -30,20 +35,18 @@ def cell_details(
         grid: the map.
         corner: of the tile.
         point: in metres from this corner, along rows and columns.
-        scheme: what values mean.
+        told: what is said about a value.
     """
     cells, size = grid.tiles[corner], grid.resolution
     y, x = floor(point[1] / size), floor(point[0] / size)
     if not (0 <= y < cells.shape[0] and 0 <= x < cells.shape[1]):
         return None
     row, column = corner[0] + y, corner[1] + x
-    value = int(cells[y, x])
-    meaning = _MEANINGS[scheme].get(value, "")
     center = compose(grid.origin, Pose(((column + 0.5) * size, (row + 0.5) * size, 0.0))).position
     return Details(
         f"Cell {column}, {row}",
         {
-            "Value": f"{value}, {meaning}" if meaning else value,
+            "Value": told(int(cells[y, x])),
             "Column (x)": column,
             "Row (y)": row,
             "Index": row * grid.width + column,

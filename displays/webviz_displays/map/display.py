@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from webviz import (
     compose,
 )
 from webviz.data.words import counted
-from webviz_displays.map.cells import cell_details, tile_key
+from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated
 
@@ -95,23 +95,14 @@ class _State:
     at_stamp: tuple[tuple[str, str, int], Pose] | None = None
 
 
-class Map(Display):
-    """An occupancy grid as a flat picture: free, occupied and unknown cells.
+class MapDisplay(Display):
+    """Base of displays that draw a grid of cells as a flat picture."""
 
-    A map that cannot be drawn is an error, and the previous map stays: a robot that drives by it
-    is still seen on it.
-    """
-
-    rviz = "rviz_default_plugins/Map"
     is_threaded = True
 
-    topic: Annotated[
-        Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Topic of the maps.")
-    ] = Topic("/map")
+    topic: Annotated[Topic, Prop(help="Topic of the maps.")] = Topic()
     update_topic: Annotated[
-        Topic,
-        Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
-        Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
+        Topic, Prop(help="Topic of partial updates; empty means the map's topic + _updates.")
     ] = Topic()
     alpha: Annotated[
         float, Prop(ge=0, le=1, widget="slider", help="Opacity of the map; 0 is invisible.")
@@ -145,6 +136,19 @@ class Map(Display):
         ),
     ] = 100
 
+    def as_grid(self, name: str, message: Any) -> Any:
+        """A message of the input `name` with the fields of an OccupancyGrid or its update."""
+        return message
+
+    def table(self, alpha: float, threshold: int | None) -> NDArray[np.uint8]:
+        """The colours of cells, cached; see `lookup_table`."""
+        return lookup_table(self.color_scheme, alpha, threshold)
+
+    def told(self, value: int) -> str | int:
+        """What is said about a cell's value, -128 to 127."""
+        meaning = MEANINGS[self.color_scheme].get(value)
+        return f"{value}, {meaning}" if meaning else value
+
     def new_state(self) -> _State:
         """Nothing drawn."""
         return _State()
@@ -156,15 +160,16 @@ class Map(Display):
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
         """Take a new map, or update the current one."""
         grid = state.grid if state else None
+        message = self.as_grid(name, sample.message)
         if name == "topic":
             try:
-                return Folded(tiled(sample.message, sample.frame, grid), sample.stamp_ns)
+                return Folded(tiled(message, sample.frame, grid), sample.stamp_ns)
             except GridFault as fault:
                 return replace(state or Folded(None), fault=str(fault))
         if state is None or grid is None or state.fault:
             return state  # an update means nothing without the map it changes
         try:
-            grid = updated(grid, sample.message, sample.frame)
+            grid = updated(grid, message, sample.frame)
         except GridFault as fault:
             return replace(state, update_fault=str(fault))
         return replace(state, grid=grid, updates=state.updates + 1, update_fault="")
@@ -183,7 +188,7 @@ class Map(Display):
         threshold = self.binary_threshold if self.binary_representation else None
         alpha = 1.0 if self.alpha >= OPAQUE else self.alpha
         look = MapStyle(
-            lookup_table(self.color_scheme, alpha, threshold),
+            self.table(alpha, threshold),
             grid.resolution,
             ctx.order - (BEHIND if self.draw_behind else 0),
         )
@@ -205,7 +210,7 @@ class Map(Display):
         """A cell, with the value that it has now."""
         grid: TiledGrid | None = ctx.state.grid
         corner = next((c for c in grid.tiles if tile_key(c) == hit.key), None) if grid else None
-        return cell_details(grid, corner, hit.point, self.color_scheme) if grid and corner else None
+        return cell_details(grid, corner, hit.point, self.told) if grid and corner else None
 
     def _pose_at_stamp(self, frame: str, stamp_ns: int, ctx: Context) -> Pose | None:
         """Where the frame was at the stamp; kept, because transforms expire after seconds."""
@@ -227,6 +232,25 @@ class Map(Display):
             ctx.error("Update", folded.update_fault)
         elif folded.updates:
             ctx.ok("Update", f"{counted(folded.updates, 'update')} since the last whole map.")
+
+
+class Map(MapDisplay):
+    """An occupancy grid as a flat picture: free, occupied and unknown cells.
+
+    A map that cannot be drawn is an error, and the previous map stays: a robot that drives by it
+    is still seen on it.
+    """
+
+    rviz = "rviz_default_plugins/Map"
+
+    topic: Annotated[
+        Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Topic of the maps.")
+    ] = Topic("/map")
+    update_topic: Annotated[
+        Topic,
+        Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
+        Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
+    ] = Topic()
 
 
 def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:

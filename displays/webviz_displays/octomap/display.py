@@ -1,0 +1,231 @@
+"""The displays of octrees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
+from webviz_displays.octomap.octree import LEVELS, Octree, OctreeFault, read_octree
+from webviz_displays.octomap.seen import (
+    MOST_VOXELS,
+    Choice,
+    Rendering,
+    Seen,
+    by_height,
+    by_probability,
+    probabilities,
+    seen_of,
+)
+from webviz_displays.octomap.voxels import voxels_of
+from webviz_displays.shared.geometry import FARTHEST, origin_near
+
+OCTOMAP = "octomap_msgs/msg/Octomap"
+
+_NOUNS: dict[Rendering, str] = {
+    "Occupied Voxels": "occupied voxels",
+    "Free Voxels": "free voxels",
+    "All Voxels": "voxels",
+}
+
+
+@dataclass
+class _State:
+    """What was read last, so that another colour does not read it again.
+
+    Args:
+        message: that the others are of.
+        tree: None if it cannot be read.
+        fault: why.
+        span: lowest and highest z of its leaves, metres.
+        choice: that `seen` is of.
+        seen: what is drawn.
+    """
+
+    message: Any = None
+    tree: Octree | None = None
+    fault: str = ""
+    span: tuple[float, float] = (0.0, 0.0)
+    choice: Choice | None = None
+    seen: Seen | None = None
+
+
+class OctreeDisplay(Display):
+    """Base of RViz's displays of octrees, which differ in the type of tree that they accept."""
+
+    is_threaded = True
+
+    topic: Annotated[Topic, Input(OCTOMAP), Prop(help="Topic of the octrees.")] = Topic(
+        "/octomap_full"
+    )
+    voxel_rendering: Annotated[
+        Rendering, Prop(help="Draw voxels that are occupied, known to be free, or both.")
+    ] = "Occupied Voxels"
+    voxel_coloring: Annotated[
+        Literal["Cell Color", "Z-Axis", "Cell Probability"],
+        Prop(
+            help="Cell Color: that in the tree. Z-Axis: magenta (low) to red (high). "
+            "Cell Probability: red (free) to green (occupied)."
+        ),
+    ] = "Z-Axis"
+    voxel_alpha: Annotated[
+        float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")
+    ] = 1.0
+    max_octree_depth: Annotated[
+        int,
+        Prop(
+            ge=0,
+            le=LEVELS,
+            rviz="Max. Octree Depth",
+            help="Each level less doubles the size of the smallest voxels; 0 is all levels.",
+        ),
+    ] = LEVELS
+    max_height: Annotated[
+        float,
+        Prop(
+            ge=-FARTHEST,
+            le=FARTHEST,
+            unit="m",
+            rviz="Max. Height Display",
+            help="Hide voxels with a centre above this z of the tree's frame.",
+        ),
+    ] = FARTHEST
+    min_height: Annotated[
+        float,
+        Prop(
+            ge=-FARTHEST,
+            le=FARTHEST,
+            unit="m",
+            rviz="Min. Height Display",
+            help="Hide voxels with a centre below this z of the tree's frame.",
+        ),
+    ] = -FARTHEST
+
+    def new_state(self) -> _State:
+        """Nothing read."""
+        return _State()
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """The voxels that can be seen as boxes, in the frame and at the stamp of the header."""
+        state: _State = ctx.state
+        if state.message is not sample.message:
+            _read(state, sample.message)
+        tree = state.tree
+        if tree is None:
+            ctx.error("Octree", state.fault)
+            return
+        levels = self.max_octree_depth or LEVELS
+        choice = Choice(self.voxel_rendering, levels, self.min_height, self.max_height)
+        if state.seen is None or state.choice != choice:
+            state.choice, state.seen = choice, seen_of(tree, choice)
+        self._report(tree, state.seen, levels, ctx)
+        voxels = state.seen.voxels
+        if not len(voxels.nodes) or self.voxel_alpha == 0:
+            return
+        origin = origin_near(voxels.centers)
+        ctx.follow(None, offset=compose(sample.pose, Pose(origin))).instances(
+            "voxels",
+            "box",
+            voxels.centers - origin,
+            np.repeat(voxels.sizes[:, None], 3, axis=1),
+            self._colors(state, tree, ctx),
+            opacity=self.voxel_alpha,
+            ids=voxels.nodes,
+        )
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A voxel."""
+        state: _State = ctx.state
+        tree, seen = state.tree, state.seen
+        if tree is None or seen is None:
+            return None
+        found = np.flatnonzero(seen.voxels.nodes == hit.id)
+        if not len(found):
+            return None
+        voxels, node = seen.voxels.only(found), int(hit.id)
+        log_odds = tree.log_odds[[node]]
+        values: dict[str, object] = {
+            "Occupancy": f"{probabilities(log_odds)[0]:.1%}",
+            "Log-odds": log_odds[0],
+            f"Center in {hit.sample.frame}": voxels.centers[0],
+            "Size": f"{voxels.sizes[0]:g} m",
+            "Depth": int(tree.depths[node]),
+        }
+        if tree.colors is not None:
+            values["Color"] = "r {}, g {}, b {}".format(*tree.colors[node].tolist())
+        return Details("Occupied voxel" if log_odds[0] >= 0 else "Free voxel", values)
+
+    def _colors(self, state: _State, tree: Octree, ctx: Context) -> NDArray[np.uint8]:
+        assert state.seen is not None
+        voxels = state.seen.voxels
+        if self.voxel_coloring == "Cell Color" and tree.colors is not None:
+            return tree.colors[voxels.nodes]
+        if self.voxel_coloring == "Cell Probability":
+            colors, ctx.color_scale = by_probability(tree.log_odds[voxels.nodes])
+            return colors
+        colors, ctx.color_scale = by_height(voxels, *state.span)
+        return colors
+
+    def _report(self, tree: Octree, seen: Seen, levels: int, ctx: Context) -> None:
+        """Say what the tree is, what of it is drawn, and what is not as chosen."""
+        nodes = len(tree.codes)
+        ctx.ok("Octree", f"{tree.kind} of {nodes} nodes, smallest voxels {tree.resolution:g} m.")
+        if self.voxel_coloring == "Cell Color" and tree.colors is None:
+            ctx.warn(
+                "Colors",
+                "The tree has no colours, so voxels are coloured by height. Publish a full "
+                "ColorOcTree or choose another Voxel Coloring.",
+            )
+        count, noun = len(seen.voxels.nodes), _NOUNS[self.voxel_rendering]
+        told = f"Showing {count} {noun}"
+        if enclosed := seen.wanted - count:
+            told += f"; they enclose {enclosed} more"
+        if not count:
+            ctx.warn(
+                "Voxels",
+                f"The tree has no {noun} within the heights. Choose another Voxel Rendering or "
+                "other heights.",
+            )
+        elif self.voxel_alpha == 0:
+            ctx.warn("Voxels", "Invisible: alpha is 0. Increase it to show the voxels.")
+        elif seen.depth < levels:
+            ctx.warn(
+                "Voxels",
+                f"{told}. More than {MOST_VOXELS} would be seen below depth {seen.depth}, so "
+                "smaller ones are merged. Limit the heights to see them.",
+            )
+        else:
+            ctx.ok("Voxels", f"{told}.")
+
+
+class OccupancyGrid(OctreeDisplay):
+    """Voxels of an octree: occupied and free space, such as that of octomap_server."""
+
+    rviz = "octomap_rviz_plugins/OccupancyGrid"
+
+
+class ColorOccupancyGrid(OctreeDisplay):
+    """Voxels of an octree with colours."""
+
+    rviz = "octomap_rviz_plugins/ColorOccupancyGrid"
+
+
+class OccupancyGridStamped(OctreeDisplay):
+    """Voxels of an octree whose nodes have stamps."""
+
+    rviz = "octomap_rviz_plugins/OccupancyGridStamped"
+
+
+def _read(state: _State, message: Any) -> None:
+    state.message, state.tree, state.seen, state.fault = message, None, None, ""
+    try:
+        state.tree = tree = read_octree(message)
+    except OctreeFault as fault:
+        state.fault = str(fault)
+        return
+    leaves = voxels_of(tree, LEVELS)
+    edges, heights = leaves.sizes / 2, leaves.centers[:, 2]
+    state.span = float((heights - edges).min()), float((heights + edges).max())

@@ -1,0 +1,126 @@
+"""Imu and Mag."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.data.rotations import multiply
+from webviz_displays.imu import Imu, Mag
+from webviz_displays.imu.imu import AccelerationSettings, AxesSettings, BoxSettings
+
+Benches = Callable[..., Any]
+NAN = math.nan
+ROOT = math.sqrt(0.5)
+LEFT = (0.0, 0.0, ROOT, ROOT)
+IMU, FIELD = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField"
+MEASURED = {
+    "orientation": dict(zip("xyzw", LEFT, strict=True)),
+    "linear_acceleration": {"x": 3.0, "z": 4.0},
+}
+ARROW = AccelerationSettings(enable_acceleration=True, acc_vector_scale=0.1)
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn a message of a sensor 10 m along x that is turned left."""
+
+    def make(display: Any, type_name: str, values: dict[str, Any]) -> Any:
+        made = bench(display)
+        made.transform("map", "sensor", (10.0, 0.0, 0.0), LEFT)
+        made.send(type_name, values, frame="sensor")
+        made.turn()
+        return made
+
+    return make
+
+
+def arrow(at: Any, key: str) -> tuple[np.ndarray, np.ndarray]:
+    """Tail and tip of an arrow along its x axis or as it lies, in the fixed frame."""
+    parts = [at.nodes()[f"{key}shafts"], at.nodes()[f"{key}heads"]]
+    shaft, head = (at.xyz(f"{key}{part}")[0] for part in ("shafts", "heads"))
+    way = (head - shaft) / np.linalg.norm(head - shaft)
+    return shaft - way * parts[0].scales[0, 2] / 2, head + way * parts[1].scales[0, 2] / 2
+
+
+def test_the_orientation_is_in_the_fixed_frame_or_that_of_the_sensor(shown: Callable) -> None:
+    at = shown(Imu(), IMU, MEASURED)
+    for is_fixed, expected in ((True, (ROOT, 0, 0, ROOT)), (False, (0, 0, 0, 1))):
+        at.set("fixed_frame_orientation", is_fixed)
+        turn = multiply(at.poses()["axes"].wxyz, at.nodes()["axes"].wxyzs[0])
+        np.testing.assert_allclose(turn, expected, atol=1e-6)
+        np.testing.assert_allclose(at.xyz("axes"), [(10, 0, 0)], atol=1e-6)
+    assert at.statuses()["Imu"] == ("OK", "Acceleration 3, 0, 4 m/s².")
+
+
+def test_the_box_has_its_size_and_turns(shown: Callable) -> None:
+    box = BoxSettings(enable_box=True, x_scale=2.0, z_scale=0.5, box_alpha=0.5)
+    at = shown(Imu(box_properties=box, axes_properties=AxesSettings(axes_scale=2.0)), IMU, MEASURED)
+    node = at.nodes()["box"]
+    assert (node.scales.tolist(), node.opacity) == ([[2.0, 1.0, 0.5]], 0.5)
+    np.testing.assert_allclose(node.wxyzs, [(ROOT, 0, 0, ROOT)], atol=1e-6)
+    assert (at.nodes()["axes"].length, at.nodes()["axes"].radius) == (2.0, 0.1)
+
+
+def test_the_acceleration_is_turned_by_the_orientation(shown: Callable) -> None:
+    """Its head of a scale follows the shaft of |a| scales."""
+    at = shown(Imu(acceleration_properties=ARROW), IMU, MEASURED)
+    tail, tip = arrow(at, "acceleration ")
+    np.testing.assert_allclose(tail, (10, 0, 0), atol=1e-6)
+    np.testing.assert_allclose(tip - tail, 0.6 * np.array((0, 0.6, 0.8)), atol=1e-6)
+    at.set("acceleration_properties.derotate_acceleration", False)
+    tail, tip = arrow(at, "acceleration ")
+    np.testing.assert_allclose(tip - tail, 0.6 * np.array((0.6, 0, 0.8)), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "level"),
+    [
+        ({"orientation": {"w": NAN}}, "Orientation", "ERROR"),
+        ({"orientation": {"w": 0.0}}, "Orientation", "WARN"),
+        ({"orientation": {"w": 2.0}}, "Orientation", "WARN"),
+        ({"orientation_covariance": [-1.0] + [0.0] * 8}, "Orientation", "WARN"),
+        ({"linear_acceleration": {"x": NAN}}, "Acceleration", "ERROR"),
+        ({"linear_acceleration": {"x": 1e300}}, "Acceleration", "ERROR"),
+        ({"linear_acceleration": {}}, "Acceleration", "WARN"),
+    ],
+)
+def test_what_is_no_measurement_is_told(
+    shown: Callable, change: dict[str, Any], key: str, level: str
+) -> None:
+    at = shown(Imu(acceleration_properties=ARROW), IMU, MEASURED | change)
+    assert at.statuses()[key][0] == level
+    assert (at.nodes() == {}) == (key == "Orientation" and level == "ERROR")
+
+
+def test_an_imu_with_nothing_enabled_says_so(shown: Callable) -> None:
+    at = shown(Imu(axes_properties=AxesSettings(enable_axes=False)), IMU, MEASURED)
+    assert at.nodes() == {}
+    assert at.statuses()["Imu"][0] == "WARN"
+
+
+def test_a_field_is_an_arrow_of_one_length(shown: Callable) -> None:
+    values = {"magnetic_field": {"x": 3e-200, "z": 4e-200}}
+    at = shown(Mag(scale=0.5), FIELD, values)
+    tail, tip = arrow(at, "")
+    np.testing.assert_allclose(tail, (10, 0, 0), atol=1e-6)
+    np.testing.assert_allclose(tip - tail, (0, 1.1, 0), atol=1e-6)
+    at.set("is_2d", False)
+    tail, tip = arrow(at, "")
+    np.testing.assert_allclose(tip - tail, 1.1 * np.array((0, 0.6, 0.8)), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("field", "alpha", "level"),
+    [({"x": NAN}, 1.0, "ERROR"), ({"z": 1.0}, 1.0, "WARN"), ({"x": 1.0}, 0.0, "WARN")],
+)
+def test_a_field_without_a_direction_says_so(
+    shown: Callable, field: dict[str, float], alpha: float, level: str
+) -> None:
+    at = shown(Mag(alpha=alpha), FIELD, {"magnetic_field": field})
+    assert at.nodes() == {}
+    assert at.statuses()["Field"][0] == level

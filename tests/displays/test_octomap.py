@@ -1,0 +1,218 @@
+"""The displays of octrees."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from itertools import product
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
+
+from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid
+from webviz_displays.octomap import octree as octree_module
+from webviz_displays.octomap import seen as seen_module
+from webviz_displays.octomap.octree import Octree, OctreeFault, read_octree
+from webviz_displays.octomap.voxels import is_exposed, voxels_of
+
+Benches = Callable[..., Any]
+Form = Callable[..., dict[str, Any]]
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+CUBE: list[Key] = list(product(range(-2, 2), range(-2, 2), range(-2, 2)))
+FORMS = pytest.mark.parametrize("form", [binary, full])
+
+
+@pytest.fixture
+def shown(bench: Benches) -> Callable[..., Any]:
+    """A bench that has drawn a tree in the frame odom, 10 m along x and turned left."""
+
+    def make(display: Any, values: dict[str, Any]) -> Any:
+        made = bench(display)
+        made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
+        made.send(OCTOMAP, values, frame="odom")
+        made.turn()
+        return made
+
+    return make
+
+
+def read(values: dict[str, Any]) -> Octree:
+    return read_octree(SimpleNamespace(**values | {"data": np.array(values["data"], np.int8)}))
+
+
+def some_keys(count: int) -> set[Key]:
+    """Keys in a small space, so that many are neighbours."""
+    rng = random.Random(0)
+    return {(rng.randint(-9, 9), rng.randint(-9, 9), rng.randint(-9, 9)) for _ in range(count)}
+
+
+@FORMS
+def test_voxels_are_read_where_they_were_written(form: Form) -> None:
+    keys = some_keys(3000) | {(-(1 << 15), 0, 5), ((1 << 15) - 1, -(1 << 15), 7)}
+    tree = read(form(octree(keys), 0.25))
+    voxels = voxels_of(tree, 16)
+    assert set(map(tuple, np.floor(voxels.centers / 0.25).astype(int).tolist())) == keys
+    assert set(voxels.sizes) == {0.25}
+    assert (tree.log_odds == 3.5).all()
+
+
+@FORMS
+def test_a_leaf_above_the_last_level_is_a_large_voxel(form: Form) -> None:
+    root = octree([(0, 0, 0)])
+    root.place((1, -1, 0), depth=14, log_odds=-2.0)
+    tree = read(form(root, 0.5))
+    voxels = voxels_of(tree, 16)
+    found = dict(zip(voxels.sizes.tolist(), map(tuple, voxels.centers.tolist()), strict=True))
+    assert found == {0.5: (0.25, 0.25, 0.25), 2.0: (3.0, -1.0, 1.0)}
+    assert sorted(tree.log_odds[voxels.nodes].tolist()) == [-2.0, 3.5]
+
+
+@FORMS
+def test_a_tree_that_is_cut_off_is_as_occupied_as_anything_below(form: Form) -> None:
+    root = octree([(0, 0, 0), (5, 5, 5)], -2.0)
+    root.place((1, 0, 0), log_odds=3.5)
+    tree = read(form(root, 1.0))
+    voxels = voxels_of(tree, 15)
+    log_odds = dict(zip(voxels.centers[:, 0].tolist(), tree.log_odds[voxels.nodes], strict=True))
+    assert log_odds == {1.0: 3.5, 5.0: -2.0}
+    assert set(voxels.sizes) == {2.0}
+
+
+def test_a_voxel_is_hidden_only_if_the_others_cover_all_its_sides() -> None:
+    """Compared with the neighbours one by one; a large voxel covers small ones and the reverse."""
+    keys = some_keys(5500)
+    root = octree(keys)
+    root.place((6, 0, 0), depth=14, log_odds=3.5)
+    large = set(product(range(24, 28), range(4), range(4)))
+    beside = {(23, y, z) for y, z in product(range(4), repeat=2)} | {(28, 1, 1)}
+    for key in beside:
+        root.place(key, log_odds=3.5)
+    tree = read(full(root, 1.0))
+    voxels = voxels_of(tree, 16)
+    exposed = is_exposed(tree, voxels)
+    solid = keys | large | beside
+    for center, size, is_seen in zip(voxels.centers, voxels.sizes, exposed, strict=True):
+        x, y, z = np.floor(center).astype(int).tolist()
+        around = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
+        if size == 1.0:
+            assert is_seen != all((x + a, y + b, z + c) in solid for a, b, c in around)
+        else:
+            assert is_seen
+
+
+@FORMS
+def test_occupied_voxels_are_boxes_in_the_frame_of_the_tree(shown: Callable, form: Form) -> None:
+    root = octree(CUBE)
+    root.place((0, 0, 5), log_odds=-2.0)
+    at = shown(OccupancyGrid(), form(root, 0.5))
+    node = at.nodes()["voxels"]
+    assert (node.shape, len(node.positions)) == ("box", 4**3 - 2**3)
+    np.testing.assert_allclose(node.scales, 0.5)
+    low, high = at.xyz("voxels").min(axis=0), at.xyz("voxels").max(axis=0)
+    np.testing.assert_allclose((low, high), ((9.25, -0.75, -0.75), (10.75, 0.75, 0.75)), atol=1e-6)
+    said = at.statuses()
+    assert said["Voxels"] == ("OK", "Showing 56 occupied voxels; they enclose 8 more.")
+    assert said["Octree"][1].startswith("OcTree of ")
+    at.set("voxel_rendering", "Free Voxels")
+    assert at.xyz("voxels").tolist() == pytest.approx(np.array([[9.75, 0.25, 2.75]]))
+    at.set("voxel_rendering", "All Voxels")
+    assert len(at.nodes()["voxels"].positions) == 57
+
+
+def test_depth_and_heights_limit_what_is_drawn(shown: Callable) -> None:
+    at = shown(OccupancyGrid(max_octree_depth=15), full(octree(CUBE), 1.0))
+    assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
+    at.set("max_octree_depth", 0)
+    assert len(at.nodes()["voxels"].positions) == 56
+    at.set("min_height", 0.0)
+    at.set("max_height", 1.0)
+    assert {z for _, _, z in at.xyz("voxels").tolist()} == {0.5}
+    assert len(at.nodes()["voxels"].positions) == 16
+    at.set("min_height", 0.75)
+    assert at.nodes() == {}
+    assert at.statuses()["Voxels"][0] == "WARN"
+
+
+def test_colors_are_by_height_probability_or_of_the_cells(shown: Callable) -> None:
+    root = Node()
+    root.place((0, 0, 0), log_odds=0.0, color=(1, 2, 3))
+    root.place((0, 0, 1), log_odds=100.0, color=(4, 5, 6))
+    at = shown(ColorOccupancyGrid(voxel_coloring="Cell Color"), full(root, 1.0, "ColorOcTree"))
+    assert at.nodes()["voxels"].colors.tolist() == [[1, 2, 3], [4, 5, 6]]
+    at.set("voxel_coloring", "Cell Probability")
+    assert at.nodes()["voxels"].colors.tolist() == [[128, 128, 0], [0, 255, 0]]
+    at.set("voxel_coloring", "Z-Axis")  # hues 216° and 72°, at a quarter and three quarters
+    assert at.nodes()["voxels"].colors.tolist() == [[0, 102, 255], [204, 255, 0]]
+    at.set("voxel_coloring", "Cell Color")
+    at.send(OCTOMAP, full(root, 1.0), frame="odom")
+    at.turn()
+    assert at.statuses()["Colors"][0] == "WARN"
+    assert at.nodes()["voxels"].colors.tolist() == [[0, 102, 255], [204, 255, 0]]
+
+
+def test_too_many_voxels_are_merged(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(seen_module, "MOST_VOXELS", 50)
+    at = shown(OccupancyGrid(), binary(octree(CUBE), 1.0))
+    assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
+    level, text = at.statuses()["Voxels"]
+    assert level == "WARN"
+    assert "below depth 15" in text
+
+
+def chain(length: int) -> dict[str, Any]:
+    """A full tree that is as deep as it is long."""
+    node = Node()
+    for _ in range(length):
+        node = Node(children={0: node})
+    return full(node)
+
+
+WHOLE = full(octree(CUBE))
+FAULTS = {
+    "nothing": ({**WHOLE, "data": []}, "ends inside"),
+    "half": ({**WHOLE, "data": WHOLE["data"][:-1]}, "ends inside"),
+    "binary half": ({**binary(octree(CUBE)), "data": [-1, -1] * 10}, "ends inside"),
+    "deep": (chain(17), "deeper than 16"),
+    "very deep": ({**WHOLE, "data": signed(b"\0\0\0\0\xff" * 1000 + b"\0" * 50_000)}, "deeper"),
+    "a kind": ({**WHOLE, "id": "CountingOcTree"}, "Trees of type 'CountingOcTree'"),
+    "no size": ({**WHOLE, "resolution": 0.0}, "The resolution is 0 m"),
+    "no number": ({**WHOLE, "resolution": math.nan}, "The resolution is nan m"),
+    "huge": ({**WHOLE, "resolution": 1e300}, "The resolution is 1e+300 m"),
+}
+
+
+@pytest.mark.parametrize("case", FAULTS)
+def test_a_tree_that_cannot_be_read_says_why(shown: Callable, case: str) -> None:
+    values, reason = FAULTS[case]
+    at = shown(OccupancyGrid(), values)
+    assert at.nodes() == {}
+    level, text = at.statuses()["Octree"]
+    assert level == "ERROR"
+    assert reason in text
+
+
+def test_a_tree_of_too_many_nodes_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(octree_module, "MOST_NODES", 50)
+    for form in (binary, full):
+        with pytest.raises(OctreeFault, match="The tree has more than"):
+            read(form(octree(CUBE)))
+
+
+def test_any_bytes_are_a_tree_or_a_fault() -> None:
+    rng = np.random.default_rng(0)
+    for kind, is_binary in product(("OcTree", "ColorOcTree"), (False, True)):
+        for _ in range(200):
+            data = rng.integers(-128, 128, 400).astype(np.int8)
+            data[rng.random(400) < rng.random()] = 0
+            values = {"id": kind, "binary": is_binary, "resolution": 0.1, "data": data}
+            try:
+                tree = read(values)
+            except OctreeFault:
+                continue
+            voxels = voxels_of(tree, 16)
+            assert np.isfinite(voxels.centers).all()
+            is_exposed(tree, voxels)

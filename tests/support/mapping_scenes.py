@@ -1,0 +1,87 @@
+"""Messages for the displays of maps and inertial sensors, as those of `plain_scenes`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from grid_maps import GRID_MAP, grid_map
+from octrees import OCTOMAP, Node, full
+from plain_scenes import in_moving_frame
+
+SECOND = 1_000_000_000
+
+
+def hill(kind: str) -> dict[str, Any]:
+    """Ground of four voxels with one on top, in free air."""
+    root = Node()
+    for x in range(-1, 1):
+        for y in range(-1, 1):
+            root.place((x, y, 0), log_odds=2.0 + x, color=(200, 50 * x + 60, 0))
+            root.place((x, y, 2), log_odds=-1.0, color=(0, 0, 255))
+    root.place((0, 0, 1), log_odds=0.5, color=(0, 255, 0))
+    return full(root, 0.5, kind)
+
+
+def terrain() -> dict[str, Any]:
+    """A slope with a layer of packed colours."""
+    layers = {"elevation": lambda x, y: x + 2 * y, "robot": lambda x, y: 1e-38 * (3 + x)}
+    return grid_map(layers, (4, 5))
+
+
+VOXEL_GRID = {
+    "data": [0x0003_000F, 0x0001_0003, 0, 1],
+    "resolutions": {"x": 0.5, "y": 0.5, "z": 0.25},
+    "size_x": 2,
+    "size_y": 2,
+    "size_z": 4,
+}
+"""Marked, unknown and free voxels."""
+COSTMAP = {
+    "metadata": {
+        "size_x": 3,
+        "size_y": 2,
+        "resolution": 0.5,
+        "origin": {"orientation": {"w": 1.0}},
+    },
+    "data": [0, 60, 130, 253, 254, 255],
+}
+IMU = {"orientation": {"z": 0.6, "w": 0.8}, "linear_acceleration": {"x": 1.0, "z": 9.0}}
+FIELD = {"magnetic_field": {"x": 2e-5, "y": 1e-5, "z": -4e-5}}
+
+
+def costmaps(bench: Any) -> None:
+    """A costmap, and an update, in a frame that moved on."""
+    for age, x in ((1, 1.0), (0, 2.0)):
+        stamp_ns = bench.now_ns - age * SECOND
+        bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=stamp_ns)
+    stamp_ns, topic = bench.now_ns - SECOND, "/local_costmap/costmap_raw"
+    bench.send("nav2_msgs/msg/Costmap", COSTMAP, frame="room", stamp_ns=stamp_ns, topic=topic)
+    bench.turn()
+    update = {"x": 1, "size_x": 1, "size_y": 1, "data": [77]}
+    type_name, topic = "nav2_msgs/msg/CostmapUpdate", f"{topic}_updates"
+    bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
+    bench.turn()
+
+
+MAPPING_SCENES: dict[str, Callable[[Any], None]] = {
+    "OccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
+    "ColorOccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
+    "OccupancyGridStamped": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
+    "GridMap": in_moving_frame(GRID_MAP, terrain(), terrain()),
+    "VoxelGrid": in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID),
+    "Costmap": costmaps,
+    "Imu": in_moving_frame("sensor_msgs/msg/Imu", IMU),
+    "Mag": in_moving_frame("sensor_msgs/msg/MagneticField", FIELD),
+}
+
+MAPPING_MESSAGES: dict[str, dict[str, Any]] = {
+    OCTOMAP: hill("OcTree"),
+    GRID_MAP: terrain(),
+    "nav2_msgs/msg/VoxelGrid": VOXEL_GRID,
+    "nav2_msgs/msg/Costmap": COSTMAP,
+    "nav2_msgs/msg/CostmapUpdate": {"x": 1, "size_x": 1, "size_y": 1, "data": [77]},
+    "sensor_msgs/msg/Imu": IMU,
+    "sensor_msgs/msg/MagneticField": FIELD,
+}
+"""A message of each type that draws something."""
