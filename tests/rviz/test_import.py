@@ -453,3 +453,67 @@ def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
         "robot_description": "/arm/robot_description",
         "tf_prefix": "arm",
     }
+
+
+MAPPING = """\
+- Class: octomap_rviz_plugins/OccupancyGrid
+  Enabled: true
+  Name: Voxels
+  Max. Height Display: inf
+  Max. Octree Depth: 14
+  Min. Height Display: -.inf
+  Topic: {Value: /octomap_full, Depth: 5}
+  Value: true
+  Voxel Alpha: 0.5
+  Voxel Coloring: Cell Probability
+  Voxel Rendering: All Voxels
+- Class: grid_map_rviz_plugin/GridMap
+  Alpha: 1
+  Autocompute Intensity Bounds: true
+  Color: 200; 200; 200
+  Color Layer: variance
+  Color Transformer: GridMapLayer
+  Enabled: true
+  Height Layer: elevation
+  Height Transformer: ""
+  History Length: 1
+  Invert Rainbow: true
+  Name: Terrain
+  Show Grid Lines: false
+  Topic: {Value: /map_3d}
+  Use Rainbow: true
+- Class: rviz_imu_plugin/Imu
+  Acceleration properties: {Acc. vector scale: 0.5, Enable acceleration: true}
+  Axes properties: {Axes scale: 1, Enable axes: false}
+  Box properties: {Box alpha: 1, Box color: 255; 0; 0, Enable box: false, x_scale: 2}
+  Enabled: true
+  Name: Sensor
+  fixed_frame_orientation: false
+- Class: rviz_imu_plugin/Mag
+  2D-visual: false
+  Enabled: true
+  Name: Compass
+  Scale: 2
+"""
+
+
+def test_the_displays_of_maps_have_rvizs_names_and_report_nothing() -> None:
+    """Infinite heights and transformers that the plug-in itself does not offer are defaults."""
+    config, report = opened(MAPPING)
+    assert said(report) == ""
+    values = {item.name: to_values(item) for item in config.displays if isinstance(item, Display)}
+    for each in values.values():
+        each.pop("name")
+    voxels = {"voxel_alpha": 0.5, "max_octree_depth": 14, "voxel_rendering": "All Voxels"}
+    assert values["Voxels"] == voxels | {"voxel_coloring": "Cell Probability"}
+    terrain = {"invert_rainbow": True, "show_grid_lines": False, "color_layer": "variance"}
+    assert values["Terrain"] == terrain | {"topic": "/map_3d"}
+    acceleration = {"enable_acceleration": True, "acc_vector_scale": 0.5}
+    assert values["Sensor"] == {
+        "topic": "",
+        "fixed_frame_orientation": False,
+        "acceleration_properties": acceleration,
+        "axes_properties": {"enable_axes": False},
+        "box_properties": {"x_scale": 2.0},
+    }
+    assert values["Compass"] == {"topic": "", "is_2d": False, "scale": 2.0}

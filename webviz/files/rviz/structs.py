@@ -19,6 +19,9 @@ from webviz.files.rviz.values import Unfit
 WITH_CHILDREN = ("Frames",)
 """Mappings whose switches RViz writes as {Value: true}, because they have children."""
 
+UNLISTED = {"GridMapLayer"}
+"""Values that plug-ins of RViz write without offering them as a choice; they mean the default."""
+
 
 @dataclass
 class Reading:
@@ -64,10 +67,10 @@ class Reading:
         if origin is list:
             self.used.add(path)
             return _converted(raw, place.kind)
-        if origin is Literal and values.own_value(raw) == "":
+        if origin is Literal and values.own_value(raw) in ("", *UNLISTED):
             self.used |= {path, (*path, "Value")}
             return values.AUTO if values.AUTO in typing.get_args(place.kind) else place.default
-        value = values.read(raw, place.kind)
+        value = values.read(_limited(raw, place), place.kind)
         is_leaf = not isinstance(raw, Mapping) or origin is tuple
         self.used |= set(leaves(raw, path)) if is_leaf else {(*path, "Value")}
         return self._bounded(value, place, path)
@@ -141,6 +144,14 @@ def _at(tree: Any, path: Path) -> Any:
     for key in path:
         tree = _opened(tree).get(key)
     return tree
+
+
+def _limited(raw: Any, place: RvizProperty) -> Any:
+    """The bound of a property in place of an infinity, which means no limit in RViz."""
+    if place.kind is float and place.low is not None and place.high is not None:
+        infinities = {"inf": place.high, "-inf": place.low}
+        return infinities.get(values.text(values.own_value(raw)).replace(".inf", "inf"), raw)
+    return raw
 
 
 def _opened(raw: Any) -> Tree:

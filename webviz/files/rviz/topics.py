@@ -23,7 +23,7 @@ ROS_1_QUEUE_SIZE = 10
 RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
-OLD_KEYS = ("Image Topic", "Marker Topic")
+OLD_KEYS = ("Image Topic", "Marker Topic", "Octomap Topic")
 """ROS 1's keys for topics."""
 
 
