@@ -76,6 +76,7 @@ setup(
             "RobotModel = webviz_displays.robot_model:RobotModel",
             "TF = webviz_displays.tf:TF",
             "Temperature = webviz_displays.sensors:Temperature",
+            "Text = webviz_displays.text:Text",
             "Twist = webviz_displays.vectors:Twist",
             "TwistStamped = webviz_displays.vectors:TwistStamped",
             "VoxelGrid = webviz_displays.voxel_grid:VoxelGrid",

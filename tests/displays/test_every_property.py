@@ -216,6 +216,15 @@ def interactive_markers(bench: Any) -> None:
         bench.turn(0.1)
 
 
+def texts(bench: Any) -> None:
+    """Messages with a long array and a number of many digits, some soon after the one before."""
+    for number, seconds in enumerate((0.0, 0.07, 0.13, 0.06)):
+        bench.turn(seconds)
+        values = {"voltage": number + 0.3456789, "cell_voltage": [3.0] * 30}
+        bench.send("sensor_msgs/msg/BatteryState", values, frame="robot", topic="/any")
+        bench.turn()
+
+
 SCENES: dict[str, Callable[[Any], None]] = {
     "Axes": robot_frame,
     "CameraInfo": camera_infos,
@@ -232,6 +241,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "PointCloud2": clouds,
     "RobotModel": robots,
     "TF": frames,
+    "Text": texts,
     **PLAIN_SCENES,
     **MAPPING_SCENES,
 }
@@ -247,6 +257,7 @@ OF_THE_FUTURE = {
     ("Range", "buffer_length"),
     ("RobotModel", "update_interval"),
     ("TF", "update_interval"),
+    ("Text", "update_interval"),
 }
 
 # Entries of properties that hold settings by name: each differs from none in one setting.
@@ -286,6 +297,10 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
         (name, path): {path: value}
         for name in ("OccupancyGrid", "ColorOccupancyGrid", "OccupancyGridStamped")
         for path, value in {"max_height": 0.3, "min_height": 0.3}.items()
+    },
+    **{
+        ("Text", name): {"topic": Topic("/any")}
+        for name in ("enabled", "topic", "fields", "digits", "array_length", "update_interval")
     },
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},

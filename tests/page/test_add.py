@@ -62,13 +62,15 @@ def test_each_type_has_a_line_of_help(dialog: playwright.Locator) -> None:
     dialog.press("Escape")
 
 
-def test_topics_are_shown_with_rate_and_why_not(tab: Tab, dialog: playwright.Locator) -> None:
+def test_topics_are_shown_with_rate_and_as_text_if_by_nothing_else(
+    tab: Tab, dialog: playwright.Locator
+) -> None:
     dialog.get_by_role("tab", name="By topic").click()
     front = dialog.get_by_role("option").filter(has_text="/front")
     playwright.expect(front).to_contain_text("40 Hz · 1 publisher")
     imu = dialog.get_by_role("option").filter(has_text="/imu")
-    playwright.expect(imu).to_contain_text(f"No display for {IMU}.")
-    playwright.expect(imu).to_be_disabled()
+    playwright.expect(imu).to_contain_text(f"Text · {IMU}")
+    playwright.expect(imu).to_be_enabled()
     dialog.press("Escape")
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
-from webviz.api.ports import Namespace
+from webviz.api.ports import ANY, Namespace
 from webviz.engine.by_topic import Pick, no_display, picks
 from webviz.engine.commands import AddDisplay
 
@@ -28,6 +28,10 @@ class Handles(Display):
     offered_for = Namespace("of", "a/msg/Update", "/update")
 
 
+class Text(Display):
+    topic: Annotated[Topic, Input(ANY)] = Topic()
+
+
 DISPLAYS = {"Outline": Outline, "Map": Map}
 
 
@@ -42,6 +46,15 @@ def test_every_display_that_fits_is_offered_and_topics_nobody_shows_are_not() ->
 def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None:
     assert [p.message for p in picks({"/map": ("std_msgs/msg/String", GRID)}, {"Map": Map})] == [
         GRID
+    ]
+
+
+def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
+    topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
+    found = picks(topics, {**DISPLAYS, "Text": Text})
+    assert [(pick.topic, pick.display) for pick in found if pick.display == "Text"] == [
+        ("/chatter", "Text"),
+        ("/map_updates", "Text"),
     ]
 
 

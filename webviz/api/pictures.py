@@ -7,11 +7,14 @@ computed beside the frame loop, and only for pages that show them, at the size a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz.data.images import RawImage, Tone
+from webviz.data.messages.paths import FieldPath
+from webviz.data.messages.tree import Tree, to_tree
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,4 +99,49 @@ class Video:
     packets: tuple[Packet, ...]
 
 
-Picture = Pixels | Encoded | Video
+@dataclass(frozen=True, eq=False)
+class Readout:
+    """The newest message of a topic as text, which is made beside the frame loop.
+
+    Args:
+        topic, type: of the message.
+        message: as `webviz.data.messages.decode` returns it.
+        paths: of the fields that are shown, those that exist; () for all.
+        received_s: ROS time at which it came.
+        digits: significant digits of numbers.
+        max_items: elements of an array that are shown.
+    """
+
+    topic: str
+    type: str
+    message: Any
+    paths: tuple[FieldPath, ...] = ()
+    received_s: float = 0.0
+    digits: int = 6
+    max_items: int = 20
+
+    def __eq__(self, other: object) -> bool:
+        """Of the same message, which is not compared."""
+        if not isinstance(other, Readout):
+            return NotImplemented
+        return self.message is other.message and self._how == other._how
+
+    __hash__ = None  # pyright: ignore[reportAssignmentType]
+
+    @property
+    def _how(self) -> tuple[object, ...]:
+        texts = [path.text for path in self.paths]
+        return self.topic, self.type, texts, self.received_s, self.digits, self.max_items
+
+    def tree(self) -> Tree:
+        """The text; see `webviz.data.messages.to_tree`."""
+
+        def text(value: Any) -> Tree:
+            return to_tree(value, digits=self.digits, max_items=self.max_items, is_readable=True)
+
+        if not self.paths:
+            return text(self.message)
+        return {"fields": {path.text: text(path(self.message)) for path in self.paths}}
+
+
+Picture = Pixels | Encoded | Video | Readout

@@ -7,14 +7,17 @@ from dataclasses import dataclass
 TRANSPORTS = ("compressed", "compressedDepth", "theora", "ffmpeg", "foxglove", "zstd")
 """Ends of the topics of image_transport."""
 
+ANY = "*"
+"""The message type of an input that reads messages of every type."""
+
 
 @dataclass(frozen=True)
 class Input:
     """Marks a `Topic` property as an input of the display or tool.
 
     Args:
-        type: the message type, such as "sensor_msgs/msg/LaserScan". Messages with a header wait
-            for the transform at their stamp.
+        type: the message type, such as "sensor_msgs/msg/LaserScan", or `ANY`. Messages with a
+            header wait for the transform at their stamp.
         latched: subscribe transient local, whatever the known publishers offer.
         suffix: without a topic name, the input uses the first input's topic with this suffix.
         beside: without a topic name, the input uses the topic of this name beside the first input's

@@ -5,9 +5,10 @@ from __future__ import annotations
 import io
 from typing import NamedTuple
 
+import msgspec
 from PIL import Image
 
-from webviz.api.pictures import Encoded, Picture, Pixels
+from webviz.api.pictures import Encoded, Picture, Pixels, Readout
 from webviz.data.images import ImageError, jpeg, render
 
 LONGEST_EDGE = 16_384
@@ -30,8 +31,10 @@ def factor_for(picture: Picture, width: int) -> int:
     return max(1, least, size[0] // max(width, 1))
 
 
-def file_of(picture: Pixels | Encoded, factor: int) -> File:
+def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
     """The file of a picture; what is encoded already is not touched."""
+    if isinstance(picture, Readout):
+        return File("application/json", msgspec.json.encode(picture.tree()))
     if isinstance(picture, Pixels):
         return File("image/jpeg", jpeg(picture.image, picture.tone, factor))
     return File(picture.mime, picture.data.tobytes())

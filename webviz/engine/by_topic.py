@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from webviz.api.display import Display, inputs_of
-from webviz.api.ports import Namespace
+from webviz.api.ports import ANY, Namespace
 from webviz.engine.commands import AddDisplay
 
 
@@ -41,8 +41,9 @@ class Pick:
 def picks(
     topics: Mapping[str, tuple[str, ...]], displays: Mapping[str, type[Display]]
 ) -> list[Pick]:
-    """Every live topic with each display that fits its type, sorted; topics without one are left
-    out.
+    """Every live topic with each display that fits its type, sorted.
+
+    Displays of any type are offered for the topics that no other one shows.
 
     Args:
         topics: message types by topic.
@@ -58,22 +59,18 @@ def picks(
             if not spec.follows:
                 for type_ in spec.types:
                     takers.setdefault(type_, []).append((name, input))
-    live = [(topic, message) for topic, messages in topics.items() for message in messages]
-    return sorted(
-        [
-            *(
-                Pick(topic, name, input, message)
-                for topic, message in live
-                for name, input in takers.get(message, ())
-            ),
-            *(
-                Pick(topic, name, known.input, message, topic.removesuffix(known.ending))
-                for topic, message in live
-                for name, known in endings.get(message, ())
-                if topic.endswith(known.ending) and topic != known.ending
-            ),
+
+    def fitting(topic: str, message: str) -> list[Pick]:
+        of_type = [Pick(topic, *taker, message) for taker in takers.get(message, ())]
+        of_name = [
+            Pick(topic, name, known.input, message, topic.removesuffix(known.ending))
+            for name, known in endings.get(message, ())
+            if topic.endswith(known.ending) and topic != known.ending
         ]
-    )
+        return of_type + of_name or [Pick(topic, *taker, message) for taker in takers.get(ANY, ())]
+
+    live = ((topic, message) for topic, messages in topics.items() for message in messages)
+    return sorted(pick for topic, message in live for pick in fitting(topic, message))
 
 
 def no_display(messages: Sequence[str]) -> str:

@@ -20,7 +20,7 @@ from ruamel.yaml import YAML
 
 from webviz.api.declared import Color, Declared, P, Topic
 from webviz.api.display import Display, inputs_of
-from webviz.api.ports import Input
+from webviz.api.ports import ANY, Input
 from webviz.api.properties import FIRST, Property, properties_of, value_at
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
@@ -180,8 +180,15 @@ def inputs_table(cls: type[Display]) -> list[str]:
     for name, declared in inputs_of(cls).items():
         topic = value_at(cls(), name).name or _default_topic(declared)
         qos = "transient local, always" if declared.latched else "as its publishers offer"
-        rows.append((f"`{name}`", ", ".join(f"`{type_}`" for type_ in declared.types), topic, qos))
+        rows.append((f"`{name}`", _types(declared), topic, qos))
     return [*table(("input", "message", "default topic", "QoS"), rows), ""] if rows else []
+
+
+def _types(declared: Input) -> str:
+    """The message types of an input."""
+    if declared.type == ANY:
+        return "any"
+    return ", ".join(f"`{type_}`" for type_ in declared.types)
 
 
 def _default_topic(declared: Input) -> str:

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Packet, Pixels, Video
+from webviz.api.pictures import Packet, Pixels, Readout, Video
 from webviz.api.stills import File
 from webviz.data.images import COLOR_MAPS
 
@@ -42,6 +42,9 @@ def frame(
         return _joined(head, (packet.data for packet in packets)), packets[-1].number
     assert file is not None
     head["mime"] = file.mime
+    if isinstance(picture, Readout):
+        head |= {"topic": picture.topic, "type": picture.type, "received": picture.received_s}
+        return _joined(head, [file.data]), sent_packet
     head["size"] = picture.size
     if isinstance(picture, Pixels):
         head |= _legend(picture)

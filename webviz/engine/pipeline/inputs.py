@@ -39,7 +39,7 @@ class Inputs:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic."""
-        return {i.name: i.subscription() for i in self._active().values() if i.name}
+        return {i.name: i.subscription() for i in self._active().values() if i.name and i.type}
 
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""

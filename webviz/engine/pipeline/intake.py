@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
-from webviz.api.ports import Input
+from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, peek_header
 from webviz.data.transforms import MessageFilter
@@ -54,8 +54,8 @@ class Intake:
         self.spec = spec
         self.topic = topic
         self.name = name
-        self.type = spec.type
-        """Of the messages: the one of `spec.types` that is published."""
+        self.type = "" if spec.type == ANY else spec.type
+        """Of the messages: the one of `spec.types` that is published; "" of `ANY` until one is."""
         self._reception = Reception(path, spec.types, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
@@ -135,11 +135,14 @@ class Intake:
     def _follow(self, offer: Offer | None) -> None:
         """Read the topic as what is published there, if the display can."""
         published = {publisher.type for publisher in offer.publishers} if offer else set()
-        if len(self.spec.types) > 1 and published and self.type not in published:
-            fitting = (type for type in self.spec.types if type in published)
-            if (type := next(fitting, self.type)) != self.type:
-                self.type = self._reception.type = type
-                self.reset()
+        readable = (self.type, *self.spec.types)
+        if offer and self.spec.type == ANY:
+            # As another display reads it, since a topic has only one type.
+            readable = (offer.type, self.type, *sorted(published))
+        type_ = next((each for each in readable if each in published), self.type)
+        if type_ != self.type:
+            self.type = self._reception.type = type_
+            self.reset()
 
     @property
     def duration_ns(self) -> int:

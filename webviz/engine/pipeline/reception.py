@@ -7,6 +7,7 @@ import functools
 from collections import deque
 from collections.abc import Mapping, Sequence
 
+from webviz.api.ports import ANY
 from webviz.api.status import Level, Remedy, Status
 from webviz.engine.sources import Offer, Publisher, Raw
 
@@ -17,6 +18,7 @@ class Reception:
     Args:
         path: of the input among the properties of the display.
         types: of the messages that the display reads; the first until another one is published.
+            `ANY` is none until one is.
         name: the full name of the topic, "" if it has none.
         problem: why it has none.
     """
@@ -25,7 +27,7 @@ class Reception:
         self.count = 0
         self.last: Raw | None = None
         self._path = path
-        self.type = types[0]
+        self.type = types[0] if types[0] != ANY else ""
         self._types = types
         self._name = name
         self._problem = problem

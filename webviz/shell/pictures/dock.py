@@ -8,9 +8,10 @@ import numpy as np
 from PIL import Image
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Video
+from webviz.api.pictures import Readout, Video
 from webviz.api.stills import opened
 from webviz.shell.pictures.browser import Pixels
+from webviz.shell.pictures.readouts import written
 
 SHARE = 0.3
 """Of the width of a picture."""
@@ -38,6 +39,9 @@ def with_panes(scene: Pixels, panes: Sequence[Pane]) -> Pixels:
         top, bottom = (round(height * place / len(stills)) for place in (index, index + 1))
         room = max(1, dock - GAP), max(1, bottom - top - (GAP if index + 1 < len(stills) else 0))
         sheet.paste((0, 0, 0), (GAP, top, GAP + room[0], top + room[1]))
+        if isinstance(picture, Readout):
+            sheet.paste(written(picture, room), (GAP, top))
+            continue
         shown = opened(picture)
         scale = min(room[0] / shown.width, room[1] / shown.height)
         size = max(1, round(shown.width * scale)), max(1, round(shown.height * scale))

@@ -7,10 +7,11 @@ from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.display import inputs
+from webviz.api.ports import ANY
 from webviz.api.status import Status
 from webviz.edges.page.content.displays import level_name
 from webviz.edges.page.content.forms import brief, form, sendable, values_of
-from webviz.engine.sources import Offer
+from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State
 
 IN_THE_TREE = ("name", "enabled")
@@ -48,22 +49,26 @@ def topics_of(state: State, types: str) -> Mapping[str, Any]:
 
     Args:
         state: of the viewer.
-        types: separated by commas.
+        types: separated by commas, or `ANY`.
     """
     wanted = types.split(",")
+
+    def fits(publisher: Publisher) -> bool:
+        return publisher.type in wanted or types == ANY
+
     shown: dict[str, list[str]] = {}
     for row in state.rows:
         for _, _, topic in inputs(row.display) if row.display else ():
             shown.setdefault(topic.name, []).append(str(sendable(row.name)))
     return {
         str(sendable(name)): {
-            "publishers": sum(each.type in wanted for each in offer.publishers),
+            "publishers": sum(map(fits, offer.publishers)),
             "rate": _rate(name, state),
             "shown": shown.get(name, []),
             "problem": sendable(offer.problem),
         }
         for name, offer in state.offers.items()
-        if any(each.type in wanted for each in offer.publishers)
+        if any(map(fits, offer.publishers))
     }
 
 

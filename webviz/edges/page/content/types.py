@@ -10,6 +10,7 @@ from importlib import resources
 from typing import Any
 
 from webviz.api.display import Display, inputs_of
+from webviz.api.ports import ANY
 from webviz.api.registry import display_types
 from webviz.engine.state import State
 
@@ -26,7 +27,7 @@ def _about(name: str, cls: type[Display]) -> Mapping[str, Any]:
     shown = [type_ for spec in inputs_of(cls).values() if not spec.follows for type_ in spec.types]
     return {
         "help": " ".join(text.split("\n\n")[0].split()),
-        "topics": list(dict.fromkeys(shown)),
+        "topics": ["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(shown)],
         "picture": _picture(name, cls.__module__.partition(".")[0]),
     }
 

@@ -7,9 +7,11 @@ import { plain } from "../plain.js";
 import { recall, remember } from "../remember.js";
 import * as frames from "./frames.js";
 import { makePicture } from "./picture.js";
+import { makeReadout } from "./readout.js";
 
 const READ_MS = 100;
 const RATE_MS = 1000;
+const TEXT = "application/json";
 
 const readers = new Map();
 channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
@@ -41,6 +43,7 @@ export function makePane(id, changed) {
   let times = [];
   let scale = null;
   let size = "";
+  let readout = null;
 
   function toggle() {
     isFolded = !isFolded;
@@ -74,7 +77,7 @@ export function makePane(id, changed) {
     element.classList.toggle("wv-pane-folded", isFolded);
     set(fold, { "aria-expanded": String(!isFolded), "aria-label": `${isFolded ? "Expand" : "Collapse"} ${title}` });
     set(full, { "aria-pressed": String(isFull), "aria-label": `Full size of ${title}`, "data-tip": isFull ? "Leave full size (Esc)" : "Full size" });
-    set(element, { "aria-label": `Image ${title}` });
+    set(element, { "aria-label": `${readout ? "Text" : "Image"} ${title}` });
     set(canvas, { "aria-label": title });
     setText(name, title);
     setText(problem, failed || said);
@@ -82,6 +85,7 @@ export function makePane(id, changed) {
   }
 
   function tellRate() {
+    if (readout) return setText(facts, readout.facts());
     const now = performance.now();
     times = times.filter((time) => time > now - RATE_MS);
     const [width, height] = picture.size();
@@ -140,6 +144,7 @@ export function makePane(id, changed) {
 
   async function take(header, data) {
     try {
+      if (header.mime === TEXT) return takeText(header, data);
       await picture.take(header, data);
       last = header;
       element.dataset.stamp = header.stamp;
@@ -150,7 +155,18 @@ export function makePane(id, changed) {
     }
   }
 
-  frames.open(id, { width: () => (isFolded || !canvas.clientWidth ? 0 : picture.width()), take });
+  function takeText(header, data) {
+    if (!readout) {
+      readout = makeReadout(body, id);
+      element.classList.add("wv-pane-text");
+      mark();
+    }
+    readout.take(header, data);
+    element.dataset.stamp = header.stamp;
+    tellRate();
+  }
+
+  frames.open(id, { width: () => (isFolded ? 0 : readout ? body.clientWidth : canvas.clientWidth && picture.width()), take });
   return {
     element,
     isFolded: () => isFolded,
@@ -166,6 +182,7 @@ export function makePane(id, changed) {
       clearInterval(ticking);
       readers.delete(id);
       picture.close();
+      readout?.close();
       frames.close(id);
     },
   };

@@ -9,6 +9,7 @@ import { optionList, search } from "./option_list.js";
 import { typeIcon } from "./type_icons.js";
 
 const MAX_SHOWN = 200;
+const ANY = "any type";
 const WAYS = { type: "By type", topic: "By topic" };
 
 /** Opens the dialog; what is chosen goes to the end of the list, or of a group with this id. */
@@ -132,7 +133,9 @@ function rows({ way, types, topics, traffic, shown }, checked) {
   }
   const isShown = (topic) => shown?.has(topic) ?? false;
   const all = topics ?? [];
-  const rank = ([topic, { show }]) => (show.length ? Number(isShown(topic)) : 2);
+  const plain = new Set((types ?? []).filter(([, { topics }]) => topics.includes(ANY)).map(([name]) => name));
+  const isPlain = (show) => show.every(([display]) => plain.has(display));
+  const rank = ([topic, { show }]) => (show.length ? Number(isShown(topic)) + 2 * isPlain(show) : 4);
   const sorted = all.toSorted((a, b) => rank(a) - rank(b));
   return sorted.flatMap(([topic, offer]) => {
     const about = { title: topic, note: noteOf(offer, traffic?.get(topic), isShown(topic)) };
@@ -153,6 +156,7 @@ function rows({ way, types, topics, traffic, shown }, checked) {
       id: `${topic} ${display}`,
       icon: typeIcon(display),
       line: `${display} · ${offer.types.join(", ")}`,
+      group: isPlain(offer.show) ? "Shown as text only" : undefined,
       checked: checked.has(`${topic} ${display}`),
       pick: { type: display, values },
     }));

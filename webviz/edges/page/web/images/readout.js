@@ -1,0 +1,41 @@
+// The text of a pane: the newest message of a topic, and how old it is.
+
+import { rosNow, watchTime } from "../clock.js";
+import { el, setText } from "../dom.js";
+import { messageRows } from "../panels/message_rows.js";
+import { spanText } from "../panels/units.js";
+import { watch } from "../stores.js";
+
+const AGE_MS = 500;
+const OLD_S = 1; // until then, an age says nothing that the rate does not say
+
+/** Fills `place` with the readout of a display: `{take(header, data), facts(), close()}`. */
+export function makeReadout(place, id) {
+  const about = el("div", { class: "wv-readout-about wv-quiet wv-ellipsis" });
+  const rows = messageRows({ label: "Message" });
+  place.append(el("div", { class: "wv-readout" }, about, rows.element));
+  let last = null;
+  let rate = "";
+  let age = "";
+  const ends = [
+    watch(`rate:${id}`, (values) => {
+      rate = values.has("hz") ? `${values.get("hz")} Hz` : "";
+    }),
+    watchTime(AGE_MS, (clock) => {
+      const old = last && clock.has("pace") ? rosNow(clock) - last.received : 0;
+      age = old > OLD_S ? `${spanText(old)} ago` : "";
+    }),
+  ];
+  return {
+    take(header, data) {
+      last = header;
+      setText(about, [header.topic, header.type].filter(Boolean).join(" · "));
+      rows.show(JSON.parse(new TextDecoder().decode(data)));
+    },
+    facts: () => [rate, age].filter(Boolean).join(" · "),
+    close() {
+      for (const end of ends) end();
+      rows.close();
+    },
+  };
+}
