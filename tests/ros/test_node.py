@@ -21,7 +21,7 @@ from std_msgs.msg import Int32, String
 from webviz.api.declared import Topic
 from webviz.data.messages import decode
 from webviz.edges.ros.node import RosSource
-from webviz.engine.sources import Gate, Rights, Subscription
+from webviz.engine.sources import Gate, Outlet, Rights, Subscription
 
 STRING = "std_msgs/msg/String"
 
@@ -208,6 +208,26 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Callable[..., R
     assert source.clock_messages() == 1, "a message that changes nothing is none"
     clock.clock.sec = 43
     until(lambda: publisher.publish(clock) or source.clock_messages() == 2, "another message")
+
+
+def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
+    talker: Node, listen: Callable[..., RosSource]
+) -> None:
+    names = [f"/words{number}" for number in range(20)]
+    for name in names:
+        talker.create_publisher(String, name, qos("best_effort", "volatile"))
+    source = listen()
+    own = set(source._node.waitables)
+    all_names = {name: Subscription(STRING, Topic(name, reliability="reliable")) for name in names}
+    for _ in range(8):
+        for wanted in (all_names, {}):
+            source.want(wanted)
+            # Its thread would have ended, which fails the test.
+            until(lambda wanted=wanted: source._held.keys() == wanted.keys(), "subscribed", 20)
+    # Publishers, too, are destroyed while the node spins.
+    advertised = source.graph.advertise({Outlet("/out", STRING, "reliable", "volatile", 1)})
+    advertised.result(20)
+    assert set(source._node.waitables) == own, "events would wait in the executor"
 
 
 def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) -> None:

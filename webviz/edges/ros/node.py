@@ -212,6 +212,7 @@ class RosSource:
                     functools.partial(self._arrive, topic),
                     qos.profile(held.wish, reliability, each),
                     raw=True,
+                    event_callbacks=qos.NO_EVENTS_OF_SUBSCRIPTIONS,
                 )
                 for each in durabilities
             ]

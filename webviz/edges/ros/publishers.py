@@ -9,6 +9,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
+from webviz.edges.ros.qos import NO_EVENTS_OF_PUBLISHERS
 from webviz.edges.ros.types import MessageTypeError, message_class
 from webviz.engine.sources.graph import Outlet
 
@@ -52,7 +53,10 @@ class Publishers:
                 durability=DurabilityPolicy[outlet.durability.upper()],
             )
             self._publishers[outlet] = self._node.create_publisher(
-                message_class(outlet.type), outlet.topic, profile
+                message_class(outlet.type),
+                outlet.topic,
+                profile,
+                event_callbacks=NO_EVENTS_OF_PUBLISHERS,
             )
         return self._publishers[outlet]
 
