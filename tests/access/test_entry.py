@@ -352,6 +352,10 @@ def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:
     guest = house.enter(Role.WATCHER)
     name = "x" * roles.LIMITS[Role.WATCHER].max_characters
     guest.send("Do", number=1, command="FocusFrame", arguments={"frame": name})
+    refused = guest.receive("Done")
+    assert (refused["number"], refused["level"]) == (1, "error")
+    limit = roles.LIMITS[Role.WATCHER].max_characters
+    assert refused["text"].endswith(f" characters in one message; the limit is {limit}.")
     guest.send("Do", number=2, command="Export", arguments={})
     assert guest.receive("Done")["number"] == 2
 

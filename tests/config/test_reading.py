@@ -238,6 +238,12 @@ def test_what_is_too_large_is_refused_before_all_of_it_is_read(text: str) -> Non
         parse(text + "\n}", "x.yaml")
 
 
+@pytest.mark.parametrize("number", ["0x" + "f" * 4000, "1" * 4000, "!!int '" + "1" * 4000 + "'"])
+def test_numbers_that_cannot_be_written_are_refused(number: str) -> None:
+    with pytest.raises(ConfigError, match=r"x\.yaml:2: a number has more than 1000 digits\.$"):
+        parse(f"version: 1\ndisplays: [{{type: Nothing, x: {number}}}]\n", "x.yaml")
+
+
 def test_words_that_aliases_repeat_count_each_time() -> None:
     words = ", ".join(["*a"] * 500)
     with pytest.raises(ConfigError, match="is larger than 4 MB, including aliases"):

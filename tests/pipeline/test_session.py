@@ -181,6 +181,8 @@ def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
     rviz = "Visualization Manager: {Displays: [{Class: rviz_default_plugins/Axes, Name: R}]}"
     assert names(do(b, Load(rviz, "x.rviz"))) == ["R"]
     assert not list(folder.iterdir())
+    large = "version: 1\n" + "# comment\n" * (2 << 17)
+    assert b.refused(Load(large, "l.yaml")).endswith("it is larger than 2 MB.")
 
 
 def test_a_file_in_a_folder_that_cannot_be_written_is_told(

@@ -41,7 +41,7 @@ class Limits:
         per_address: browsers from one network address.
         messages_per_second: received from it on average; a page sends 50 while the user drags
             something.
-        max_characters: of one message; the longest of an owner is a config.
+        max_characters: of one message; the longest are configs, which owners open.
     """
 
     share: float
@@ -52,6 +52,6 @@ class Limits:
 
 LIMITS = {
     Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 20),
-    Role.OPERATOR: Limits(0.9, 32, 200.0, 3 << 20),
+    Role.OPERATOR: Limits(0.9, 32, 200.0, 1 << 20),
     Role.OWNER: Limits(1.0, 64, 200.0, 3 << 20),
 }

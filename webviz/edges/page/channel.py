@@ -21,7 +21,17 @@ from webviz.edges.access import rules
 from webviz.edges.access.access import Grant
 from webviz.edges.access.roles import LIMITS, Role
 from webviz.edges.access.visitors import Visitor
-from webviz.edges.page.messages import Do, FromPage, Hello, ToPage, Unwatch, Watch, You
+from webviz.edges.page.messages import (
+    Do,
+    Done,
+    FromPage,
+    Hello,
+    Number,
+    ToPage,
+    Unwatch,
+    Watch,
+    You,
+)
 from webviz.edges.page.refusals import answer
 from webviz.edges.page.stores import Stores, Watched
 
@@ -238,6 +248,10 @@ class Channel:
 
     def _hear(self, browser: int, text: str, connection: Connection) -> None:
         log = connection.logger
+        if len(text) > (limit := LIMITS[connection.grant.role].max_characters):
+            log.warning("A message of a page was ignored: %d characters.", len(text))
+            self._refuse_long(browser, text, limit)
+            return
         try:
             message = self._decoder.decode(text)
         except (msgspec.MsgspecError, RecursionError) as error:
@@ -253,6 +267,13 @@ class Channel:
             self._watch(browser, message, log)
         for listener in self._listeners.get(type(message), ()):
             listener(browser, message)
+
+    def _refuse_long(self, browser: int, text: str, limit: int) -> None:
+        """Answer a command that is too long, without reading all of it."""
+        with contextlib.suppress(msgspec.MsgspecError, RecursionError):
+            number = msgspec.json.decode(text, type=_Long).number
+            reason = f"Not done: {len(text)} characters in one message; the limit is {limit}."
+            self.send(Done(number, "error", reason, ""), browser)
 
     @staticmethod
     def _refusal(role: Role, message: FromPage) -> str:
@@ -323,8 +344,12 @@ class _Outbox:
             self.is_full = True
 
 
+class _Long(msgspec.Struct, tag="Do"):
+    """What is read of a command that is too long."""
+
+    number: Number
+
+
 def objection(data: str | bytes, role: Role) -> str | None:
-    """What is wrong with a message of somebody with this role before it is read, or None."""
-    if not isinstance(data, str):
-        return "bytes instead of text"
-    return f"{len(data)} characters" if len(data) > LIMITS[role].max_characters else None
+    """What is wrong with a message before it is read, or None."""
+    return None if isinstance(data, str) else "bytes instead of text"

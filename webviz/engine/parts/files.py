@@ -26,7 +26,7 @@ from webviz.engine.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config, ConfigError
-from webviz.files.config.files import SUFFIXES
+from webviz.files.config.files import SUFFIXES, refuse_too_large
 
 MAX_OTHERS = 200
 FOLDER_S = 2.0
@@ -151,6 +151,7 @@ class FilesPart(Part):
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
         text, name = command.text, command.name
+        refuse_too_large(len(text), name)
 
         def then(config: Config) -> str:
             self._show(config, None)

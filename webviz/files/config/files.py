@@ -30,13 +30,26 @@ def read_text(path: Path) -> str:
         data = within(PATIENCE_S, lambda: _read(path))
     except OSError as error:
         raise ConfigError(f"Cannot read {path}: {error.strerror or error}.") from error
-    if len(data) > MAX_BYTES:
-        raise ConfigError(f"{path} is not a config file: it is larger than {MAX_BYTES >> 20} MB.")
+    refuse_too_large(len(data), str(path))
     try:
         return data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:
         hint = "it is UTF-16, save it as UTF-8" if data.startswith(_UTF_16) else "not a config file"
         raise ConfigError(f"{path} is not UTF-8 text: {hint}.") from error
+
+
+def refuse_too_large(size: int, where: str) -> None:
+    """Refuse what is longer than any config.
+
+    Args:
+        size: in bytes, or in characters, of which a text has no more.
+        where: names it.
+
+    Raises:
+        ConfigError: it is.
+    """
+    if size > MAX_BYTES:
+        raise ConfigError(f"{where} is not a config file: it is larger than {MAX_BYTES >> 20} MB.")
 
 
 def _read(path: Path) -> bytes:

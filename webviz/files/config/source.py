@@ -25,8 +25,11 @@ MAX_VALUES = 50_000
 """Values per file; YAML's aliases can expand a few lines without end."""
 MAX_CHARACTERS = 4 << 20
 """Characters of all values, including aliases."""
+MAX_DIGITS = 1000
+"""Of an integer. Python writes none of more than 4300 decimal digits, but reads them as 0xfff…"""
 MAX_DEPTH = 64
 """Levels; real files have fewer than 20."""
+TOO_LONG = f"a number has more than {MAX_DIGITS} digits."
 _SAFE = re.compile(r"""(?:[^"']|(["'])(?:<[a-z ]+>|.)\1)*""")
 """Text before the first quotation other than a single character or a kind of token."""
 
@@ -93,6 +96,8 @@ class YamlDocument:
             count += 1
             if isinstance(node, ScalarNode):
                 characters += len(node.value)
+                if len(node.value) > MAX_DIGITS and node.tag.endswith(":int"):
+                    raise ConfigError(f"{self.where}:{node.start_mark.line + 1}: {TOO_LONG}")
             _refuse_too_large(self.where, count, depth, characters)
             if isinstance(node, MappingNode):
                 waiting += [(part, depth + 1) for pair in node.value for part in pair]
