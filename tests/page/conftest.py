@@ -38,6 +38,13 @@ COARSE = 0.1
 """Pixels of the scene per pixel of the page, for tests that do not look at the scene: to draw it in
 full takes most of the time of a browser without a graphics card."""
 
+TIDY = """() => {
+  document.querySelectorAll("#bench, .wv-toast").forEach((one) => one.remove());
+  document.activeElement?.blur();
+  localStorage.clear();
+}"""
+"""Removes what tests put beside the panels, and forgets widths and folds."""
+
 
 class Arrow(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     length: Annotated[float, Prop(gt=0, unit="m")] = 0.3
@@ -191,25 +198,38 @@ class Tab:
             self.errors.append(message.text)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def server() -> Iterator[Server]:
-    """One server for the tests of a module, and thereby for its tab."""
+    """One server for all tests, and thereby for their tab."""
     server = open_server(port=0)
     yield server
     server.stop()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
-    """The tab of a module: to open one takes two seconds of a processor."""
+    """The tab of all tests: to open one takes two seconds of a processor."""
     tab = Tab(open_page(browser), server, Loop(server))
     yield tab
     tab.page.context.close()
 
 
+@pytest.fixture(scope="module")
+def tidy(lasting: Tab) -> Tab:
+    """The tab as it was at first, whatever another module has done to it."""
+    page = lasting.page
+    page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    page.mouse.move(WIDTH - 1, HEIGHT - 1)
+    page.keyboard.press("Escape")
+    lasting.show_tab("Displays")
+    page.evaluate(TIDY)
+    return lasting
+
+
 @pytest.fixture
-def tab(lasting: Tab) -> Iterator[Tab]:
+def tab(tidy: Tab) -> Iterator[Tab]:
     """The tab with an empty viewer; it must not see an error."""
+    lasting = tidy
     lasting.loop.state = State()
     lasting.loop.answer = lasting.loop.made = ""
     lasting.turn()

@@ -58,7 +58,7 @@ def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int
       const canvas = pane.querySelector("canvas");
       if (!pane.dataset.stamp) return [];
       const place = [Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1];
-      return [...canvas.getContext("2d").getImageData(...place).data.slice(0, 3)];
+      return [...canvas.getContext("2d", { willReadFrequently: true }).getImageData(...place).data.slice(0, 3)];
     }"""
     return pane(tab, name).evaluate(script, list(at)) if pane(tab, name).count() else []
 
@@ -199,7 +199,7 @@ RECORD = """async (codec) => {
   });
   encoder.configure({codec, width: 160, height: 120, latencyMode: "realtime"});
   const canvas = new OffscreenCanvas(160, 120);
-  const context = canvas.getContext("2d");
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   for (let i = 0; i < 5; i++) {
     context.fillStyle = `rgb(${40 * (i + 1)} 40 40)`;
     context.fillRect(0, 0, 160, 120);

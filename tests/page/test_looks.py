@@ -134,9 +134,9 @@ def test_visers_panel_is_hidden_but_for_debugging(tab: Tab, server: Server) -> N
 def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
     tab.loop.state = State(offers={"/scan": offer("/driver")})
     watch = """() => {
-      window.changes = [];
+      window.touched = [];
       const observer = new MutationObserver((records) => {
-        window.changes.push(...records.map(({ target }) => target.className));
+        window.touched.push(...records.map(({ target }) => target.className));
       });
       for (const part of document.querySelectorAll(".wv-side, .wv-toolbar")) {
         observer.observe(part, { subtree: true, childList: true, attributes: true,
@@ -146,10 +146,10 @@ def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
     tab.page.evaluate(watch)
 
     def changes() -> list[str]:
-        tab.page.evaluate("window.changes = []")
+        tab.page.evaluate("window.touched = []")
         for _ in range(40):
             tab.turn()
-        return tab.page.evaluate("window.changes")
+        return tab.page.evaluate("window.touched")
 
     # What was sent before still arrives on a slow machine.
     tab.wait_for(lambda: changes() == [])

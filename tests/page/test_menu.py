@@ -29,6 +29,7 @@ def open_menu(tab: Tab) -> Callable[..., playwright.Locator]:
     """Opens a menu of four, the second of which is disabled."""
 
     def open_menu(x: float = 400, y: float = 300) -> playwright.Locator:
+        tab.page.mouse.move(5, 5)  # or what lies under it would have the focus
         tab.page.evaluate(OPEN, [x, y])
         return tab.page.get_by_role("menu")
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
+from tests.page.conftest import Tab, open_page
 from webviz.commands import Save
 from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
+from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import File, Inspected, Row
 
@@ -26,9 +27,23 @@ HIT = """(element) => {
 """How wide and high an element is for a finger."""
 
 
+@pytest.fixture(scope="module")
+def opened(browser: playwright.Browser, lasting: Tab, server: Server) -> Iterator[Tab]:
+    page = open_page(browser, WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+    yield Tab(page, server, lasting.loop)
+    page.context.close()
+
+
 @pytest.fixture
-def phone(open_tab: Callable[..., Tab]) -> Tab:
-    return open_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+def phone(opened: Tab, tab: Tab) -> Iterator[Tab]:
+    """A phone with the panels closed."""
+    opened.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    opened.page.keyboard.press("Escape")
+    hide = opened.button("Hide the panels")
+    if hide.is_visible():
+        hide.tap()
+    yield opened
+    assert opened.errors == []
 
 
 def side(phone: Tab) -> playwright.Locator:

@@ -25,9 +25,10 @@ def toolbar(tab: Tab) -> playwright.Locator:
 
 
 @pytest.fixture
-def wide(open_tab: Callable[..., Tab]) -> Tab:
+def wide(tab: Tab) -> Tab:
     """A tab in which everything fits, with two tools, three frames and one saved view."""
-    wide = open_tab(1600, 900)
+    wide = tab
+    wide.page.set_viewport_size({"width": 1600, "height": 900})
     browser = wide.page.evaluate("window.webviz.browser")
     state = replace(
         wide.loop.state,
