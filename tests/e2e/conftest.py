@@ -45,8 +45,8 @@ def open_page(browser: playwright.Browser) -> Iterator[Callable[..., Page]]:
     """Open a viewer in a tab; pages must raise no errors."""
     pages: list[Page] = []
 
-    def open_page(url: str, width: int = 900, height: int = 500) -> Page:
-        pages.append(Page(browser, url, width, height))
+    def open_page(url: str, width: int = 900, height: int = 500, resolution: float = 1.0) -> Page:
+        pages.append(Page(browser, url, width, height, resolution=resolution))
         return pages[-1]
 
     yield open_page

@@ -46,7 +46,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     config.write_text(EMPTY)
     start("webviz_sim")
     viewer = start("webviz", "--port", "0", "-d", str(config))
-    page = open_page(viewer.url(), 1000, 700)
+    page = open_page(viewer.url(), 1000, 700, 0.3)
     side, tab = Side(page), page.tab
     blank = picture(page)
     assert colors(blank) == 1
@@ -77,7 +77,7 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     assert viewer.end() == 0
 
     again = start("webviz", "--port", "0", "-d", str(tmp_path / "lab.yaml"))
-    page = open_page(again.url(), 1000, 700)
+    page = open_page(again.url(), 1000, 700, 0.3)
     side = Side(page)
     side.select("Map")
     side.wait_for("248 x 168 cells")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 from program import Program
 from side import GLOBAL_OPTIONS, Side
 
@@ -45,7 +46,7 @@ def page(
     config = tmp_path_factory.mktemp("config") / "reasons.yaml"
     config.write_text("\n".join(["fixed_frame: map", "displays:", *rows, ""]))
     program = start("webviz", "-d", str(config), "--port", "0")
-    page = Page(browser, program.url(), 900, 900)
+    page = Page(browser, program.url(), 900, 900, resolution=COARSE)
     page.hold()
     yield page
     errors = page.errors

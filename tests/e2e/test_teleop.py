@@ -14,7 +14,7 @@ from contextlib import contextmanager
 import playwright.sync_api as playwright
 import psutil
 import pytest
-from pages import open_pages
+from pages import COARSE, open_pages
 from program import Program
 
 pytest.importorskip("rclpy", reason="needs rclpy")
@@ -249,7 +249,7 @@ def test_zeros_are_the_last_after_a_browser_was_killed_and_after_the_viewer_was_
         driver.kill()
         driver.wait()
     robot.heard.clear()
-    page = Page(browser, program.url(), 600, 400)
+    page = Page(browser, program.url(), 600, 400, resolution=COARSE)
     choose(page, robot)
     hold(page, robot)
     assert program.end(signal.SIGTERM) == 0

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 
 from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
@@ -34,9 +35,6 @@ from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 900, 800
 """Of a tab in pixels."""
-COARSE = 0.1
-"""Pixels of the scene per pixel of the page, for tests that do not look at the scene: to draw it in
-full takes most of the time of a browser without a graphics card."""
 
 TIDY = """() => {
   document.querySelectorAll("#bench, .wv-toast").forEach((one) => one.remove());

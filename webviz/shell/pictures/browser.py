@@ -127,13 +127,14 @@ def _executable(driver: playwright.Playwright) -> str:
 
 
 class Page:
-    """A tab that shows a viewer, with one device pixel per CSS pixel.
+    """A tab that shows a viewer.
 
     Args:
         browser: in which to open it.
         url: of the viewer.
         width, height: of the whole page in pixels.
         cookie: name and value of the one that lets the browser in, None if none is needed.
+        resolution: pixels of the scene per pixel of the page.
     """
 
     def __init__(
@@ -143,6 +144,7 @@ class Page:
         width: int,
         height: int,
         cookie: tuple[str, str] | None = None,
+        resolution: float = 1.0,
     ) -> None:
         self.errors: list[str] = []
         """Errors of scripts in the page."""
@@ -165,7 +167,7 @@ class Page:
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.on("crash", lambda _: setattr(self, "_crashed", True))
         self._alive(lambda: self.tab.add_init_script(COUNT_UNPACKING))
-        self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr=1"))
+        self._alive(lambda: self.tab.goto(f"{url}/?fixedDpr={resolution:g}"))
         self._alive(lambda: self.tab.wait_for_function("window.webviz?.hasView()"))
 
     def close(self) -> None:
