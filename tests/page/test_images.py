@@ -58,7 +58,8 @@ def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int
       const canvas = pane.querySelector("canvas");
       if (!pane.dataset.stamp) return [];
       const place = [Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1];
-      return [...canvas.getContext("2d", { willReadFrequently: true }).getImageData(...place).data.slice(0, 3)];
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      return [...context.getImageData(...place).data.slice(0, 3)];
     }"""
     return pane(tab, name).evaluate(script, list(at)) if pane(tab, name).count() else []
 
