@@ -137,6 +137,18 @@ def test_what_is_not_drawn_is_said(
     assert (said[0], said[1].startswith(text)) == (level, True)
 
 
+def test_joints_can_be_switched_off(arm: Benches) -> None:
+    at = arm(Effort())
+    measure(at, {"shoulder": 1.0, "elbow": 2.0})
+    both = len(at.nodes()["rings"].segments)
+    at.set("joints", {"elbow": False})
+    assert 2 * len(at.nodes()["rings"].segments) == both
+    assert at.statuses()["Efforts"] == ("OK", "Showing 1 joint; 1 switched off.")
+    at.set("joints", {"elbow": False, "shoulder": False})
+    assert at.nodes() == {}
+    assert at.statuses()["Efforts"][0] == "WARN"
+
+
 def test_names_and_efforts_of_different_number_are_an_error(arm: Benches) -> None:
     at = arm(Effort())
     values = {"name": ["shoulder"], "position": [0.0]}

@@ -422,6 +422,7 @@ PLAIN = """\
 - Class: rviz_default_plugins/Effort
   Enabled: true
   Name: Arm
+  Joints: {elbow: {Value: false}, wrist: {Value: true}}
   Robot Description: /arm/robot_description
   TF Prefix: arm
 """
@@ -450,6 +451,7 @@ def test_the_plain_displays_have_rvizs_names_and_report_nothing() -> None:
     assert values["Particles"] == particles
     assert values["Arm"] == {
         "topic": "",
+        "joints": {"elbow": False, "wrist": True},
         "robot_description": "/arm/robot_description",
         "tf_prefix": "arm",
     }

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
 
+import msgspec
 import numpy as np
 
 import webviz_urdf
@@ -23,6 +25,9 @@ MOST_NM = 1e6
 
 NAMED = 20
 """Joints with a status of their own."""
+
+MAX_NAMES = 1000
+"""Joints that get a switch in the page."""
 
 Joints = Mapping[str, TurningJoint]
 
@@ -84,6 +89,10 @@ class Effort(Display):
         str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
     ] = ""
     history_length: HistoryLength = 1
+    joints: Annotated[
+        dict[str, bool],
+        Prop(widget="names", help="Switches of single joints by name; others are shown."),
+    ] = msgspec.field(default_factory=dict)
 
     def new_state(self) -> _State:
         """Nothing."""
@@ -129,6 +138,7 @@ class Effort(Display):
             ctx.warn("URDF", "Reading the robot description.")
             return
         state.joints = joints
+        ctx.offered["joints"] = dict.fromkeys(itertools.islice(joints, MAX_NAMES), 1)
         ctx.ok("URDF", f"{counted(len(joints), 'joint')} that can turn.")
         self._draw_rings(measured, joints, ctx)
 
@@ -153,7 +163,7 @@ class Effort(Display):
         rings: list[Rings] = []
         newest: Sample | None = None
         for sample in reversed(measured):
-            efforts = _efforts(sample.message, joints)
+            efforts = self._efforts(sample.message, joints)
             frames = tuple(prefixed(self.tf_prefix, joints[name].child) for name in efforts)
             waiting = _Waiting(sample.number, sample.stamp_ns, frames)
             if newest is None and not _is_ready(waiting, ctx.frames):
@@ -220,9 +230,11 @@ class Effort(Display):
             )
             return
         turning = [name for name in message.name if name in joints]
-        invalid = [name for name in turning if name not in efforts]
+        invalid = [name for name in turning if self._shows(name) and name not in efforts]
         lost = [name for name in efforts if name not in rings.names]
-        ctx.ok("Efforts", f"Showing {counted(len(rings.names), 'joint')}.")
+        hidden = sum(not self._shows(name) for name in turning)
+        off = f"; {hidden} switched off" if hidden else ""
+        ctx.ok("Efforts", f"Showing {counted(len(rings.names), 'joint')}{off}.")
         if invalid:
             names = listed(invalid, NAMED)
             ctx.warn("Efforts", f"Efforts are not finite or above 1e6 Nm: {names}.")
@@ -233,22 +245,30 @@ class Effort(Display):
                 "Efforts",
                 "No joint of the message turns in the robot description. Check their names.",
             )
+        elif hidden == len(turning):
+            ctx.warn("Efforts", "All joints are switched off. Switch some of them on.")
         for name in list(efforts)[:NAMED]:
             most = joints[name].max_effort
             limit = f" of {most:g} Nm" if most else ", without a largest effort in the URDF"
             ctx.ok(f"Joint {name}", f"{efforts[name]:.4g} Nm{limit}")
 
+    def _shows(self, joint: str) -> bool:
+        return self.joints.get(joint, True)
+
+    def _efforts(self, message: messages.JointState, joints: Joints) -> dict[str, float]:
+        """The sensible efforts in Nm of the joints that turn and are shown, by name."""
+        if len(message.effort) != len(message.name):
+            return {}
+        pairs = zip(message.name, message.effort.tolist(), strict=True)
+        return {
+            name: effort
+            for name, effort in pairs
+            if name in joints and self._shows(name) and abs(effort) < MOST_NM
+        }
+
 
 def _turning_joints(text: str) -> Joints:
     return webviz_urdf.turning_joints(text)  # imports what reads XML, in the worker
-
-
-def _efforts(message: messages.JointState, joints: Joints) -> dict[str, float]:
-    """The sensible efforts in Nm of the joints that turn, by name."""
-    if len(message.effort) != len(message.name):
-        return {}
-    pairs = zip(message.name, message.effort.tolist(), strict=True)
-    return {name: effort for name, effort in pairs if name in joints and abs(effort) < MOST_NM}
 
 
 def _is_ready(message: _Waiting, frames: Frames) -> bool:

@@ -16,7 +16,7 @@ from webviz.files.rviz.properties import RvizProperty, properties
 from webviz.files.rviz.tree import Path, Tree, leaves, put
 from webviz.files.rviz.values import Unfit
 
-WITH_CHILDREN = ("Frames",)
+WITH_CHILDREN = ("Frames", "Joints")
 """Mappings whose switches RViz writes as {Value: true}, because they have children."""
 
 UNLISTED = {"GridMapLayer"}
