@@ -61,6 +61,8 @@ setup(
             "MarkerArray = webviz_displays.markers:MarkerArray",
             "OccupancyGrid = webviz_displays.octomap:OccupancyGrid",
             "OccupancyGridStamped = webviz_displays.octomap:OccupancyGridStamped",
+            "OccupancyMap = webviz_displays.octomap:OccupancyMap",
+            "OccupancyMapStamped = webviz_displays.octomap:OccupancyMapStamped",
             "Odometry = webviz_displays.odometry:Odometry",
             "ParticleCloud = webviz_displays.poses:ParticleCloud",
             "Path = webviz_displays.path:Path",

@@ -250,6 +250,8 @@ SCENES: dict[str, Callable[[Any], None]] = {
 # drawn already.
 OF_THE_FUTURE = {
     ("Image", "median_window"),
+    ("OccupancyMap", "max_octree_depth"),
+    ("OccupancyMapStamped", "max_octree_depth"),
     ("Odometry", "angle_tolerance"),
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
@@ -262,7 +264,7 @@ OF_THE_FUTURE = {
 
 # Entries of properties that hold settings by name: each differs from none in one setting.
 ENTRIES: dict[type, list[Any]] = {
-    bool: [{"robot": False}],
+    bool: [{"robot": False, "slide": False}],
     LinkSettings: [
         {"base": LinkSettings(enabled=False)},
         {"base": LinkSettings(alpha=0.5)},

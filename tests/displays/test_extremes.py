@@ -30,7 +30,7 @@ from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
-from webviz_displays.octomap import OccupancyGrid
+from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
 from webviz_displays.point_cloud2 import PointCloud2
@@ -125,6 +125,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     FluidPressure,
     lambda: PointCloud(style="Boxes"),
     OccupancyGrid,
+    OccupancyMap,
     GridMap,
     lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
     lambda: VoxelGrid(show_unknown=True, show_free=True),

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 
-from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid
+from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyMap
 from webviz_displays.octomap import octree as octree_module
 from webviz_displays.octomap import seen as seen_module
 from webviz_displays.octomap.octree import Octree, OctreeFault, read_octree
@@ -173,7 +173,9 @@ def chain(length: int) -> dict[str, Any]:
 
 WHOLE = full(octree(CUBE))
 FAULTS = {
-    "nothing": ({**WHOLE, "data": []}, "ends inside"),
+    "nothing": ({**WHOLE, "data": []}, "The tree is empty: the message"),
+    "a root": (full(Node()), "The tree is empty: it has no node"),
+    "a binary root": (binary(Node()), "The tree is empty: it has no node"),
     "half": ({**WHOLE, "data": WHOLE["data"][:-1]}, "ends inside"),
     "binary half": ({**binary(octree(CUBE)), "data": [-1, -1] * 10}, "ends inside"),
     "deep": (chain(17), "deeper than 16"),
@@ -200,6 +202,37 @@ def test_a_tree_of_too_many_nodes_is_refused(monkeypatch: pytest.MonkeyPatch) ->
     for form in (binary, full):
         with pytest.raises(OctreeFault, match="The tree has more than"):
             read(form(octree(CUBE)))
+
+
+def cells(at: Any) -> list[list[int]]:
+    """The values of a map of one tile, the row with the lowest y first."""
+    return at.nodes()["tile 0 0"].cells.view(np.int8).tolist()
+
+
+def test_an_octree_from_above_is_occupied_where_any_voxel_is(bench: Benches) -> None:
+    root = Node()
+    root.place((2, 1, 0), depth=15, log_odds=-2.0)  # two cells wide, from 4, 2
+    root.place((4, 2, 7), log_odds=3.5)
+    root.place((4, 4, -9), log_odds=3.5)
+    root.place((7, 4, 0), log_odds=-2.0)
+    at = bench(OccupancyMap())
+    at.send(OCTOMAP, binary(root, 0.5), frame="map", topic="/octomap_binary")
+    at.turn()
+    assert cells(at) == [[100, 0, -1, -1], [0, 0, -1, -1], [100, -1, -1, 0]]
+    assert at.poses()["tile 0 0"].position == (2.0, 1.0, 0.0)
+    assert at.statuses()["Map"] == ("OK", "4 x 3 cells of 0.5 m in frame 'map'.")
+    at.set("max_octree_depth", 15)
+    at.send(OCTOMAP, full(root, 0.5), frame="map", topic="/octomap_binary")
+    at.turn()
+    assert cells(at) == [[100, -1], [100, 0]]
+    at.send(OCTOMAP, {**WHOLE, "data": []}, frame="map", topic="/octomap_binary")
+    at.turn()
+    assert at.statuses()["Map"][1].startswith("The tree is empty")
+    far = octree([(-30_000, -30_000, 0), (30_000, 30_000, 0)])
+    at.set("max_octree_depth", 16)
+    at.send(OCTOMAP, binary(far), frame="map", topic="/octomap_binary")
+    at.turn()
+    assert at.statuses()["Map"][1].startswith("The map would have 60001 x 60001 cells")
 
 
 def test_any_bytes_are_a_tree_or_a_fault() -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from mapping_scenes import MAPPING_MESSAGES
 from plain_scenes import PLAIN_MESSAGES, ROBOT
 
 from webviz import Display, Level, Topic
@@ -13,7 +14,11 @@ from webviz.api.display import inputs, inputs_of
 from webviz.data.messages import encode
 from webviz.shell.testing import LiveViewer
 from webviz_displays.areas import GridCells, Polygon
+from webviz_displays.grid_map import GridMap
+from webviz_displays.imu import Imu, Mag
+from webviz_displays.map import Costmap
 from webviz_displays.markers import Marker, MarkerArray
+from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.poses import (
     ParticleCloud,
     PointStamped,
@@ -30,6 +35,7 @@ from webviz_displays.sensors import (
     Temperature,
 )
 from webviz_displays.vectors import AccelStamped, Effort, Twist, TwistStamped, Wrench
+from webviz_displays.voxel_grid import VoxelGrid
 
 pytest.importorskip("rclpy", reason="a live viewer needs rclpy")
 
@@ -37,7 +43,9 @@ CLASSES: tuple[type[Display], ...] = (
     *(ParticleCloud, PointStamped, Pose, PoseArray, PoseWithCovariance, GridCells, Polygon),
     *(FluidPressure, Illuminance, PointCloud, Range, RelativeHumidity, Temperature),
     *(AccelStamped, Effort, TwistStamped, Wrench),
+    *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
 )
+MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES
 
 
 def test_each_display_draws_what_is_published_and_says_ok(
@@ -54,7 +62,7 @@ def test_each_display_draws_what_is_published_and_says_ok(
     for display in shown:
         _, _, topic = inputs(display)[0]
         type_name = next(iter(inputs_of(type(display)).values())).type
-        viewer.publish(topic.name, type_name, PLAIN_MESSAGES.get(type_name, {}), frame="sensor")
+        viewer.publish(topic.name, type_name, MESSAGES.get(type_name, {}), frame="sensor")
     for cls in (*CLASSES, Twist):
         viewer.wait_until_drawn(cls.__name__)
         status = viewer.status(cls.__name__)

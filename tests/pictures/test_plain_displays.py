@@ -22,7 +22,13 @@ from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, BoxSettings
 from webviz_displays.map import Costmap
-from webviz_displays.octomap import ColorOccupancyGrid, OccupancyGrid, OccupancyGridStamped
+from webviz_displays.octomap import (
+    ColorOccupancyGrid,
+    OccupancyGrid,
+    OccupancyGridStamped,
+    OccupancyMap,
+    OccupancyMapStamped,
+)
 from webviz_displays.poses import (
     ParticleCloud,
     PointStamped,
@@ -115,6 +121,18 @@ def landscape() -> Node:
     return root
 
 
+def room() -> Node:
+    """Walls of three voxels above a free floor, with a door."""
+    root = Node()
+    for x, y in product(STEPS, STEPS):
+        if max(abs(x), abs(y)) < 10 or (y == -10 and abs(x) < 3):
+            root.place((x, y, 0), log_odds=-2.0)
+        else:
+            for z in range(3):
+                root.place((x, y, z), log_odds=2.0)
+    return root
+
+
 def obstacles() -> Values:
     """Walls around unknown space, 16 levels of 0.05 m."""
     near = [max(abs(x), abs(y)) for y in range(-10, 11) for x in range(-10, 11)]
@@ -193,6 +211,8 @@ CASES = [
         OccupancyGridStamped(max_octree_depth=15),
         (full(landscape(), kind="OcTreeStamped"),),
     ),
+    Case("occupancy_map", OccupancyMap(), (binary(room()),)),
+    Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
     Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (21, 21), 0.1, (5, 9)),)),
     Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
     Case("costmap", Costmap(), (inflated(),)),

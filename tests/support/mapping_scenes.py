@@ -64,10 +64,26 @@ def costmaps(bench: Any) -> None:
     bench.turn()
 
 
+def seen_from_above(bench: Any) -> None:
+    """An octree, and an update, in a frame that moved on."""
+    for age, x in ((1, 1.0), (0, 2.0)):
+        stamp_ns = bench.now_ns - age * SECOND
+        bench.transform("map", "room", (x, 0.0, 0.0), stamp_ns=stamp_ns)
+    stamp_ns, topic = bench.now_ns - SECOND, "/octomap_binary"
+    bench.send(OCTOMAP, hill("OcTree"), frame="room", stamp_ns=stamp_ns, topic=topic)
+    bench.turn()
+    update = {"x": 0, "width": 1, "height": 1, "data": [30]}
+    type_name, topic = "map_msgs/msg/OccupancyGridUpdate", f"{topic}_updates"
+    bench.send(type_name, update, frame="room", stamp_ns=stamp_ns, topic=topic)
+    bench.turn()
+
+
 MAPPING_SCENES: dict[str, Callable[[Any], None]] = {
     "OccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
     "ColorOccupancyGrid": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
     "OccupancyGridStamped": in_moving_frame(OCTOMAP, hill("ColorOcTree")),
+    "OccupancyMap": seen_from_above,
+    "OccupancyMapStamped": seen_from_above,
     "GridMap": in_moving_frame(GRID_MAP, terrain(), terrain()),
     "VoxelGrid": in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID),
     "Costmap": costmaps,

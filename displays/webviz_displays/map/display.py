@@ -137,7 +137,11 @@ class MapDisplay(Display):
     ] = 100
 
     def as_grid(self, name: str, message: Any) -> Any:
-        """A message of the input `name` with the fields of an OccupancyGrid or its update."""
+        """A message of the input `name` with the fields of an OccupancyGrid or its update.
+
+        Raises:
+            GridFault: it cannot be one; the text says why.
+        """
         return message
 
     def table(self, alpha: float, threshold: int | None) -> NDArray[np.uint8]:
@@ -160,16 +164,16 @@ class MapDisplay(Display):
     def fold(self, name: str, sample: Sample, state: Folded | None) -> Folded | None:
         """Take a new map, or update the current one."""
         grid = state.grid if state else None
-        message = self.as_grid(name, sample.message)
         if name == "topic":
             try:
+                message = self.as_grid(name, sample.message)
                 return Folded(tiled(message, sample.frame, grid), sample.stamp_ns)
             except GridFault as fault:
                 return replace(state or Folded(None), fault=str(fault))
         if state is None or grid is None or state.fault:
             return state  # an update means nothing without the map it changes
         try:
-            grid = updated(grid, message, sample.frame)
+            grid = updated(grid, self.as_grid(name, sample.message), sample.frame)
         except GridFault as fault:
             return replace(state, update_fault=str(fault))
         return replace(state, grid=grid, updates=state.updates + 1, update_fault="")

@@ -25,8 +25,8 @@ Mask = NDArray[np.bool_]
 
 LEVELS = 16
 """Below the root; the smallest voxels are at this depth."""
-MOST_NODES = 4_000_000
-"""Per tree; they take about 200 MB while they are read."""
+MOST_NODES = 3_000_000
+"""Per tree; they take about 500 MB while they are read and drawn."""
 
 _LOG_ODDS = np.array((np.nan, -2.0, 3.5, -np.inf), np.float32)
 """By the bits of a child in a binary tree: OctoMap's clamping thresholds, 0.1192 and 0.971. A child
@@ -96,11 +96,14 @@ def read_octree(message: Any) -> Octree:
         raise OctreeFault(
             f"Trees of type '{kind[:40]}' are not supported. Publish an OcTree or a ColorOcTree."
         )
+    if not len(message.data):
+        raise OctreeFault("The tree is empty: the message has no data. Check its publisher.")
     if not 0.0 < size * 2**LEVELS < FARTHEST:
         raise OctreeFault(f"The resolution is {size:g} m. Fix the publisher.")
-    if message.binary:
-        return _read_binary(kind, size, message.data)
-    return _read_full(kind, size, message.data)
+    tree = (_read_binary if message.binary else _read_full)(kind, size, message.data)
+    if len(tree.codes) == 1:
+        raise OctreeFault("The tree is empty: it has no node below its root. Check its publisher.")
+    return tree
 
 
 def _read_full(kind: str, size: float, data: NDArray[np.int8]) -> Octree:
