@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from side_by_side.case import SAMPLES_PER_S, Case, CaseFailed
 from side_by_side.scenes import SCENES, Scene
 from side_by_side.systems.registry import SYSTEMS, System
+from side_by_side.watchers import ViserWatcher
 
 WARM_UP_S = 30.0
 """Buffers of every size have been needed once by then."""
@@ -32,11 +33,13 @@ class Soak:
     Args:
         times: of the samples after the warm-up, s (N,).
         resident: memory at these, MB (N,).
+        nodes: of viser at the client that reads at these (N,); 0 for other systems.
         gaps: the longest time without anything new at the client that reads, s, by lane.
     """
 
     times: NDArray[np.float64]
     resident: NDArray[np.float64]
+    nodes: NDArray[np.float64]
     gaps: dict[int, float]
 
     @property
@@ -65,12 +68,13 @@ def soak(system: System, scene: Scene, seconds: float, folder: Path) -> Soak:
             start, samples = time.monotonic(), []
             while (now := time.monotonic() - start) < seconds:
                 if now > WARM_UP_S:
-                    samples.append((now, case.rss()))
+                    nodes = len(reader.nodes) if isinstance(reader, ViserWatcher) else 0
+                    samples.append((now, case.rss(), nodes))
                 if not reader.is_connected:
                     raise CaseFailed(f"the client lost its viewer: {case.program.output()[-300:]}")
                 time.sleep(1 / SAMPLES_PER_S)
-            times, resident = np.array(samples).T
-            return Soak(times, resident, case.log().gaps(reader.sightings, time.time_ns()))
+            times, resident, nodes = np.array(samples).T
+            return Soak(times, resident, nodes, case.log().gaps(reader.sightings, time.time_ns()))
         finally:
             reader.close()
             stalled.close()
@@ -87,8 +91,11 @@ def main() -> int:
         system, scene = SYSTEMS[options.system], SCENES[options.scene]
         result = soak(system, scene, options.seconds, Path(folder))
     for part in np.array_split(np.arange(len(result.times)), 12):
-        memory = result.resident[part]
-        print(f"{result.times[part[-1]]:6.0f} s  {memory.min():.1f} to {memory.max():.1f} MB")
+        memory, nodes = result.resident[part], result.nodes[part]
+        print(
+            f"{result.times[part[-1]]:6.0f} s  {memory.min():.1f} to {memory.max():.1f} MB, "
+            f"{nodes.min():.0f} to {nodes.max():.0f} nodes"
+        )
     print(f"slope: {result.slope:+.2f} MB a minute")
     print(f"longest time without anything new: {max(result.gaps.values()):.2f} s")
     return 0

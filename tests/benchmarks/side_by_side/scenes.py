@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import webviz_urdf
-from side_by_side import content
+from side_by_side import content, marker_content
 from side_by_side.marks import Lane, Place
 from side_by_side.streams import Stream
 
@@ -20,6 +20,7 @@ PATH = "nav_msgs/msg/Path"
 ODOMETRY = "nav_msgs/msg/Odometry"
 TF = "tf2_msgs/msg/TFMessage"
 TEXT = "std_msgs/msg/String"
+MARKERS = "visualization_msgs/msg/MarkerArray"
 
 
 @dataclass(frozen=True)
@@ -142,6 +143,15 @@ def _still() -> list[Stream]:
     ]
 
 
+def _markers(
+    make: Callable[[], list[content.Values]], hz: float, place: Place
+) -> Callable[[], list[Stream]]:
+    return lambda: [
+        Stream("/tf_static", TF, 0, content.static(("map", "base_link"))),
+        Stream("/markers", MARKERS, hz, make(), Lane(0, place)),
+    ]
+
+
 DEMO = """\
 - {type: Map, draw_behind: true}
 - {type: TF, marker_scale: 0.6, show_arrows: false}
@@ -158,6 +168,7 @@ EVERYTHING = "".join(
         "- {type: Odometry, keep: 10000, covariance: {value: false}}\n",
     ]
 )
+ARRAY = "- {type: MarkerArray, topic: /markers}\n"
 ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
 
 SCENES = {
@@ -187,6 +198,36 @@ SCENES = {
             "two scans, four costmaps, three paths, a trail of 10 000",
             _everything,
             EVERYTHING,
+        ),
+        Scene(
+            "M10k",
+            "10 000 cubes in one array, 1 Hz",
+            _markers(lambda: marker_content.cubes(10_000), 1, Place.FRAME),
+            ARRAY,
+        ),
+        Scene(
+            "M1k",
+            "1000 cubes, 20 Hz",
+            _markers(lambda: marker_content.cubes(1000, 8), 20, Place.FRAME),
+            ARRAY,
+        ),
+        Scene(
+            "lines",
+            "a LINE_LIST of 100 000 points, 10 Hz",
+            _markers(lambda: marker_content.lines(100_000), 10, Place.FIRST_VERTEX),
+            ARRAY,
+        ),
+        Scene(
+            "texts",
+            "500 texts, 2 Hz",
+            _markers(lambda: marker_content.texts(500), 2, Place.FRAME),
+            ARRAY,
+        ),
+        Scene(
+            "churn",
+            "200 cubes added and 200 deleted a second, 20 Hz",
+            _markers(marker_content.churn, 20, Place.FRAME),
+            ARRAY,
         ),
         Scene("idle", "nothing moves", _still, "- {type: Map}\n"),
     )

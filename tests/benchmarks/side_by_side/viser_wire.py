@@ -44,10 +44,24 @@ def messages(data: memoryview) -> list[dict[str, Any]]:
     return window["messages"]
 
 
-def sightings(data: memoryview, lanes: Sequence[Lane], now_ns: int) -> list[Sighting]:
-    """The marked publications in a window."""
+def follow_nodes(window: Sequence[dict[str, Any]], nodes: set[str]) -> None:
+    """Add the nodes that the messages of a window make, and remove those that they remove."""
+    for message in window:
+        if message["type"] == "RemoveSceneNodeMessage":
+            gone = message["name"]
+            nodes.difference_update(
+                [name for name in nodes if name == gone or name.startswith(f"{gone}/")]
+            )
+        elif "props" in message and "name" in message:
+            nodes.add(message["name"])
+
+
+def sightings(
+    window: Sequence[dict[str, Any]], lanes: Sequence[Lane], now_ns: int
+) -> list[Sighting]:
+    """The marked publications in the messages of a window."""
     found = []
-    for message in messages(data):
+    for message in window:
         for place, value in _candidates(message):
             if place == Place.PICTURE:
                 found += [

@@ -101,11 +101,15 @@ class ViserWatcher(SocketWatcher):
     """A client of a viser server."""
 
     def __init__(self, port: int, scene: Scene | None, stalls: bool = False) -> None:
+        self.nodes: set[str] = set()
+        """The names of the nodes that there are, if publications are recognised."""
         super().__init__(WebSocket(port, f"viser-v{viser.__version__}"), scene, stalls)
 
     def recognise(self, scene: Scene, data: memoryview, now_ns: int) -> Sequence[Sighting]:
         """What the arrays, poses and pictures of a window of messages say."""
-        return viser_wire.sightings(data, scene.lanes, now_ns)
+        window = viser_wire.messages(data)
+        viser_wire.follow_nodes(window, self.nodes)
+        return viser_wire.sightings(window, scene.lanes, now_ns)
 
 
 class FoxgloveWatcher(SocketWatcher):

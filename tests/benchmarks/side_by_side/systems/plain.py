@@ -25,6 +25,7 @@ from side_by_side.systems.shades import picture, rainbow
 from side_by_side.systems.typed import subscribe
 
 TRAIL = 10_000
+LINE_LIST, TEXT, DELETE = 5, 9, 2
 
 
 class PlainViewer:
@@ -129,6 +130,36 @@ class PlainViewer:
             self.handles[topic] = self.scene.add_arrows(name, arrows, (255, 25, 0))
         self.handles[topic].points = arrows
 
+    def on_markers(self, topic: str, message: Any) -> None:
+        """A node for each marker: boxes, lines and texts."""
+        for marker in message.markers:
+            name, p = (
+                f"{self.path(marker.header.frame_id)}{topic}/{marker.id}",
+                marker.pose.position,
+            )
+            node = self.handles.get(name)
+            if marker.action == DELETE:
+                if node is not None:
+                    self.handles.pop(name).remove()
+                continue
+            if node is None:
+                node = self.handles[name] = self.add_marker(name, marker)
+            if marker.type == LINE_LIST:
+                points = np.array([(p.x, p.y, p.z) for p in marker.points], np.float32)
+                node.points = points.reshape(-1, 2, 3)
+            elif marker.type == TEXT:
+                node.text = marker.text
+            node.position = (p.x, p.y, p.z)
+
+    def add_marker(self, name: str, marker: Any) -> Any:
+        """The node of a new marker."""
+        size, color = marker.scale, (marker.color.r, marker.color.g, marker.color.b)
+        if marker.type == LINE_LIST:
+            return self.scene.add_line_segments(name, np.zeros((1, 2, 3)), color)
+        if marker.type == TEXT:
+            return self.scene.add_label(name, marker.text)
+        return self.scene.add_box(name, color, (size.x, size.y, size.z))
+
     def on_description(self, topic: str, message: Any) -> None:
         """A mesh for each box, cylinder and sphere of a robot, below the frame of its link."""
         robot = yourdfpy.URDF.load(
@@ -164,6 +195,7 @@ def main(*topics: str) -> None:
         "map_msgs/msg/OccupancyGridUpdate": viewer.on_map_update,
         "nav_msgs/msg/Path": viewer.on_path,
         "nav_msgs/msg/Odometry": viewer.on_odometry,
+        "visualization_msgs/msg/MarkerArray": viewer.on_markers,
         "std_msgs/msg/String": viewer.on_description,
     }
     rclpy.init()

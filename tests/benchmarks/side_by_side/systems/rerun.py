@@ -25,6 +25,7 @@ from side_by_side.systems.shades import picture, rainbow
 from side_by_side.systems.typed import subscribe
 
 TRAIL = 10_000
+LINE_LIST, TEXT, DELETE = 5, 9, 2
 
 
 class Logger:
@@ -34,6 +35,7 @@ class Logger:
         self.parents: dict[str, str] = {}
         self.grids: dict[str, np.ndarray] = {}
         self.trail: list[np.ndarray] = []
+        self.markers: dict[int, Any] = {}
 
     def path(self, frame: str) -> str:
         """The entity of a frame: below its ancestors."""
@@ -117,6 +119,30 @@ class Logger:
             rr.Arrows3D(origins=arrows[:, :3], vectors=arrows[:, 3:]),
         )
 
+    def on_markers(self, topic: str, message: Any) -> None:
+        """The boxes, lines and texts of all markers, each kind as one entity."""
+        at(message.markers[0].header)
+        path = f"{self.path(message.markers[0].header.frame_id)}{topic}"
+        for marker in message.markers:
+            self.markers.pop(marker.id, None)
+            if marker.action != DELETE:
+                self.markers[marker.id] = marker
+        for kind in {marker.type for marker in message.markers}:
+            some = [marker for marker in self.markers.values() if marker.type == kind]
+            places = [(p.x, p.y, p.z) for p in (marker.pose.position for marker in some)]
+            colors = [(c.r, c.g, c.b, c.a) for c in (marker.color for marker in some)]
+            if kind == LINE_LIST:
+                ends = [(p.x, p.y, p.z) for marker in some for p in marker.points]
+                strips = np.array(ends, np.float32).reshape(-1, 2, 3)
+                rr.log(f"{path}/lines", rr.LineStrips3D(strips, colors=colors[:1]))
+            elif kind == TEXT:
+                words = [marker.text for marker in some]
+                rr.log(f"{path}/texts", rr.Points3D(places, labels=words, colors=colors))
+            else:
+                halves = [(s.x / 2, s.y / 2, s.z / 2) for s in (marker.scale for marker in some)]
+                boxes = rr.Boxes3D(centers=places, half_sizes=halves, colors=colors)
+                rr.log(f"{path}/boxes", boxes)
+
     def on_description(self, topic: str, message: Any) -> None:
         """The text; Rerun loads robots from files."""
         rr.log(topic, rr.TextDocument(message.data), static=True)
@@ -149,6 +175,7 @@ def main(*topics: str) -> None:
         "map_msgs/msg/OccupancyGridUpdate": logger.on_map_update,
         "nav_msgs/msg/Path": logger.on_path,
         "nav_msgs/msg/Odometry": logger.on_odometry,
+        "visualization_msgs/msg/MarkerArray": logger.on_markers,
         "std_msgs/msg/String": logger.on_description,
     }
     rclpy.init()
