@@ -22,6 +22,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webv
 from basic_controls import basic_controls
 from geometry_msgs.msg import Pose
 from marker_server import Feedback, MarkerServer
+from visualization_msgs.msg import MenuEntry
 
 from webviz.edges.ros.node import RosSource
 
@@ -185,6 +186,80 @@ def test_a_ring_turns_the_marker_and_an_arrow_moves_it_along_its_axis(
     last = wait_for(page, server, UP)[-1]
     assert last.control_name == "move_x"
     assert (last.pose.position.x, last.pose.position.y) == pytest.approx((0.7, 3.0), abs=0.02)
+
+
+def test_boxes_are_moved_along_the_screen_and_turned_like_balls(
+    page: Page, viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    look_at(page, viewer, 3.0, 3.0)
+    drag(page, (3.0, 3.0, 0.2), (3.8, 3.5, 0.2))
+    last = wait_for(page, server, UP)[-1]
+    assert last.marker_name == "simple_2"
+    at = last.pose.position
+    assert (at.x, at.y, at.z) == pytest.approx((3.8, 3.5, 0.0), abs=0.02)
+
+    server.feedback.clear()
+    look_at(page, viewer, -3.0, 0.0)
+    start = on_screen(page, (-3.17, -0.17, 0.2))  # beside the arrow that points up
+    page.tab.mouse.move(*start)
+    page.tab.mouse.down()
+    page.tab.mouse.move(start[0] + 75, start[1], steps=5)  # a quarter about the camera's up
+    page.tab.mouse.up()
+    last = wait_for(page, server, UP)[-1]
+    turned = last.pose.orientation
+    assert (turned.x, turned.y, turned.z, turned.w) == pytest.approx((0, S, 0, S), abs=0.02)
+    assert (last.pose.position.x, last.pose.position.y) == (-3.0, 0.0)
+
+
+def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
+    page: Page, viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    chess = server.markers["chess_piece"]
+    chess.menu_entries = [MenuEntry(id=1, title="Castle")]
+    server.insert(chess)
+    server.apply()
+    page.wait_for(lambda: len(known(page)["chess_piece"]["menu"]) == 1, "the menu")
+    x, y = pose(page, "chess_piece")[0][:2]
+    look_at(page, viewer, x, y)
+    place = on_screen(page, (x, y, 0.2))
+    session = page.tab.context.new_cdp_session(page.tab)
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        where = [{"x": x, "y": y} for x, y in points]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": where})
+
+    touch("touchStart", place)
+    wait_for(page, server, UP)
+    touch("touchEnd")
+    page.tab.locator(".wv-menu").get_by_text("Castle").click()
+    assert wait_for(page, server, MENU)[-1].menu_entry_id == 1
+
+    server.feedback.clear()
+    touch("touchStart", place)
+    for step in range(1, 6):
+        touch("touchMove", (place[0], place[1] - 10.0 * step))
+    touch("touchEnd")
+    moved = wait_for(page, server, UP)[-1]
+    assert moved.pose.position.y == pytest.approx(y + 0.5, abs=0.05)
+    assert page.tab.locator(".wv-menu").count() == 0
+
+
+def test_a_browser_that_leaves_during_a_drag_lets_go(
+    page: Page, pages: list[Page], viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    other = pages[1]
+    look_at(other, viewer, 3.0, 3.0)
+    x, y = pose(other, "simple_2")[0][:2]
+    other.tab.mouse.move(*on_screen(other, (x, y, 0.2)))
+    other.tab.mouse.down()
+    other.tab.mouse.move(*on_screen(other, (x - 0.5, y, 0.2)), steps=4)
+    page.wait_for(lambda: known(page)["simple_2"]["holder"] is not None, "the holder")
+    other.tab.reload()
+    page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
+    assert wait_for(page, server, UP)[-1].marker_name == "simple_2"
+    other.tab.mouse.up()
+    other.wait_for(lambda: len(known(other)) == 13, "all markers again", 60)
+    other.tab.evaluate("document.body.classList.add('wv-folded')")
 
 
 def test_buttons_and_menus_report_clicks_and_no_shell_command_is_offered(

@@ -14,6 +14,7 @@ import { frameNode, sightOf } from "./sight.js";
 
 const HOLD_MS = 500; // after which the server is told that the drag goes on
 const LONG_MS = 600; // that a finger rests for the menu
+const VIBRATE_MS = 15;
 const CLICK_PX = 6;
 const BEFORE_PLACING = -1001;
 const DOES = { menu: "Show menu", button: "Activate" };
@@ -173,13 +174,15 @@ function release() {
   if (known.controlOf({ id, control })?.mode === "menu") show({ id, control, at, point });
 }
 
-// A finger that rests opens the menu, like the right button of a mouse.
+// A finger that rests opens the menu, like the right button of a mouse: as it is lifted, for that
+// would close a menu which is open by then.
 function rest() {
-  const { id, control, at } = drag;
+  const { id, control, at, pointer } = drag;
   send("release", {});
   end();
   poses.letGo(id);
-  show({ id, control, at, point: null });
+  asked = { id, control, at, pointer, isResting: true };
+  navigator.vibrate?.(VIBRATE_MS);
 }
 
 // It was taken from this page: the server's pose counts.
@@ -201,7 +204,7 @@ function followAsked(event) {
   if (event.pointerId !== asked.pointer) return true;
   const { at } = asked;
   const isFar = Math.hypot(event.clientX - at[0], event.clientY - at[1]) > CLICK_PX;
-  if (event.type === "pointerup" && event.button === 2) {
+  if (event.type === "pointerup" && (event.button === 2 || asked.isResting)) {
     const part = asked;
     asked = null;
     if (!isFar) show({ ...part, point: pointAt(at, part.id) });
