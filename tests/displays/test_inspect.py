@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
+import PIL.Image
 import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
@@ -332,6 +334,7 @@ def marker(
     at.transform("map", "odom")
     at.send("visualization_msgs/msg/MarkerArray", {"markers": markers})
     at.turn()
+    at.settle()
     (found,) = (name for name in at.nodes() if name.startswith(key))
     return pick(at, found, number, point)
 
@@ -359,7 +362,20 @@ def triangle_of_a_marker(bench: Benches) -> Details:
 def triangle_of_a_colorful_marker(bench: Benches) -> Details:
     colors = np.array([(1, 0, 0, 1)] * 6, np.float32)
     more = {"type": 11, "points": TRIANGLES, "colors": colors}
-    return marker(bench, "triangles 2", None, (10.2, 0.3, 0.0), **more)
+    return marker(bench, "colorful", None, (10.2, 0.3, 0.0), **more)
+
+
+def texture_of_a_marker(bench: Benches) -> Details:
+    png = io.BytesIO()
+    PIL.Image.new("RGB", (2, 2)).save(png, "png")
+    texture = {"format": "png", "data": png.getvalue()}
+    uvs = np.zeros((6, 2), np.float32)
+    more = {"texture_resource": "embedded://a.png", "texture": texture, "uv_coordinates": uvs}
+    return marker(bench, "triangles 2", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES, **more)
+
+
+def text_of_a_marker(bench: Benches) -> Details:
+    return marker(bench, "texts", 1, type=9, text="Dock")
 
 
 def grid(bench: Benches) -> Details:
@@ -476,6 +492,8 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     line_of_a_marker: ("Marker a/1", {"Type": "LINE_STRIP", "Age": "0.0 s"}),
     triangle_of_a_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST", "Points": "6"}),
     triangle_of_a_colorful_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST"}),
+    texture_of_a_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST"}),
+    text_of_a_marker: ("Marker a/1", {"Type": "TEXT_VIEW_FACING", "Text": "Dock"}),
     grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
     axes: ("Axes of odom", {"Length": "1 m"}),
     line_of_a_display_that_does_not_know: ("Line 2", {}),

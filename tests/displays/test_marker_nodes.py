@@ -190,6 +190,26 @@ def test_triangles_are_scaled_and_those_of_one_colour_are_one_node() -> None:
     np.testing.assert_array_equal(node.faces, [(0, 1, 2), (3, 4, 5)])
 
 
+def test_triangles_of_several_colours_are_one_node_with_the_id_of_each() -> None:
+    where = points((0, 0, 0), (1, 0, 0), (0, 1, 0))
+
+    def triangle(*rgba: tuple[float, float, float, float]) -> dict[str, Any]:
+        return marker(Marker.TRIANGLE_LIST, points=where, colors=colors(*rgba))
+
+    corner_by_corner = triangle((1, 0, 0, 1), (0, 1, 0, 1), (0, 0, 1, 1))
+    faces = (triangle((1, 1, 0, alpha)) for alpha in (1, 0.4, 0))
+    nodes = drawn(corner_by_corner, *faces)
+    assert nodes.keys() == {"colorful triangles", "clear triangles"}
+    whole, part = nodes["colorful triangles"], nodes["clear triangles"]
+    assert isinstance(whole, Mesh)
+    assert isinstance(part, Mesh)
+    assert (whole.ids.tolist(), part.ids.tolist()) == ([0, 1], [2])  # pyright: ignore
+    red, green, blue, yellow = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0)
+    shown = np.array([(*rgb, 255) for rgb in (red, green, blue, yellow, yellow, yellow)])
+    np.testing.assert_array_equal(whole.colors, shown)
+    assert np.asarray(part.colors)[part.faces[0], 3].tolist() == [102] * 3
+
+
 def test_transparent_triangles_have_two_sides() -> None:
     where = points((0, 0, 0), (1, 0, 0), (0, 1, 0))
     (node,) = drawn(marker(Marker.TRIANGLE_LIST, rgba=(1, 0, 0, 0.5), points=where)).values()

@@ -206,6 +206,34 @@ def test_a_mesh_is_seen_from_below_and_never_black(view: Any) -> None:
     assert blue < green < red
 
 
+def test_colours_of_corners_and_ends_are_mixed_as_in_rviz(view: Any) -> None:
+    """In sRGB; the number of corners may change, and a mesh may have one colour again."""
+    vertices, faces = square(1.0)
+    is_left = vertices[:, 0] < 0
+    rgba = np.where(is_left[:, None], (200, 0, 0, 255), (0, 200, 0, 255)).astype(np.uint8)
+    ends = np.array([[(200, 0, 0), (0, 200, 0)]], np.uint8)
+    middle = (100, 100, 0)
+
+    def shown(node: Node) -> Any:
+        view.scene.upsert("base_link", "it", node)
+        view.show()
+        return view.color_at((0.0, 0.0, 0.0))
+
+    assert shown(Lines(floats(((-1, 0, 0), (1, 0, 0))), ends, 0.5, "m")) == near(middle)
+    assert shown(Mesh(vertices, faces, COLOR, colors=rgba)) == near(middle)
+    twice = np.concatenate((vertices, vertices + floats(0, 0, 0.01)))
+    both, blue = np.concatenate((faces, faces + np.uint32(4))), rgba[:, [2, 1, 0, 3]]
+    mesh = Mesh(twice, both, COLOR, colors=np.concatenate((rgba, blue)))
+    assert shown(mesh) == near((0, 100, 100))
+    clear = rgba * np.array((1, 1, 1, 0), np.uint8)
+    assert shown(Mesh(vertices, faces, COLOR, colors=clear)) == BACKGROUND
+    assert shown(Mesh(vertices, faces, COLOR)) == near(COLOR)
+
+
+def near(color: Any) -> Any:
+    return pytest.approx(color, abs=12)
+
+
 def test_the_opacity_of_a_mesh_shows_what_is_behind(view: Any) -> None:
     view.scene.upsert("base_link", "it", Mesh(*square(1.0), (255, 255, 255), opacity=0.5))
     view.show()

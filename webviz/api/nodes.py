@@ -152,7 +152,7 @@ class Labels(_Node):
 
 @dataclass(frozen=True, eq=False)
 class Mesh(_Node):
-    """A lit triangle mesh of one colour.
+    """A lit triangle mesh of one colour, or of one for each vertex.
 
     Args:
         vertices: float32 (N, 3), metres.
@@ -160,6 +160,8 @@ class Mesh(_Node):
         color: of the whole mesh.
         opacity: 0 to 1.
         ids: (M,), what each face is selected by; None if the mesh is one thing.
+        colors: RGBA of the vertices, uint8 (N, 4), instead of `color` and `opacity`; both sides of
+            all faces are shown.
     """
 
     vertices: F32
@@ -167,6 +169,7 @@ class Mesh(_Node):
     color: Rgb
     opacity: float = 1.0
     ids: Ids | None = None
+    colors: U8 | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,42 +5,44 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from webviz import Glb, Mesh, Node
 from webviz.data.messages.markers import Content, Marker
-from webviz_displays.markers.batch import F32, Batch, Rows, opacities, rgb
+from webviz_displays.markers.batch import F32, U8, Batch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
 from webviz_urdf import MeshPart, Surface, write_glb
 
+WHITE = (255, 255, 255)
 OneColor = tuple[int, int, int, float]
 
 
 def triangles_of(batch: Batch, pictures: Mapping[int, bytes]) -> dict[str, Node]:
-    """A node for the triangles of each colour, and one for each marker with several.
+    """A node for the triangles of each colour, one for those with several, one for each texture.
 
     Args:
         batch: the markers.
         pictures: PNG or JPEG by the row of the marker that it covers.
     """
     plain: dict[OneColor, list[int]] = {}
+    colorful: dict[bool, list[int]] = {}
     nodes: dict[str, Node] = {}
     for row in np.flatnonzero(batch.types == Marker.TRIANGLE_LIST).tolist():
         content = batch.contents[row]
         if not len(content.points) or len(content.points) % 3:
             continue
         colors = corner_colors(content)
-        if colors is None and row not in pictures:
-            opacity = float(opacities(batch.colors[row, 3]))
+        if row in pictures:
+            if colors is None or colors[:, 3].any():
+                nodes[f"triangles {batch.ids[row]}"] = Glb(_covered(batch, row, pictures[row]))
+        elif colors is not None:
+            is_clear = bool((opacities(colors[:, 3]) < 1.0).any())
+            colorful.setdefault(is_clear, []).append(row)
+        elif (opacity := float(opacities(batch.colors[row, 3]))) > 0.0:
             red, green, blue = rgb(batch.colors[row]).tolist()
-            if opacity > 0.0:
-                plain.setdefault((red, green, blue, opacity), []).append(row)
-        elif colors is None or colors[:, 3].any():
-            key = f"triangles {batch.ids[row]}"
-            nodes[key] = Glb(_many_colors(batch, row, colors, pictures.get(row)))
+            plain.setdefault((red, green, blue, opacity), []).append(row)
     for (*color, opacity), rows in plain.items():
-        vertices = _corners(batch, np.array(rows))
-        faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
-        ids = np.repeat(batch.ids[rows], [len(batch.contents[row].points) // 3 for row in rows])
+        vertices, faces, ids = _joined(batch, rows)
         if opacity < 1.0:  # transparent meshes show their front only
             faces = np.concatenate((faces, faces[:, ::-1] + np.uint32(len(vertices))))
             vertices = np.concatenate((vertices, vertices))
@@ -49,6 +51,15 @@ def triangles_of(batch: Batch, pictures: Mapping[int, bytes]) -> dict[str, Node]
         nodes[f"triangles {red} {green} {blue} {opacity:.3f}"] = Mesh(
             vertices, faces, (red, green, blue), opacity, ids
         )
+    for is_clear, rows in colorful.items():
+        vertices, faces, ids = _joined(batch, rows)
+        rgba = np.concatenate([_rgba(batch.contents[row]) for row in rows])
+        if is_clear:
+            is_visible = rgba[faces, 3].any(axis=1)
+            faces, ids = faces[is_visible], ids[is_visible]
+        if len(faces):
+            key = "clear triangles" if is_clear else "colorful triangles"
+            nodes[key] = Mesh(vertices, faces, WHITE, ids=ids, colors=rgba)
     return nodes
 
 
@@ -60,22 +71,35 @@ def corner_colors(content: Content) -> F32 | None:
     return np.repeat(content.colors, 3, axis=0) if given and 3 * given == corners else None
 
 
+def _joined(batch: Batch, rows: list[int]) -> tuple[F32, NDArray[np.uint32], NDArray[np.int64]]:
+    """The corners of all triangles (N, 3), the faces (M, 3), and of which marker each is (M,)."""
+    vertices = _corners(batch, np.array(rows))
+    faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
+    return vertices, faces, np.repeat(batch.ids[rows], batch.counts[rows] // 3)
+
+
 def _corners(batch: Batch, rows: Rows) -> F32:
     """The corners of all triangles, float32 (N, 3)."""
     scaled = [batch.contents[row].points * batch.scales[row] for row in rows.tolist()]
     return items_of(batch, rows, scaled).xyz.astype(np.float32)
 
 
-def _many_colors(batch: Batch, row: int, colors: F32 | None, picture: bytes | None) -> bytes:
-    """A binary glTF of triangles with a colour for each corner, a picture, or both."""
-    vertices = _corners(batch, np.array([row]))
-    faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
-    uvs = None if picture is None else batch.contents[row].uv_coordinates
-    if colors is not None:
-        alphas = np.rint(255.0 * opacities(colors[:, 3])).astype(np.uint8)
-        surface = Surface(texture=picture, is_clear=bool(alphas.min() < 255) or picture is not None)
-        corners = np.column_stack((rgb(colors), alphas))
-        return write_glb([MeshPart(vertices, faces, surface, None, uvs, corners)])
+def _rgba(content: Content) -> U8:
+    """The colour of each corner, uint8 (N, 4)."""
+    colors = corner_colors(content)
+    assert colors is not None
+    alphas = np.rint(255.0 * opacities(colors[:, 3])).astype(np.uint8)
+    return np.column_stack((rgb(colors), alphas))
+
+
+def _covered(batch: Batch, row: int, picture: bytes) -> bytes:
+    """A binary glTF of triangles with a picture, multiplied by their colours."""
+    vertices, faces, _ = _joined(batch, [row])
+    content = batch.contents[row]
+    uvs = content.uv_coordinates
+    if corner_colors(content) is not None:
+        surface = Surface(texture=picture, is_clear=True)
+        return write_glb([MeshPart(vertices, faces, surface, None, uvs, _rgba(content))])
     red, green, blue = (rgb(batch.colors[row]) / 255.0).tolist()
     rgba = (red, green, blue, float(opacities(batch.colors[row, 3])))
     return write_glb([MeshPart(vertices, faces, Surface(rgba, picture, is_clear=True), None, uvs)])

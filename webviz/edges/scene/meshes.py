@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.api.nodes import Glb, Mesh, Models
+from webviz.api.nodes import F32, U8, Glb, Mesh, Models
 from webviz.edges.scene.drawn import Props, SingleNode, finite, finite_rows
 from webviz.edges.scene.glb import matte, pack
 
+COLORFUL = "toon5"
+"""viser's material of meshes with a colour for each vertex, of which only the name is left."""
+
 
 class MeshDrawn(SingleNode[Mesh]):
-    """A mesh of one colour, lit from both sides as RViz lights its triangle lists."""
+    """A mesh, lit from both sides as RViz lights its triangle lists."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
         """A mesh without faces."""
@@ -25,21 +28,45 @@ class MeshDrawn(SingleNode[Mesh]):
         )
 
     def props(self, node: Mesh) -> tuple[Props, ...]:
-        """Triangles, then the look; triangles with a vertex that is not finite are dropped."""
+        """Triangles, then the look; triangles with a vertex that is not finite are dropped.
+
+        Raises:
+            ValueError: there is not one colour for each vertex.
+        """
         vertices = np.ascontiguousarray(node.vertices, dtype=np.float32)
         faces = np.ascontiguousarray(node.faces, dtype=np.uint32)
         rows = finite_rows(vertices)
         if not rows.all():
             vertices = np.where(rows[:, None], vertices, np.float32(0))
             faces = faces[rows[faces].all(axis=1)]
+        if node.colors is not None:
+            if len(node.colors) != len(vertices):
+                counts = f"{len(node.colors)} colours for {len(vertices)} vertices"
+                raise ValueError(f"A mesh has {counts}.")
+            vertices = np.concatenate((vertices, _as_vertices(node.colors)))
         return {"vertices": vertices, "faces": faces}, _look(node)
 
 
 def _look(node: Mesh) -> Props:
-    """Transparent shapes show their front faces only, as in RViz."""
-    if node.opacity >= 1:
-        return {"color": node.color, "opacity": None, "side": "double"}
-    return {"color": node.color, "opacity": float(node.opacity), "side": "front"}
+    """Transparent shapes of one colour show their front faces only, as in RViz."""
+    if node.colors is not None:
+        opacity = None if (node.colors[:, 3] == 255).all() else 1.0
+        look = {"color": (255, 255, 255), "opacity": opacity, "side": "double"}
+        return {**look, "material": COLORFUL}
+    opacity = None if node.opacity >= 1 else float(node.opacity)
+    side = "double" if opacity is None else "front"
+    return {"color": node.color, "opacity": opacity, "side": side, "material": "standard"}
+
+
+def _as_vertices(colors: U8) -> F32:
+    """Colours (N, 4) as further vertices, which have no face, float32 (N, 3); see colors.js.
+
+    Each is (256 R + G) / 65536, (256 B + A) / 65536, 0. viser's meshes have one colour.
+    """
+    pairs = colors.astype(np.uint16)
+    values = np.zeros((len(colors), 3), np.float32)
+    values[:, :2] = (pairs[:, 0::2] << 8 | pairs[:, 1::2]) / np.float32(1 << 16)
+    return values
 
 
 class GlbDrawn(SingleNode[Glb]):

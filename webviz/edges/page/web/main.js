@@ -1,6 +1,7 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
 import * as channel from "./channel.js";
+import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
 import * as handles from "./handles/handles.js";
@@ -21,7 +22,7 @@ import * as viser from "./viser_page.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  for (const part of [shell, page, inStep, tiles, labels, lines, shade, contact]) part.install();
+  for (const part of [shell, page, inStep, tiles, labels, lines, shade, colors, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay]) part.install();
   toolbar.install(shell.places);

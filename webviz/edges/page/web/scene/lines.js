@@ -3,7 +3,8 @@
 // The ends of lines with a width in metres are square, as RViz's, where viser's are round; joints
 // stay round. And a segment that passes by the camera is cut where it is well off the screen. viser
 // cuts it next to the camera, where its projection is so long that the depth along it is wrong by
-// centimetres: what lies in one plane with the floor came and went. Shaders and attributes are those
+// centimetres: what lies in one plane with the floor came and went. Between the ends, colours are
+// mixed as in RViz, in sRGB. Shaders and attributes are those
 // of LineMaterial and LineSegmentsGeometry in three-stdlib.
 
 import * as viser from "../viser_page.js";
@@ -24,11 +25,21 @@ const cut = (source) =>
 
 const passing = (source) =>
   "attribute vec2 webvizOpen; varying vec2 vOpen;" +
-  cut(source).replace("worldStart = start.xyz;", "worldStart = start.xyz; vOpen = webvizOpen;");
+  cut(source)
+    .replace("worldStart = start.xyz;", "worldStart = start.xyz; vOpen = webvizOpen;")
+    .replace(
+      "? instanceColorStart : instanceColorEnd;",
+      "$& vLineColor.rgb = pow(vLineColor.rgb, vec3(1.0 / 2.2));",
+    );
 
 const square = (source) =>
   "varying vec2 vOpen; float along;" +
   source
+    .replace("diffuseColor.rgb *= vLineColor;", "diffuseColor.rgb *= pow(vLineColor, vec3(2.2));")
+    .replace(
+      "diffuseColor *= vLineColor;",
+      "diffuseColor *= vec4(pow(vLineColor.rgb, vec3(2.2)), vLineColor.a);",
+    )
     .replace("mua = clamp(", "along = mua; mua = clamp(")
     .replace(
       "vec3 p1 = worldStart",

@@ -22,6 +22,9 @@ const factors = {
   MeshToonMaterial: `0.8 + 0.2 * ${facing} * ${facing}`,
 };
 
+/** Shades a material of another kind like a surface. */
+export const lit = shade(factors.MeshStandardMaterial);
+
 // Before the first of a kind is drawn, for viser's batches keep what a material had when it was.
 // A physical material is a standard one with more to it.
 function teach({ material }) {

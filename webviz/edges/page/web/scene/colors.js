@@ -1,0 +1,59 @@
+// Meshes with a colour for each vertex.
+//
+// viser's have one colour. Here the colours come as further vertices, which no face has, see
+// scene/meshes.py, and its toon material of five steps says that they are there. Between the vertices
+// they are mixed as in RViz, in sRGB.
+
+import * as viser from "../viser_page.js";
+import { lit } from "./shade.js";
+
+const STEPS = 5;
+
+export function install() {
+  viser.beforeRender((gl, scene) => scene.traverse(paint));
+}
+
+function paint({ isMesh, isInstancedMesh, geometry, material }) {
+  if (!isMesh || isInstancedMesh || material.gradientMap?.image.width !== STEPS) return;
+  const { position } = geometry.attributes;
+  if (!position) return;
+  const version = `${position.version} ${position.array.length}`;
+  if (geometry.webvizColors !== version) {
+    geometry.webvizColors = version;
+    readColors(geometry, position);
+  }
+  if (material.webviz) return;
+  material.webviz = true;
+  material.vertexColors = true;
+  material.depthWrite = !material.transparent;
+  material.onBeforeCompile = (shader) => {
+    lit(shader);
+    shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>", `
+      diffuseColor *= vec4(pow(vColor.rgb, vec3(2.2)), vColor.a);`);
+  };
+  material.customProgramCacheKey = () => "webviz colors";
+  material.needsUpdate = true;
+}
+
+function readColors(geometry, { array, constructor }) {
+  const count = array.length / 6;
+  let { color } = geometry.attributes;
+  if (color?.count !== count) {
+    geometry.dispose(); // frees the buffers in the graphics card; those that stay are made anew
+    geometry.setAttribute("color", (color = new constructor(new Float32Array(4 * count), 4)));
+  }
+  const colors = color.array;
+  for (let i = 0, j = array.length / 2; i < colors.length; i += 4, j += 3) {
+    const [red, blue] = [array[j] * 256, array[j + 1] * 256];
+    colors[i] = Math.floor(red) / 255;
+    colors[i + 1] = ((red % 1) * 256) / 255;
+    colors[i + 2] = Math.floor(blue) / 255;
+    colors[i + 3] = ((blue % 1) * 256) / 255;
+  }
+  color.needsUpdate = true;
+  // Without the colours; of what is drawn and what is picked.
+  const corners = new constructor(array.subarray(0, array.length / 2), 3);
+  geometry.computeBoundingBox();
+  geometry.boundingBox.setFromBufferAttribute(corners);
+  geometry.boundingBox.getBoundingSphere(geometry.boundingSphere);
+}
