@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -161,7 +162,12 @@ def test_what_has_expired_is_said_with_its_age(shown: Benches) -> None:
     bench.turn(4.0)
     level, text = bench.statuses()["Markers"]
     assert level == "WARN"
-    assert "a/1, expired 3.0 s ago" in text
+    assert "a/1, expired 3 s ago" in text
+    bench.turn(2.0)
+    assert "a/1, expired 5 s ago" in bench.statuses()["Markers"][1]
+    send(bench, cube(2), cube(2, action=DELETE), cube(3))
+    send(bench, cube(3, action=DELETE))
+    assert "a/3, was deleted just now" in bench.statuses()["Markers"][1]
 
 
 # Transforms
@@ -357,6 +363,67 @@ def test_a_reset_forgets_all_markers(shown: Benches) -> None:
     bench.runner.reset()
     bench.turn()
     assert xs(bench) == []
+
+
+EXTREMES = (0.0, -1.0, 1e-308, 1e308, -1e308, math.inf, -math.inf, NAN)
+POINTS = [{}, {"x": 1.0}, {"y": 1.0}]
+
+
+def extremes(type_: int) -> list[dict[str, Any]]:
+    """Markers of a type of which each has one number that no program should send."""
+    made = []
+    for value in EXTREMES:
+        short = float(np.float32(np.clip(value, -3e38, 3e38))) if math.isfinite(value) else value
+        point, color = {"x": value}, {"r": short, "a": 1.0}
+        made += [
+            {"pose": {"position": point, "orientation": {"w": 1.0}}},
+            {"pose": {"orientation": {"z": value, "w": 1.0}}},
+            {"scale": {"x": value, "y": 1.0, "z": value}},
+            {"color": color},
+            {"color": {"r": 1.0, "a": short}},
+            {"points": [point, *POINTS[1:]]},
+            {"colors": [color, color, {"a": short}]},
+            {"uv_coordinates": [{"u": short}] * 3, "texture_resource": "embedded://a"},
+        ]
+    lifetimes = [{"sec": sec, "nanosec": 0xFFFF_FFFF} for sec in (-(2**31), 2**31 - 1)]
+    made += [{"lifetime": each} for each in lifetimes]
+    made += [{"stamp_ns": 2**31 * SECOND - 1}, {"frame": "/nowhere"}, {"frame": ""}]
+    filled = {"type": type_, "points": POINTS, "text": "a", "mesh_resource": "package://no/a.stl"}
+    return [cube(**(filled | each), id=i) for i, each in enumerate(made)]
+
+
+@pytest.mark.parametrize("is_locked", [False, True])
+def test_no_number_draws_what_is_not_finite_or_stops_the_rest(
+    shown: Benches, is_locked: bool
+) -> None:
+    bench = shown([cube(7, 1.0, ns="good")])
+    for type_ in range(14):
+        named = [each | {"ns": f"{type_}", "frame_locked": is_locked} for each in extremes(type_)]
+        send(bench, *named)
+        send(bench, *(each | {"id": each["id"] + 1} for each in named))
+    assert 1.0 in xs(bench)
+    for node in bench.nodes().values():
+        for value in vars(node).values():
+            if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+                assert np.isfinite(value).all()
+    assert len(bench.statuses()) < 60
+    send(bench, {"action": DELETEALL})
+    assert not bench.nodes()
+
+
+def test_very_many_markers_and_very_long_texts_are_limited(
+    shown: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz_displays.markers.store.MAX_MARKERS", 300)
+    monkeypatch.setattr("webviz_displays.markers.report.MAX_TEXTS", 3)
+    long = cube(1, type=TEXT, text="ab\n" * 3_000_000)
+    bench = shown([long, cube(2, 1.0)], [cube(i, ns="b") for i in range(400)])
+    assert len(xs(bench)) == 300
+    statuses = bench.statuses()
+    assert "101 markers refused" in statuses["Limit"][1]
+    assert "has 9000000 characters" in statuses["Marker a/1"][1]
+    send(bench, *(cube(i, ns="b", type=TEXT, text="a") for i in range(4)))
+    assert "show 3 of all texts; these are 4" in bench.statuses()["Texts"][1]
 
 
 def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:

@@ -13,6 +13,11 @@ Key = tuple[str, int]
 """Namespace and id: what a marker is known by."""
 
 
+def name_of(key: Key) -> str:
+    """A marker in texts."""
+    return f"{key[0]}/{key[1]}"
+
+
 @dataclass
 class Effect:
     """The net effect of a message: nothing is drawn before all its markers are processed.

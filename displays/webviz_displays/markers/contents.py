@@ -1,4 +1,4 @@
-"""Points, texts and files of a marker: whether two are equal, and how much memory they take."""
+"""Points, texts and files of markers: whether two are equal, and how much memory they take."""
 
 from __future__ import annotations
 
@@ -47,3 +47,29 @@ def detached(content: Content) -> Content:
         if len(values[name]):
             values[name] = values[name].copy()
     return Content(**values)
+
+
+class Memory:
+    """How much memory the contents of all rows take.
+
+    Args:
+        limit: bytes.
+    """
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._sizes: dict[int, int] = {}
+        self._total = 0
+
+    def take(self, row: int, size: int) -> bool:
+        """Take so many bytes for a row instead of those before; False if there is no room."""
+        total = self._total - self._sizes.get(row, 0) + size
+        if total > self._limit:
+            return False
+        self._total = total
+        self._sizes[row] = size
+        return True
+
+    def free(self, row: int) -> None:
+        """A row has no content any more."""
+        self._total -= self._sizes.pop(row, 0)

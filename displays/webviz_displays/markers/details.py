@@ -7,8 +7,10 @@ import re
 import numpy as np
 
 from webviz import Details, Hit, Pose
+from webviz_displays.markers.actions import name_of
 from webviz_displays.markers.faults import type_name
-from webviz_displays.markers.table import FOREVER, Table
+from webviz_displays.markers.store import Store
+from webviz_displays.markers.table import FOREVER
 
 SECOND = 1_000_000_000
 _COLORFUL = re.compile(r"triangles (\d+) in ")
@@ -23,11 +25,13 @@ def serial_of(hit: Hit) -> int | None:
     return int(found[1]) if found else None
 
 
-def marker_details(table: Table, serial: int, now_ns: int) -> Details | None:
-    """A marker by its serial number, None if it was deleted."""
+def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
+    """A marker by its serial number, None if it is not known any more."""
+    table = store.table
     rows = np.flatnonzero(table.serials == serial)
     if not len(rows) or (key := table.keys[row := int(rows[0])]) is None:
-        return None
+        gone = store.remarks.gone.get(serial)
+        return gone and Details(f"Marker {name_of(gone.key)}", {gone.how: gone.age(now_ns)})
     wanted, content = table.wanted[row], table.wanted_contents[row]
     values: dict[str, object] = {
         "Namespace": key[0],
@@ -46,7 +50,7 @@ def marker_details(table: Table, serial: int, now_ns: int) -> Details | None:
         values["Points"] = len(content.points)
     pose = Pose(tuple(wanted["position"].tolist()), tuple(wanted["wxyz"].tolist()))
     return Details(
-        f"Marker {key[0]}/{key[1]}",
+        f"Marker {name_of(key)}",
         values
         | {
             f"Pose in {table.frames[row] or 'the fixed frame'}": pose,

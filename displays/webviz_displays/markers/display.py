@@ -14,7 +14,12 @@ from webviz.data import messages
 from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.blocks import Blocks
 from webviz_displays.markers.details import marker_details, serial_of
-from webviz_displays.markers.report import report_markers, report_namespaces, report_waiting
+from webviz_displays.markers.report import (
+    report_markers,
+    report_namespaces,
+    report_nothing,
+    report_waiting,
+)
 from webviz_displays.markers.store import Store
 
 SECOND = 1_000_000_000
@@ -110,6 +115,7 @@ class Markers(Display):
             report_waiting(state.store, ctx)
             state.readout = second, dict(ctx.statuses)
         ctx.statuses.update(state.readout[1])
+        report_nothing(state.store, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A marker."""
@@ -117,7 +123,7 @@ class Markers(Display):
         serial = serial_of(hit)
         if state.store is None or serial is None:
             return super().inspect(hit, ctx)
-        return marker_details(state.store.table, serial, ctx.frames.now_ns)
+        return marker_details(state.store, serial, ctx.frames.now_ns)
 
     @property
     def _off(self) -> set[str]:

@@ -5,14 +5,19 @@ from __future__ import annotations
 import heapq
 from collections.abc import Set
 
+import numpy as np
+
 from webviz import Context, Level
+from webviz.data.messages.markers import Marker
 from webviz.data.words import counted, listed
-from webviz_displays.markers.actions import Key
+from webviz_displays.markers.actions import Key, name_of
 from webviz_displays.markers.blocks import Blocks
 from webviz_displays.markers.store import MAX_MARKERS, Store
 
 NAMED = 10
 """Markers and namespaces that get a status of their own; the rest is counted."""
+MAX_TEXTS = 4096
+"""That a page of viser shows, those of other displays included."""
 SECOND = 1_000_000_000
 
 
@@ -26,7 +31,7 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         loading: how many files are being loaded.
         ctx: receives the statuses.
     """
-    table = store.table
+    table, remarks = store.table, store.remarks
     faults: dict[Key, tuple[Level, str]] = {
         key: fault
         for block in blocks
@@ -34,39 +39,43 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         if (key := table.keys[row]) is not None
     }
     refused = {
-        key: (Level.ERROR, f"{why} Fix the publisher.") for key, why in store.refused.items()
+        key: (Level.ERROR, f"{why} Fix the publisher.") for key, why in remarks.refused.items()
     }
     faults = {**refused, **faults}
     shown = sum(block.shown for block in blocks)
     _report_total(store, shown, off, ctx)
     worst = sorted(faults.items(), key=lambda item: -item[1][0])
     for key, (level, text) in worst[:NAMED]:
-        (ctx.error if level is Level.ERROR else ctx.warn)(f"Marker {_name(key)}", text)
+        (ctx.error if level is Level.ERROR else ctx.warn)(f"Marker {name_of(key)}", text)
     if len(worst) > NAMED:
         ctx.warn("Other markers", f"{len(worst) - NAMED} more are invalid or invisible.")
+    texts = int(np.count_nonzero(table.is_shown & (table.shown["type"] == Marker.TEXT_VIEW_FACING)))
+    if texts > MAX_TEXTS:
+        text = f"Browsers show {MAX_TEXTS} of all texts; these are {texts}. Delete some."
+        ctx.warn("Texts", text)
     if loading:
         (ctx.ok if shown else ctx.warn)("Loading", f"Loading {counted(loading, 'file')}.")
-    if store.duplicates:
-        names = listed([_name(key) for key in dict.fromkeys(store.duplicates)], NAMED)
+    if remarks.duplicates:
+        names = listed([name_of(key) for key in dict.fromkeys(remarks.duplicates)], NAMED)
         ctx.warn(
             "Duplicates",
             f"The last array has several markers with one namespace and id: {names}. Only the last "
             "of each is shown. Use different ids.",
         )
-    if store.tilted:
-        names = listed([_name(key) for key in sorted(store.tilted)[:NAMED]], NAMED)
+    if remarks.tilted:
+        names = listed([name_of(key) for key in sorted(remarks.tilted)[:NAMED]], NAMED)
         ctx.warn(
             "Orientation",
-            f"The orientation of {counted(len(store.tilted), 'marker')} is not a unit quaternion "
+            f"The orientation of {counted(len(remarks.tilted), 'marker')} is not a unit quaternion "
             f"({names}). It is normalised, all zeros mean no rotation. Fix the publisher.",
         )
-    if store.unknown_actions:
-        actions = listed([str(each) for each in dict.fromkeys(store.unknown_actions)], NAMED)
+    if remarks.unknown_actions:
+        actions = listed([str(each) for each in dict.fromkeys(remarks.unknown_actions)], NAMED)
         ctx.warn("Action", f"Unknown action {actions}: use ADD 0, DELETE 2 or DELETEALL 3.")
-    if store.overflow:
+    if remarks.overflow:
         ctx.error(
             "Limit",
-            f"{store.overflow} markers refused: the limit is {MAX_MARKERS}. Delete old ones, or "
+            f"{remarks.overflow} markers refused: the limit is {MAX_MARKERS}. Delete old ones, or "
             "give them a lifetime.",
         )
 
@@ -79,8 +88,7 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
     hidden = sum(namespaces[name] for name in named_off)
     waiting = sum(len(rows) for rows in store.waiting.values())
     if not total:
-        ctx.warn("Markers", f"No markers.{_last_expired(store, ctx)}")
-        return
+        return  # see report_nothing
     text = (
         f"{shown} of {counted(total, 'marker')} shown"
         if shown < total
@@ -94,15 +102,20 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
     (ctx.ok if shown else ctx.warn)("Markers", "; ".join(parts) + ".")
 
 
-def _last_expired(store: Store, ctx: Context) -> str:
-    if not store.expired:
-        return " All were deleted, or none has arrived. Check what the publisher sends."
-    key, at_ns = next(reversed(store.expired.items()))
-    ago = (ctx.frames.now_ns - at_ns) / SECOND
-    return (
-        f" The last one, {_name(key)}, expired {ago:.1f} s ago. Publish markers more often than "
-        "their lifetime ends."
-    )
+def report_nothing(store: Store, ctx: Context) -> None:
+    """Report why there are no markers."""
+    if len(store.table):
+        return
+    last = next(reversed(store.remarks.gone.values()), None)
+    if last is None:
+        ctx.warn("Markers", "No markers. None has arrived. Check what the publisher sends.")
+        return
+    did, remedy = {
+        "Expired": ("expired", "Publish markers more often than their lifetime ends."),
+        "Deleted": ("was deleted", "Check what the publisher sends."),
+    }[last.how]
+    ago = last.age(ctx.frames.now_ns)
+    ctx.warn("Markers", f"No markers. The last one, {name_of(last.key)}, {did} {ago}. {remedy}")
 
 
 def report_waiting(store: Store, ctx: Context) -> None:
@@ -112,7 +125,7 @@ def report_waiting(store: Store, ctx: Context) -> None:
     count = sum(len(rows) for rows in store.waiting.values())
     (frame, stamp_ns), rows = max(store.waiting.items(), key=lambda item: len(item[1]))
     key = store.table.keys[rows[0]]
-    first = "" if key is None else f" ({_name(key)}{', ...' if count > 1 else ''})"
+    first = "" if key is None else f" ({name_of(key)}{', ...' if count > 1 else ''})"
     reason = ctx.frames.why_not(frame, stamp_ns)
     verb = "waits" if count == 1 else "wait"
     ctx.error("Transform", f"{counted(count, 'marker')}{first} {verb} for a transform. {reason}")
@@ -131,7 +144,3 @@ def report_namespaces(store: Store, off: Set[str], ctx: Context) -> None:
         ctx.ok(f"Namespace '{namespace}'", text)
     if len(counts) > NAMED:
         ctx.ok("Other namespaces", f"{len(counts) - NAMED} more.")
-
-
-def _name(key: Key) -> str:
-    return f"{key[0]}/{key[1]}"

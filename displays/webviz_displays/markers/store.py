@@ -10,21 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Frames, Pose
-from webviz.data.messages.markers import NOTHING, Content, MarkerSequence
+from webviz.data.messages.markers import Content, MarkerSequence
 from webviz.data.rotations import matrices, multiply_many, normalized, w_first
 from webviz_displays.markers.actions import Key, effect_of
-from webviz_displays.markers.contents import detached, is_same, size_of
+from webviz_displays.markers.contents import Memory, detached, is_same, size_of
 from webviz_displays.markers.faults import is_valid
+from webviz_displays.markers.remarks import REMEMBERED, Gone, Remarks
 from webviz_displays.markers.table import FOREVER, LOOK, Table
 
 MAX_MARKERS = 100_000
 """Of a display; further ones are refused."""
 MAX_BYTES = 256_000_000
 """Of the lists, texts and meshes of a display; markers beyond it are refused."""
+MAX_TEXT = 10_000
+"""Characters of one marker; browsers draw each of them as two triangles."""
 SHORTEST_NS = 100_000
 """Lifetimes up to this mean for ever, as in RViz."""
-REMEMBERED = 50
-"""Markers that were refused or have expired, for statuses."""
 MAX_LOOKUPS = 1000
 """Frames and stamps that are looked up in one turn of the frame loop."""
 TILTED = 1e-3
@@ -49,22 +50,10 @@ class Store:
         """Rows to be drawn anew; whoever draws them clears it."""
         self.waiting: dict[Place, list[int]] = {}
         """Rows that have no pose yet."""
-        self.refused: dict[Key, str] = {}
-        """Why the newest version of a marker cannot be drawn, of the last ones."""
-        self.expired: dict[Key, int] = {}
-        """When the last ones have expired."""
-        self.tilted: set[Key] = set()
-        """Markers whose orientation is not a unit quaternion."""
-        self.duplicates: list[Key] = []
-        """Of the last array."""
-        self.unknown_actions: list[int] = []
-        """Of the last message that had any."""
-        self.overflow = 0
-        """Markers that were refused since there are too many."""
+        self.remarks = Remarks()
         self._todo: set[int] = set()
         self._tried = -1
-        self._sizes: dict[int, int] = {}
-        self._bytes = 0
+        self._memory = Memory(MAX_BYTES)
         self._next_expiry = FOREVER
         self._fixed_frame = ""
 
@@ -81,16 +70,17 @@ class Store:
         self.expire(received_ns)
         effect = effect_of(markers)
         for key in effect.doomed(self.table.rows):
-            self._remove(key)
-        for key in effect.doomed(self.refused):
-            del self.refused[key]
+            self._remove(key, "Deleted", received_ns)
+        remarks = self.remarks
+        for key in effect.doomed(remarks.refused):
+            del remarks.refused[key]
         numbers = [i for same in effect.added.values() for i in same.values()]
         if numbers:
             self._put(markers, np.array(numbers, np.intp), received_ns)
-        if is_array and effect.duplicates != self.duplicates:
-            self.duplicates = effect.duplicates[:REMEMBERED]
+        if is_array:
+            remarks.duplicates = effect.duplicates[:REMEMBERED]
         if effect.unknown:
-            self.unknown_actions = effect.unknown[:REMEMBERED]
+            remarks.unknown_actions = effect.unknown[:REMEMBERED]
         self.version += 1
 
     def expire(self, now_ns: int) -> None:
@@ -101,10 +91,7 @@ class Store:
         expires = table.wanted["expires_ns"]
         for row in np.flatnonzero(expires <= now_ns).tolist():
             if key := table.keys[row]:
-                self.expired.pop(key, None)
-                self.expired[key] = int(expires[row])
-                self._remove(key)
-        _trim(self.expired)
+                self._remove(key, "Expired", int(expires[row]))
         self._next_expiry = int(table.wanted["expires_ns"].min())
         self.version += 1
 
@@ -116,16 +103,20 @@ class Store:
         for i in numbers.tolist():
             key = markers.namespaces[i], int(markers.ids[i])
             if not ok[i]:
-                self._refuse(key, "It has a number that is not finite, or more than 1e9 m.")
+                self.remarks.refuse(key, "It has a number that is not finite, or more than 1e9 m.")
+                continue
+            if (length := len(markers.contents[i].text)) > MAX_TEXT:
+                why = f"Its text has {length} characters; the limit is {MAX_TEXT}."
+                self.remarks.refuse(key, why)
                 continue
             if key not in table.rows and len(table) >= MAX_MARKERS:
-                self.overflow += 1
+                self.remarks.overflow += 1
                 continue
             row = table.row_of(key)
             if not self._put_content(row, markers.contents[i]):
-                self._refuse(key, "The markers of this display exceed 256 MB.")
+                self.remarks.refuse(key, "The markers of this display exceed 256 MB.")
                 if not table.is_shown[row]:
-                    self._remove(key)
+                    self._remove(key, "Deleted", received_ns)
                 continue
             rows.append(row)
             taken.append(i)
@@ -147,11 +138,7 @@ class Store:
                 self._todo.add(row)
             elif table.wanted_contents[row] is not table.shown_contents[row]:
                 self._todo.add(row)
-        if self.refused or self.expired:
-            for row in rows:
-                if key := table.keys[row]:
-                    self.refused.pop(key, None)
-                    self.expired.pop(key, None)
+        self.remarks.accept(table.keys[row] for row in rows)
 
     def _looks(
         self, markers: MarkerSequence, of: NDArray[np.intp], received_ns: int
@@ -161,10 +148,11 @@ class Store:
         wxyz, _ = normalized(w_first(xyzw))
         with np.errstate(over="ignore"):
             is_tilted = np.abs(np.linalg.norm(xyzw, axis=1) - 1.0) > TILTED
-        if is_tilted.any() or self.tilted:
-            for i, tilted in zip(of.tolist(), is_tilted.tolist(), strict=True):
+        tilted = self.remarks.tilted
+        if is_tilted.any() or tilted:
+            for i, is_so in zip(of.tolist(), is_tilted.tolist(), strict=True):
                 key = markers.namespaces[i], int(markers.ids[i])
-                (self.tilted.add if tilted else self.tilted.discard)(key)
+                (tilted.add if is_so else tilted.discard)(key)
         new["type"], new["locked"] = markers.types[of], markers.frame_locked[of]
         new["position"], new["wxyz"] = markers.positions[of], wxyz
         new["scale"], new["color"] = markers.scales[of], markers.colors[of]
@@ -177,32 +165,21 @@ class Store:
 
     def _put_content(self, row: int, content: Content) -> bool:
         """Keep the content of a version, the former if they are equal; whether there is room."""
-        table = self.table
-        before = table.wanted_contents[row]
-        if content is NOTHING and before is NOTHING:
+        if is_same(content, self.table.wanted_contents[row]):
             return True
-        if is_same(content, before):
-            return True
-        size = size_of(content)
-        if self._bytes - self._sizes.get(row, 0) + size > MAX_BYTES:
+        if not self._memory.take(row, size_of(content)):
             return False
-        self._bytes += size - self._sizes.pop(row, 0)
-        if size:
-            self._sizes[row] = size
-        table.wanted_contents[row] = detached(content)
+        self.table.wanted_contents[row] = detached(content)
         return True
 
-    def _refuse(self, key: Key, why: str) -> None:
-        self.refused.pop(key, None)
-        self.refused[key] = why
-        _trim(self.refused)
-
-    def _remove(self, key: Key) -> None:
-        was_shown = self.table.is_shown[self.table.rows[key]]
-        row = self.table.remove(key)
-        self._bytes -= self._sizes.pop(row, 0)
+    def _remove(self, key: Key, how: str, at_ns: int) -> None:
+        row = self.table.rows[key]
+        was_shown, serial = self.table.is_shown[row], int(self.table.serials[row])
+        self.table.remove(key)
+        self.remarks.go(serial, Gone(key, how, at_ns))
+        self._memory.free(row)
         self._todo.discard(row)
-        self.tilted.discard(key)
+        self.remarks.tilted.discard(key)
         if was_shown:
             self.changed.add(row)
 
@@ -299,11 +276,6 @@ class Store:
                 self._todo.update(rows)
         self.changed.update(loose)
         self.version += 1
-
-
-def _trim(remembered: dict[Key, Any]) -> None:
-    while len(remembered) > REMEMBERED:
-        del remembered[next(iter(remembered))]
 
 
 def _pose(place: Place, frames: Frames) -> Pose | None:
