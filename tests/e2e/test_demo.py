@@ -29,7 +29,7 @@ from rclpy.node import Node
 # Seen from straight above, with colours that tell the displays apart.
 CONFIG = """\
 fixed_frame: {fixed_frame}
-view: {{distance: 14.0, yaw: -1.570796, pitch: 1.5697}}
+view: {{distance: 9.0, yaw: -1.570796, pitch: 1.5697}}
 displays:
 - {{type: Map, alpha: 1.0}}
 - {{type: Axes, reference_frame: base_link, length: 0.01, radius: 0.001}}
@@ -63,8 +63,9 @@ def look(page: Page) -> Seen:
         return (np.column_stack([columns, rows]) + 0.5 - columns_rows[0]) @ to_metres.T
 
     red, green, blue = np.moveaxis(pixels, -1, 0)
-    orange = (red > 150) & (red > 2 * blue) & (red > green + 40) & (blue < 110)
-    robot = where(orange)
+    # Wheels and body are grey; the map is white, black and, where nothing is known, greenish.
+    is_grey = np.ptp(pixels, axis=-1) < 15
+    robot = where(is_grey & (green > 40) & (green < 246))
     return Seen(
         robot.mean(axis=0) if len(robot) else np.full(2, math.nan),
         where((red > 230) & (green < 60) & (blue > 230)),
