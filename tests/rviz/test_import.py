@@ -261,12 +261,12 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
         ("Alpha: 7", "Alpha: 7 is out of range, clamped to 1"),
         ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: expected a number, got `deep`"),
         ("Glow: true", "Glow: unsupported"),
-        ("Selectable: false", "Selectable: selecting in the scene is not supported yet"),
+        ("Selectable: false", "Selectable: every display can be selected"),
     ],
 )
 def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
-    at_line = "Scan" if what.endswith(("yet", "unsupported")) else "Scan (line 3)"
+    at_line = "Scan" if what.endswith(("selected", "unsupported")) else "Scan (line 3)"
     assert f"{at_line}: {what}" in said(report)
 
 

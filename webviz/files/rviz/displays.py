@@ -25,7 +25,7 @@ from webviz.files.rviz.values import Unfit
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
 NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
-NOT_USED = {"Selectable": f"selecting in the scene is not supported yet; {KEPT}"}
+NOT_USED = {"Selectable": f"every display can be selected; {KEPT}"}
 """Why common properties are not used, by key."""
 
 
