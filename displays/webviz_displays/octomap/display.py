@@ -20,7 +20,7 @@ from webviz_displays.octomap.seen import (
     probabilities,
     seen_of,
 )
-from webviz_displays.octomap.voxels import voxels_of
+from webviz_displays.octomap.voxels import places_of, voxels_of
 from webviz_displays.shared.geometry import FARTHEST, origin_near
 
 OCTOMAP = "octomap_msgs/msg/Octomap"
@@ -42,7 +42,8 @@ class _State:
         fault: why.
         span: lowest and highest z of its leaves, metres.
         choice: that `seen` is of.
-        seen: what is drawn.
+        seen: what is to be drawn.
+        drawn: the tree and what is drawn of it; in one, since it is read while a thread draws.
     """
 
     message: Any = None
@@ -51,6 +52,7 @@ class _State:
     span: tuple[float, float] = (0.0, 0.0)
     choice: Choice | None = None
     seen: Seen | None = None
+    drawn: tuple[Octree, Seen] | None = None
 
 
 class OctreeDisplay(Display):
@@ -121,6 +123,7 @@ class OctreeDisplay(Display):
         choice = Choice(self.voxel_rendering, levels, self.min_height, self.max_height)
         if state.seen is None or state.choice != choice:
             state.choice, state.seen = choice, seen_of(tree, choice)
+        state.drawn = tree, state.seen
         self._report(tree, state.seen, levels, ctx)
         voxels = state.seen.voxels
         if not len(voxels.nodes) or self.voxel_alpha == 0:
@@ -133,19 +136,20 @@ class OctreeDisplay(Display):
             np.repeat(voxels.sizes[:, None], 3, axis=1),
             self._colors(state, tree, ctx),
             opacity=self.voxel_alpha,
-            ids=voxels.nodes,
+            ids=places_of(tree, voxels),
         )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """A voxel."""
+        """The voxel at the place of the one that was selected, with its newest values."""
         state: _State = ctx.state
-        tree, seen = state.tree, state.seen
-        if tree is None or seen is None:
+        if state.drawn is None:
             return None
-        found = np.flatnonzero(seen.voxels.nodes == hit.id)
+        tree, seen = state.drawn
+        found = np.flatnonzero(places_of(tree, seen.voxels) == hit.id)
         if not len(found):
             return None
-        voxels, node = seen.voxels.only(found), int(hit.id)
+        voxels = seen.voxels.only(found)
+        node = int(voxels.nodes[0])
         log_odds = tree.log_odds[[node]]
         values: dict[str, object] = {
             "Occupancy": f"{probabilities(log_odds)[0]:.1%}",

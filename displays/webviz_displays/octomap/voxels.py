@@ -45,6 +45,11 @@ def voxels_of(tree: Octree, depth: int) -> Voxels:
     return Voxels(nodes, centers, sizes)
 
 
+def places_of(tree: Octree, voxels: Voxels) -> I64:
+    """Numbers (N,) that voxels of the same place and size have in every tree."""
+    return tree.codes[voxels.nodes] * 32 + tree.depths[voxels.nodes]
+
+
 def is_exposed(tree: Octree, voxels: Voxels) -> Mask:
     """Which voxels (N,) have a side that the others do not cover completely.
 
