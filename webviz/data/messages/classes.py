@@ -66,6 +66,8 @@ VECTORS = {
     "geometry_msgs/msg/Vector3": ("float64", 3),
     "geometry_msgs/msg/Quaternion": ("float64", 4),
     "std_msgs/msg/ColorRGBA": ("float32", 4),
+    "shape_msgs/msg/MeshTriangle": ("uint32", 3),
+    "shape_msgs/msg/Plane": ("float64", 4),
     "visualization_msgs/msg/UVCoordinate": ("float32", 2),
     "nav2_msgs/msg/Particle": ("float64", 8),
 }

@@ -1,7 +1,8 @@
 """Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
-vision_msgs, foxglove_msgs and ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
+moveit_msgs, object_recognition_msgs, vision_msgs, foxglove_msgs and ffmpeg_image_transport_msgs in
+ROS 2 Jazzy, in the order of the wire.
 """
 
 DEFINITIONS = {
@@ -91,6 +92,91 @@ DEFINITIONS = {
         std_msgs/Header header
         geometry_msgs/Pose origin
         octomap_msgs/Octomap octomap""",
+    "object_recognition_msgs/msg/ObjectType": """
+        string key
+        string db""",
+    "moveit_msgs/msg/ObjectColor": """
+        string id
+        std_msgs/ColorRGBA color""",
+    "moveit_msgs/msg/CollisionObject": """
+        byte ADD=0
+        byte REMOVE=1
+        byte APPEND=2
+        byte MOVE=3
+        std_msgs/Header header
+        geometry_msgs/Pose pose
+        string id
+        object_recognition_msgs/ObjectType type
+        shape_msgs/SolidPrimitive[] primitives
+        geometry_msgs/Pose[] primitive_poses
+        shape_msgs/Mesh[] meshes
+        geometry_msgs/Pose[] mesh_poses
+        shape_msgs/Plane[] planes
+        geometry_msgs/Pose[] plane_poses
+        string[] subframe_names
+        geometry_msgs/Pose[] subframe_poses
+        byte operation""",
+    "moveit_msgs/msg/AttachedCollisionObject": """
+        string link_name
+        moveit_msgs/CollisionObject object
+        string[] touch_links
+        trajectory_msgs/JointTrajectory detach_posture
+        float64 weight""",
+    "moveit_msgs/msg/RobotState": """
+        sensor_msgs/JointState joint_state
+        sensor_msgs/MultiDOFJointState multi_dof_joint_state
+        moveit_msgs/AttachedCollisionObject[] attached_collision_objects
+        bool is_diff""",
+    "moveit_msgs/msg/DisplayRobotState": """
+        moveit_msgs/RobotState state
+        moveit_msgs/ObjectColor[] highlight_links
+        bool hide""",
+    "moveit_msgs/msg/RobotTrajectory": """
+        trajectory_msgs/JointTrajectory joint_trajectory
+        trajectory_msgs/MultiDOFJointTrajectory multi_dof_joint_trajectory""",
+    "moveit_msgs/msg/DisplayTrajectory": """
+        string model_id
+        moveit_msgs/RobotTrajectory[] trajectory
+        moveit_msgs/RobotState trajectory_start""",
+    "moveit_msgs/msg/AllowedCollisionEntry": """
+        bool[] enabled""",
+    "moveit_msgs/msg/AllowedCollisionMatrix": """
+        string[] entry_names
+        moveit_msgs/AllowedCollisionEntry[] entry_values
+        string[] default_entry_names
+        bool[] default_entry_values""",
+    "moveit_msgs/msg/LinkPadding": """
+        string link_name
+        float64 padding""",
+    "moveit_msgs/msg/LinkScale": """
+        string link_name
+        float64 scale""",
+    "moveit_msgs/msg/PlanningSceneWorld": """
+        moveit_msgs/CollisionObject[] collision_objects
+        octomap_msgs/OctomapWithPose octomap""",
+    "moveit_msgs/msg/PlanningScene": """
+        string name
+        moveit_msgs/RobotState robot_state
+        string robot_model_name
+        geometry_msgs/TransformStamped[] fixed_frame_transforms
+        moveit_msgs/AllowedCollisionMatrix allowed_collision_matrix
+        moveit_msgs/LinkPadding[] link_padding
+        moveit_msgs/LinkScale[] link_scale
+        moveit_msgs/ObjectColor[] object_colors
+        moveit_msgs/PlanningSceneWorld world
+        bool is_diff""",
+    "moveit_msgs/msg/PlanningSceneComponents": """
+        uint32 SCENE_SETTINGS=1
+        uint32 ROBOT_STATE=2
+        uint32 ROBOT_STATE_ATTACHED_OBJECTS=4
+        uint32 WORLD_OBJECT_NAMES=8
+        uint32 WORLD_OBJECT_GEOMETRY=16
+        uint32 OCTOMAP=32
+        uint32 TRANSFORMS=64
+        uint32 ALLOWED_COLLISION_MATRIX=128
+        uint32 LINK_PADDING_AND_SCALING=256
+        uint32 OBJECT_COLORS=512
+        uint32 components""",
     "grid_map_msgs/msg/GridMapInfo": """
         float64 resolution
         float64 length_x

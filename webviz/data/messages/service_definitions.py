@@ -1,6 +1,6 @@
 """Definitions of services and actions that tools and panels use, without their packages.
 
-Field names and types are the interfaces of navigation2 in ROS 2 Jazzy.
+Field names and types are the interfaces of navigation2 and MoveIt in ROS 2 Jazzy.
 """
 
 SERVICES = {
@@ -23,6 +23,9 @@ action_msgs/GoalInfo[] goals_canceling""",
     "visualization_msgs/srv/GetInteractiveMarkers": """---
 uint64 sequence_number
 visualization_msgs/InteractiveMarker[] markers""",
+    "moveit_msgs/srv/GetPlanningScene": """moveit_msgs/PlanningSceneComponents components
+---
+moveit_msgs/PlanningScene scene""",
     "nav2_msgs/srv/ManageLifecycleNodes": """uint8 STARTUP=0
 uint8 PAUSE=1
 uint8 RESUME=2
