@@ -92,6 +92,7 @@ setup(
             "Teleop = webviz.tools.teleop:Teleop",
         ],
         "webviz.panels": [
+            "Joints = webviz.panels.joints:Joints",
             "Nav2 = webviz.panels.nav2:Nav2",
         ],
     },

@@ -13,7 +13,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Prop, make
-from webviz.api.panel import Panel, Send, Ui
+from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.edges.page.plugin_panels import MAX_WAITING
 from webviz.edges.page.widgets import MAX_HTML, MAX_LINES, RecordedUi
 from webviz.engine.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
@@ -54,12 +54,14 @@ class Form(Panel):
         self.color = ui.choice("Color", "red", note)
         self.color.offer(["red", "green", ""], "red")
         self.pause = ui.button("Pause", lambda browser: None)
+        self.sliders = ui.sliders(lambda name, value, browser: note((name, value), browser))
 
     def show(self, state: State) -> None:
         self.text.text(f"a text {HOSTILE}")
         self.lines.lines("one\n  two")
         self.html.html("<b id='bold'>bold</b>")
         self.pause.label = "Resume" if state.clock.is_paused else "Pause"
+        self.sliders.show([Slide("left hip", 0.25, -1.0, 1.0, "rad"), Slide("rail", 2.0, 0.0, 4.0)])
         if state.frames:
             self.robot.show(state.frames[0])
 
@@ -162,6 +164,14 @@ def test_every_kind_of_widget_is_drawn_and_heard(loop: Loop, tab: Tab) -> None:
     color.click()
     tab.page.get_by_role("option", name="green").click()
     tab.wait_for(lambda: Form.entered == [True, "turtle", "green"])
+    hip = tab.page.get_by_role("slider", name="left hip")
+    assert hip.input_value() == "0.25"
+    hip.fill("-0.5")
+    tab.wait_for(lambda: Form.entered[-1] == ("left hip", -0.5))
+    rail = tab.page.get_by_role("spinbutton", name="rail, as a number")
+    rail.fill("3")
+    rail.press("Enter")
+    tab.wait_for(lambda: Form.entered[-1] == ("rail", 3.0))
 
 
 def test_what_somebody_types_stays_while_the_panel_shows_something_else(

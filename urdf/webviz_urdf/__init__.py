@@ -3,9 +3,9 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz_urdf.glb import MeshFile, MeshPart, Surface, glb_with, write_glb
+from webviz_urdf.glb import MeshFile, MeshPart, Surface, glb_parts, glb_with, write_glb
 from webviz_urdf.inertia import inertia_box, mass_sphere
-from webviz_urdf.kinematics import Kinematics
+from webviz_urdf.kinematics import Kinematics, leader_of
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
 from webviz_urdf.resolve import ResolveError, Resolver
 from webviz_urdf.robot import (
@@ -24,6 +24,7 @@ from webviz_urdf.robot import (
 if TYPE_CHECKING:
     from webviz_urdf.effort_limits import turning_joints
     from webviz_urdf.load import load_file, load_robot
+    from webviz_urdf.moving import moving_joints
 
 __all__ = [
     "Inertial",
@@ -45,11 +46,14 @@ __all__ = [
     "Shape",
     "Surface",
     "TurningJoint",
+    "glb_parts",
     "glb_with",
     "inertia_box",
+    "leader_of",
     "load_file",
     "load_robot",
     "mass_sphere",
+    "moving_joints",
     "turning_joints",
     "write_glb",
 ]
@@ -59,6 +63,8 @@ def __getattr__(name: str) -> object:
     """Import what reads files when it is asked for: it takes longer than all of a viewer."""
     if name == "turning_joints":
         return importlib.import_module("webviz_urdf.effort_limits").turning_joints
+    if name == "moving_joints":
+        return importlib.import_module("webviz_urdf.moving").moving_joints
     if name in ("load_file", "load_robot"):
         return getattr(importlib.import_module("webviz_urdf.load"), name)
     raise AttributeError(f"module 'webviz_urdf' has no attribute {name!r}")

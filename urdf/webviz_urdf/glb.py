@@ -115,6 +115,45 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
     return _join(document, binary)
 
 
+def glb_parts(data: bytes) -> tuple[bytes, ...]:
+    """The parts of a binary glTF, each as one of its own, with one mesh of one material.
+
+    Args:
+        data: as written by `write_glb` or `glb_with`.
+
+    Raises:
+        ValueError: `data` is not a binary glTF.
+    """
+    document, binary = _split(data)
+    primitives = [part for mesh in document.get("meshes", []) for part in mesh["primitives"]]
+    if len(primitives) <= 1:
+        return (data,)
+    return tuple(_part(document, binary, primitive) for primitive in primitives)
+
+
+def _part(document: dict[str, Any], binary: bytes, primitive: dict[str, Any]) -> bytes:
+    """One primitive with the data that it uses, and all materials and textures."""
+    used = [*primitive["attributes"].values(), primitive["indices"]]
+    accessors = [dict(document["accessors"][index]) for index in used]
+    images = [dict(image) for image in document.get("images", [])]
+    views, chunks = [], []
+    for holder in (*accessors, *images):
+        view = document["bufferViews"][holder["bufferView"]]
+        begin, size = view.get("byteOffset", 0), view["byteLength"]
+        holder["bufferView"] = len(views)
+        views.append({**view, "byteOffset": sum(map(len, chunks))})
+        chunks.append(binary[begin : begin + size] + bytes(-size % 4))
+    names = list(primitive["attributes"])
+    one = {
+        **primitive,
+        "attributes": {name: number for number, name in enumerate(names)},
+        "indices": len(names),
+    }
+    parts = {"accessors": accessors, "bufferViews": views, "meshes": [{"primitives": [one]}]}
+    parts |= {"images": images} if images else {}
+    return _join({**document, **parts}, b"".join(chunks))
+
+
 def srgb_to_linear(srgb: NDArray[np.floating]) -> NDArray[np.floating]:
     """Linear light 0 to 1 from sRGB 0 to 1 (IEC 61966-2-1)."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

@@ -37,7 +37,7 @@ class Kinematics:
     def __init__(self, robot: Robot) -> None:
         self.links = tuple(robot.links)
         rows = {link: row for row, link in enumerate(self.links)}
-        leaders = {name: _leader(joint, robot.joints) for name, joint in robot.joints.items()}
+        leaders = {name: leader_of(joint, robot.joints) for name, joint in robot.joints.items()}
         self.joints = tuple(
             name
             for name, joint in robot.joints.items()
@@ -128,7 +128,7 @@ class Kinematics:
         return {self.links[row] for row in np.flatnonzero(moved)}
 
 
-def _leader(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
+def leader_of(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
     """The joint that decides the position of a joint, with multiplier and offset.
 
     One that mimics an unknown joint, or itself, decides its own.

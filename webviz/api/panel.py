@@ -19,6 +19,7 @@ those of displays, edited in the tab, and kept in the config under `panels`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
 from webviz.api.declared import Declared
@@ -92,6 +93,32 @@ class Choice(Field[str], Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Slide:
+    """One slider of `Sliders`.
+
+    Args:
+        name: its label, unique among them.
+        value: where it is.
+        low, high: its ends.
+        unit: such as "rad", "" for none.
+    """
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str = ""
+
+
+class Sliders(Protocol):
+    """Sliders by name, whose number may change."""
+
+    def show(self, slides: Sequence[Slide]) -> None:
+        """Show these sliders, in this order; very many are cut off."""
+        ...
+
+
 class Ui(Protocol):
     """The widgets of a panel, one below the other in the order of the calls.
 
@@ -116,6 +143,14 @@ class Ui(Protocol):
 
     def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
         """Add a dropdown; `Choice.offer` fills it."""
+        ...
+
+    def sliders(self, edit: Callable[[str, float, int | None], object]) -> Sliders:
+        """Add an empty place for sliders; `Sliders.show` fills it.
+
+        Args:
+            edit: called with name, value and browser when somebody moves one.
+        """
         ...
 
     def command(

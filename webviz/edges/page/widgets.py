@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
 from typing import Any, TypeVar
 
-from webviz.api.panel import Act, Edit, Modifier
+from webviz.api.panel import Act, Edit, Modifier, Slide
 
 MAX_TEXT = 20_000
 """Characters of a text, and of what browsers enter."""
 MAX_LINES = 1000
 """Lines of a text, and rows of a table."""
 MAX_CELL = 1000
+MAX_SLIDES = 300
 MAX_HTML = 500_000
 SETTLE_S = 0.5
 """How long a field keeps what a browser entered before it shows what the panel has."""
@@ -141,6 +142,43 @@ class Choice(Field):
         super().use(value, browser)
 
 
+class Sliders(Widget):
+    """Sliders by name; see `webviz.api.panel.Sliders`."""
+
+    def __init__(self, edit: Callable[[str, float, int | None], object]) -> None:
+        super().__init__(kind="sliders", slides=[])
+        self._edit = edit
+
+    def show(self, slides: Sequence[Slide]) -> None:
+        """Show these."""
+        shown = [
+            {
+                "name": clean(each.name, MAX_CELL),
+                "value": each.value,
+                "low": each.low,
+                "high": each.high,
+                "unit": each.unit,
+            }
+            for each in slides[:MAX_SLIDES]
+        ]
+        if shown != self.values["slides"]:
+            self.set(slides=shown)
+
+    def use(self, value: Any, browser: int | None) -> None:
+        """Move one: its new value, a space, and its name."""
+        text, _, name = value.partition(" ") if isinstance(value, str) else ("", "", "")
+        found = next((each for each in self.values["slides"] if each["name"] == name), None)
+        if found is None:
+            raise ValueError(f"The slider {name[:100]} is gone.")
+        try:
+            number = float(text)
+        except ValueError:
+            raise ValueError(f"Expected a number, got {text[:100]}.") from None
+        if not found["low"] <= number <= found["high"]:
+            raise ValueError(f"{number:g} is not in {found['low']:g} to {found['high']:g}.")
+        self._edit(name, number, browser)
+
+
 class Shortcut(Widget):
     """A command of the list of commands."""
 
@@ -187,6 +225,10 @@ class RecordedUi:
     def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
         """Add a list to choose from."""
         return self._add(Choice(label, clean(value), edit, hint))
+
+    def sliders(self, edit: Callable[[str, float, int | None], object]) -> Sliders:
+        """Add a place for sliders."""
+        return self._add(Sliders(edit))
 
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None

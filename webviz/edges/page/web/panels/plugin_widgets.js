@@ -1,12 +1,13 @@
 // The widgets of plug-ins' panels, by their kind: each `{kind, element, update(values)}`.
 
 import { combobox } from "../controls/combobox.js";
+import { slider } from "../controls/slider.js";
 import { sync } from "../controls/sync.js";
-import { el, set, setText } from "../dom.js";
+import { el, set, setChildren, setText } from "../dom.js";
 
 const TYPING_MS = 600;
 
-const MAKERS = { area, button, checkbox, field, choice };
+const MAKERS = { area, button, checkbox, field, choice, sliders };
 
 /** A widget of these values; `send(value)` reports its use to the panel. */
 export function makeWidget(values, send) {
@@ -103,6 +104,28 @@ function choice({ label, value, options }, send) {
     setText(name, values.label);
     set(element, { "data-tip": values.hint || null });
     box.update({ value: values.value, options: named(values.options) });
+  }
+  return { element, update };
+}
+
+function sliders(_, send) {
+  const element = el("div", { class: "wv-plugin-sliders" });
+  const made = new Map();
+  function make({ name, low, high, unit }) {
+    const change = (value) => send(`${value} ${name}`);
+    const control = slider({ kind: "float", low, high, unit }, { label: name, change, refused: () => {} });
+    const label = el("span", { class: "wv-plugin-slider-name", title: name }, name);
+    return { line: el("div", { class: "wv-plugin-line" }, label, control.element), control };
+  }
+  function update({ slides }) {
+    const before = new Map(made);
+    made.clear();
+    for (const slide of slides) {
+      const key = JSON.stringify([slide.name, slide.low, slide.high, slide.unit]);
+      made.set(key, before.get(key) ?? make(slide));
+      made.get(key).control.update(slide.value);
+    }
+    setChildren(element, [...made.values()].map(({ line }) => line));
   }
   return { element, update };
 }
