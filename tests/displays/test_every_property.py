@@ -16,6 +16,7 @@ import pytest
 import trimesh
 from clouds import CLOUD, xyz_cloud
 from mapping_scenes import MAPPING_SCENES
+from moveit_scenes import moveit
 from plain_scenes import PLAIN_SCENES
 
 import webviz_displays
@@ -23,6 +24,7 @@ from webviz import Display, Topic
 from webviz.api.declared import set_property
 from webviz.api.display import inputs
 from webviz.shell.testing.messages import header
+from webviz_displays.moveit.properties import SceneGeometry
 from webviz_displays.robot_model.parts import JointSettings, LinkSettings
 
 SECOND = 1_000_000_000
@@ -242,9 +244,14 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "RobotModel": robots,
     "TF": frames,
     "Text": texts,
+    **dict.fromkeys(("MotionPlanning", "PlanningScene", "RobotState", "Trajectory"), moveit),
     **PLAIN_SCENES,
     **MAPPING_SCENES,
 }
+
+PLAYERS = (("MotionPlanning", "planned_path."), ("Trajectory", ""))
+ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_sim_time")
+"""What acts on the animation of a path."""
 
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
 # drawn already.
@@ -255,6 +262,9 @@ OF_THE_FUTURE = {
     ("Odometry", "angle_tolerance"),
     ("Odometry", "keep"),
     ("Odometry", "position_tolerance"),
+    *((name, prefix + each) for name, prefix in PLAYERS for each in ANIMATED),
+    *((name, "move_group_namespace") for name in ("MotionPlanning", "PlanningScene")),
+    *((name, "scene_geometry.scene_display_time") for name in ("MotionPlanning", "PlanningScene")),
     ("Path", "buffer_length"),
     ("Range", "buffer_length"),
     ("RobotModel", "update_interval"),
@@ -307,6 +317,33 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
     # With both tolerances at work the larger motion decides.
     ("Odometry", "position_tolerance"): {"angle_tolerance": 10.0},
     ("Odometry", "angle_tolerance"): {"position_tolerance": 1000.0},
+    **{
+        ("MotionPlanning", f"planning_request.{name}_state_{what}"): {
+            f"planning_request.query_{name}_state": True
+        }
+        for name in ("start", "goal")
+        for what in ("color", "alpha")
+    },
+    **{
+        (name, prefix + path): {prefix + other: value}
+        for name, prefix in PLAYERS
+        for path, other, value in (
+            ("interrupt_display", "use_sim_time", True),
+            ("state_display_time", "use_sim_time", True),
+            ("trail_step_size", "paused", True),
+        )
+    },
+    **{
+        (name, f"{prefix}loop_animation"): {
+            f"{prefix}use_sim_time": True,
+            f"{prefix}interrupt_display": True,
+        }
+        for name, prefix in PLAYERS
+    },
+    **{
+        ("MotionPlanning", name): {"planning_request.show_workspace": True}
+        for name in ("workspace_center", "workspace_size")
+    },
     # Of 192 pixels.
     ("DepthCloud", "max_points"): {"max_points": 40},
     # Of four points.
@@ -319,6 +356,8 @@ BESIDES: dict[tuple[str, str], dict[str, Any]] = {
 
 def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) -> list[Any]:
     """Other values of a property; each that is valid must show."""
+    if value == SceneGeometry().scene_display_time:
+        return [50.0]  # real time, of which the scene takes little
     if get_origin(hint) is Literal:
         return [choice for choice in get_args(hint) if choice != value]
     if isinstance(value, bool):

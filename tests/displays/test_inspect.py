@@ -14,6 +14,7 @@ import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
 from mapping_scenes import COSTMAP, FIELD, IMU, VOXEL_GRID, hill
+from moveit_scenes import moveit
 from octrees import OCTOMAP
 from robot_arm import ARM, describe, place_arm
 
@@ -29,6 +30,7 @@ from webviz_displays.imu import Imu, Mag
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
 from webviz_displays.markers import MarkerArray
+from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.octomap import ColorOccupancyGrid
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
@@ -112,6 +114,31 @@ def invisible_points_do_not_count(bench: Benches) -> Details:
     at.send(CLOUD, cloud(names, points), frame="lidar")
     at.turn()
     return pick(at, "points", 0)
+
+
+def object_of_a_planning_scene(bench: Benches) -> Details:
+    """The coloured one, drawn by itself, as its opacity differs."""
+    at = bench(PlanningScene())
+    moveit(at)
+    return pick(at, "object box 0.502", 0)
+
+
+def what_a_robot_holds(bench: Benches) -> Details:
+    at = bench(RobotState())
+    moveit(at)
+    return pick(at, "attached box", 0)
+
+
+def link_on_a_path(bench: Benches) -> Details:
+    at = bench(Trajectory(paused=True))
+    moveit(at)
+    return pick(at, "path rider visual visual_0", None, (0.0, 0.0, 0.0))
+
+
+def link_of_a_trail(bench: Benches) -> Details:
+    at = bench(Trajectory(paused=True, show_trail=True))
+    moveit(at)
+    return pick(at, "trail rider visual visual_0 0", 2)
 
 
 def beam_of_a_scan(bench: Benches) -> Details:
@@ -494,6 +521,12 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     triangle_of_a_colorful_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST"}),
     texture_of_a_marker: ("Marker a/1", {"Type": "TRIANGLE_LIST"}),
     text_of_a_marker: ("Marker a/1", {"Type": "TEXT_VIEW_FACING", "Text": "Dock"}),
+    object_of_a_planning_scene: ("Object 'door'", {"Shapes": "1 box"}),
+    what_a_robot_holds: ("Object 'cup'", {"Attached to": "rider", "Shapes": "1 box"}),
+    link_on_a_path: (
+        "Link rider", {"Point": "Point 4 of 4 points, at 3000.00 s", "Robot": "rail"}
+    ),
+    link_of_a_trail: ("Link rider", {"Point": "3"}),
     grid: ("Grid", {"Cell size": "0.5 m", "Cells": "4 x 4", "Plane": "XY"}),
     axes: ("Axes of odom", {"Length": "1 m"}),
     line_of_a_display_that_does_not_know: ("Line 2", {}),

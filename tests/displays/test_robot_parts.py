@@ -139,7 +139,7 @@ def test_an_opaque_part_is_the_node_as_it_was_loaded() -> None:
 def test_a_model_with_materials_of_its_own_is_painted_too(glb: Glb) -> None:
     paint = Paint()
     assert paint(glb, 0.5) == Glb(glb_with(glb.data, 0.5))
-    assert paint(glb, grey=True) == Glb(glb_with(glb.data, 1.0, GREY))
+    assert paint(glb, color=GREY) == Glb(glb_with(glb.data, 1.0, GREY))
 
 
 def test_paint_is_mixed_once_and_dropped_when_it_is_no_longer_used(glb: Glb) -> None:

@@ -17,6 +17,7 @@ UPDATE = "map_msgs/msg/OccupancyGridUpdate"
 class Map(Display):
     topic: Annotated[Topic, Input(GRID)] = Topic("/map")
     updates: Annotated[Topic, Input(UPDATE, suffix="_updates")] = Topic()
+    notes: Annotated[Topic, Input("std_msgs/msg/String", is_offered=False)] = Topic()
 
 
 class Outline(Display):

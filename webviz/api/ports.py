@@ -27,6 +27,8 @@ class Input:
         every: take latched messages even if they equal the one before, as they may say it anew.
         also: further message types that the display reads; the publishers of the topic decide, and
             `Sample.type` names the type.
+        is_plain: .rviz files have the name only, without QoS.
+        is_offered: whether the display can be added for a topic of this type.
     """
 
     type: str
@@ -37,6 +39,8 @@ class Input:
     unless: str = ""
     every: bool = False
     also: tuple[str, ...] = ()
+    is_plain: bool = False
+    is_offered: bool = True
 
     @property
     def follows(self) -> bool:

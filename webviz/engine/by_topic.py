@@ -56,7 +56,7 @@ def picks(
             endings.setdefault(known.type, []).append((name, known))
         for input, spec in inputs_of(cls).items():
             # What comes beside another topic, such as updates of a map, is not shown by itself.
-            if not spec.follows:
+            if spec.is_offered and not spec.follows:
                 for type_ in spec.types:
                     takers.setdefault(type_, []).append((name, input))
 

@@ -12,7 +12,13 @@ from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.joint_states import Received
 from webviz_displays.robot_model.loading import last_written, load, progress
-from webviz_displays.robot_model.parts import Choices, JointSettings, LinkSettings, parts_of
+from webviz_displays.robot_model.parts import (
+    GREY,
+    Choices,
+    JointSettings,
+    LinkSettings,
+    parts_of,
+)
 from webviz_displays.robot_model.placing import ByJoints, ByTransforms, JointPlacer, Placing
 from webviz_displays.robot_model.state import Model, State
 from webviz_displays.robot_model.statuses import (
@@ -158,7 +164,8 @@ class RobotModel(Display):
         lost = state.grey = set(model.lost(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
             group = model.placing.group(part.link, ctx, self.update_interval)
-            group.add(part.key, paint(part.node, grey=part.link in lost), part.pose)
+            color = GREY if part.link in lost else None
+            group.add(part.key, paint(part.node, color=color), part.pose)
             state.owners[part.key] = part.link
 
     def tick(self, ctx: Context) -> None:
@@ -224,10 +231,11 @@ class RobotModel(Display):
         if request is None:
             return state.model if "Loading" in ctx.statuses else None
         try:
-            robot = load(request, before, ctx)
+            robot = load(request, before, ctx, state.loading)
             full = None
             if self.collision_enabled:
-                full = load(replace(request, collisions=True), before, ctx)
+                collisions = replace(request, collisions=True)
+                full = load(collisions, before, ctx, state.loading)
         except RobotDescriptionError as error:
             ctx.error("URDF", str(error))
             return None

@@ -48,8 +48,14 @@ def _written_ns(path: str) -> int:
         return 0  # loading reports the cause
 
 
-def load(request: LoadRequest, before: Loadings, ctx: Context) -> Robot | None:
-    """The robot, None while it is being loaded; `before` is the previous request.
+def load(request: LoadRequest, before: Loadings, ctx: Context, loadings: Loadings) -> Robot | None:
+    """The robot, None while it is being loaded.
+
+    Args:
+        request: what to load.
+        before: the loadings of the previous call.
+        ctx: for the worker, and the status.
+        loadings: receives the loading.
 
     Raises:
         RobotDescriptionError: it cannot be drawn; the text is one sentence.
@@ -57,7 +63,7 @@ def load(request: LoadRequest, before: Loadings, ctx: Context) -> Robot | None:
     loading = before.get(request) or Loading(request)
     robot = ctx.background(request, loading.run, stop=loading.stop)
     if robot is None:
-        ctx.state.loading[request] = loading
+        loadings[request] = loading
         ctx.warn("Loading", progress(loading))
     return robot
 

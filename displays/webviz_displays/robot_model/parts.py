@@ -9,7 +9,7 @@ from typing import Annotated
 import msgspec
 import numpy as np
 
-from webviz import Arrows, Axes, Glb, Mesh, Node, Pose, Prop
+from webviz import Arrows, Axes, Glb, Mesh, Node, Pose, Prop, Rgb
 from webviz_displays.robot_model.statuses import has_axis
 from webviz_urdf import Joint, Link, Robot, Shape, glb_with, inertia_box, mass_sphere
 
@@ -100,24 +100,24 @@ class LinkNode:
 
 
 class Paint:
-    """Cache of shapes with another opacity or in grey: a model can hold megabytes."""
+    """Cache of shapes with another opacity or colour: a model can hold megabytes."""
 
     def __init__(self) -> None:
-        self._made: dict[tuple[int, float, bool], tuple[Node, Node]] = {}
-        self._before: dict[tuple[int, float, bool], tuple[Node, Node]] = {}
+        self._made: dict[tuple[int, float, Rgb | None], tuple[Node, Node]] = {}
+        self._before: dict[tuple[int, float, Rgb | None], tuple[Node, Node]] = {}
 
     def begin(self) -> None:
         """Start a round: shapes not used until the next call are dropped then."""
         self._before, self._made = self._made, {}
 
-    def __call__(self, node: Node, alpha: float = 1.0, grey: bool = False) -> Node:
-        """`node` with its opacity multiplied by `alpha`, and optionally grey."""
+    def __call__(self, node: Node, alpha: float = 1.0, color: Rgb | None = None) -> Node:
+        """`node` with its opacity multiplied by `alpha`, and optionally in another colour."""
         alpha = 1.0 if alpha >= OPAQUE else alpha
-        if (alpha == 1.0 and not grey) or not isinstance(node, Mesh | Glb):
+        if (alpha == 1.0 and color is None) or not isinstance(node, Mesh | Glb):
             return node
-        key = (id(node), alpha, grey)
+        key = (id(node), alpha, color)
         # The unpainted node is held too, so that its id is not reused.
-        made = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, grey))
+        made = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, color))
         self._made[key] = made
         return made[1]
 
@@ -182,7 +182,7 @@ def _joint_marks(joint: Joint, settings: JointSettings) -> Iterator[tuple[str, N
         yield "joint axis", Arrows(segment, AXIS_COLOR, 0.025, 0.04, 0.05)
 
 
-def _painted(node: Mesh | Glb, alpha: float, grey: bool) -> Mesh | Glb:
+def _painted(node: Mesh | Glb, alpha: float, color: Rgb | None) -> Mesh | Glb:
     if isinstance(node, Glb):
-        return Glb(glb_with(node.data, alpha, GREY if grey else None))
-    return replace(node, opacity=node.opacity * alpha, color=GREY if grey else node.color)
+        return Glb(glb_with(node.data, alpha, color))
+    return replace(node, opacity=node.opacity * alpha, color=color or node.color)

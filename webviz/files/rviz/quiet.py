@@ -12,6 +12,19 @@ ALWAYS = {
     "Expand Link Details": "how RViz's panel looks",
     "Expand Joint Details": "how RViz's panel looks",
     "Link Tree Style": "how RViz's panel looks",
+    **dict.fromkeys(
+        (
+            *("Acceleration_Scaling_Factor", "Velocity_Scaling_Factor"),
+            *("MoveIt_Planning_Attempts", "MoveIt_Planning_Time", "MoveIt_Allow_Approximate_IK"),
+            *("MoveIt_Allow_External_Program", "MoveIt_Allow_Replanning"),
+            *("MoveIt_Allow_Sensor_Positioning", "MoveIt_Use_Cartesian_Path"),
+            *("MoveIt_Use_Constraint_Aware_IK", "MoveIt_Warehouse_Host", "MoveIt_Warehouse_Port"),
+            *("MoveIt_Goal_Tolerance", "Interactive Marker Size", "Planning Group"),
+            *("Colliding Link Color", "JointsTab_Use_Radians"),
+        ),
+        "for planning with MoveIt; the display says that it only shows plans",
+    ),
+    **dict.fromkeys(("Payload", "TextHeight"), "of MoveIt's metrics, if any is shown"),
 }
 """Reasons by key, at any level of the path."""
 
@@ -21,6 +34,12 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Near Clip Distance": (0.01, 0.009999999776482582),
     "Invert Z Axis": (False,),
     "Target Frame": ("<Fixed Frame>",),
+    "Links": (None,),
+    "Show All Links": (True,),
+    "Show Weight Limit": (False,),
+    "Show Manipulability Index": (False,),
+    "Show Manipulability": (False,),
+    "Show Joint Torques": (False,),
 }
 """By key: RViz's default values, which need no support."""
 

@@ -15,7 +15,7 @@ from webviz.api.declared import Topic
 from webviz.api.ports import Input, Output
 from webviz.files.rviz import values
 from webviz.files.rviz.properties import RvizProperty
-from webviz.files.rviz.tree import Path, Tree
+from webviz.files.rviz.tree import Path, Tree, child
 from webviz.files.rviz.values import Unfit
 
 DEPTH = 5
@@ -36,15 +36,19 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
         faults: receives invalid values, with the reason.
     """
     assert place.port is not None
-    key = next((k for k in (place.path[0], *OLD_KEYS) if k in tree), place.path[0])
+    (*above, key) = place.path
+    tree = child(tree, *above)
+    key = next((k for k in (key, *OLD_KEYS) if k in tree), key)
     raw = tree.get(key)
     result: dict[str, Any] = {"name": ""}
     used: set[Path] = set()
     name = values.own_value(raw)
-    if not isinstance(name, Mapping | list) and name is not None:
+    if raw is None and isinstance(place.port, Input) and place.port.is_plain:
+        result["name"] = place.default.name  # RViz has one, too
+    elif not isinstance(name, Mapping | list) and name is not None:
         result["name"] = values.text(name)
-        used.add((key, "Value") if isinstance(raw, Mapping) else (key,))
-    for field, path, value in _policies(tree, key, raw):
+        used.add((*above, key, "Value") if isinstance(raw, Mapping) else (*above, key))
+    for field, path, value in _policies(tree, (*above, key), raw):
         used.add(path)
         try:
             result |= _policy(field, value, place.port)
@@ -63,8 +67,10 @@ def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
             topic["name"] = ""
 
 
-def write(topic: Topic, port: Input | Output, first: Topic) -> Tree:
+def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
     """A topic as RViz has it; `first` is the first topic of the display."""
+    if isinstance(port, Input) and port.is_plain:
+        return topic.name
     if isinstance(port, Output):
         return _written(topic, "Reliable", "Volatile")
     return _write_input(topic, port, first)
@@ -96,16 +102,16 @@ def _written(topic: Topic, reliability: str, durability: str) -> Tree:
     }
 
 
-def _policies(tree: Tree, key: str, raw: Any) -> Iterator[tuple[str, Path, Any]]:
+def _policies(tree: Tree, path: Path, raw: Any) -> Iterator[tuple[str, Path, Any]]:
     """The QoS in a file: ROS 2's under the topic, ROS 1's next to it."""
     inner = raw if isinstance(raw, Mapping) else {}
     for word in POLICIES:
         if word in inner:
-            yield word, (key, word), inner[word]
+            yield word, (*path, word), inner[word]
     if "Queue Size" in tree and "Depth" not in inner:
-        yield "Queue Size", ("Queue Size",), tree["Queue Size"]
+        yield "Queue Size", (*path[:-1], "Queue Size"), tree["Queue Size"]
     if "Unreliable" in tree and "Reliability Policy" not in inner:
-        yield "Unreliable", ("Unreliable",), tree["Unreliable"]
+        yield "Unreliable", (*path[:-1], "Unreliable"), tree["Unreliable"]
 
 
 def _policy(word: str, raw: Any, port: Input | Output) -> dict[str, Any]:

@@ -1,0 +1,65 @@
+"""Asks the node move_group for the whole of a scene."""
+
+from __future__ import annotations
+
+from concurrent.futures import CancelledError, Future
+from dataclasses import dataclass, field
+
+from webviz import Error
+from webviz.api.wire import Wire
+from webviz.data.messages import decode
+from webviz_displays.moveit.scene import Scene, updated
+
+SERVICE = "moveit_msgs/srv/GetPlanningScene"
+ANSWER_S = 5.0
+"""For move_group to answer."""
+PAUSE_S = 5.0
+"""Between two requests."""
+MOST_TRIES = 12
+"""Then only messages are shown; many robots publish scenes without that service."""
+
+
+@dataclass
+class Asking:
+    """The answer of move_group, once it came.
+
+    Args:
+        service: its full name.
+        scene: the answer, None before.
+        problem: why there is none, a sentence.
+    """
+
+    service: str = ""
+    scene: Scene | None = None
+    problem: str = ""
+    _answer: Future[bytes] | None = None
+    _next_s: float = 0.0
+    _tries: int = field(default=0)
+
+    def step(self, namespace: str, wire: Wire) -> None:
+        """Ask, or take the answer."""
+        service = "/".join(["", *filter(None, namespace.split("/")), "get_planning_scene"])
+        if service != self.service:
+            self.service, self.scene, self.problem = service, None, ""
+            self._answer, self._next_s, self._tries = None, 0.0, 0
+        if self.scene is not None:
+            return
+        if self._answer is None and self._tries < MOST_TRIES and wire.clock_s >= self._next_s:
+            self._tries += 1
+            try:
+                self._answer = wire.query(service, SERVICE, ANSWER_S)
+            except ValueError as error:
+                self.problem, self._tries = f"{error} Correct the namespace.", MOST_TRIES
+                return
+        if self._answer is not None and self._answer.done():
+            self._take(self._answer, wire.clock_s)
+
+    def _take(self, answer: Future[bytes], clock_s: float) -> None:
+        self._answer, self._next_s = None, clock_s + PAUSE_S
+        try:
+            message = decode(f"{SERVICE}_Response", answer.result()).scene
+        except (Error, CancelledError) as error:
+            self.problem = str(error)
+            return
+        self.problem = ""
+        self.scene = updated(Scene(), message)

@@ -1,0 +1,186 @@
+"""Draws collision objects: those of one kind and opacity together."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from webviz import Context, Details, Hit, Mesh, Node, Pose, Rgb
+from webviz.api.frames import is_placeable
+from webviz.data.words import counted
+from webviz_displays.markers.batch import opacities, rgb
+from webviz_displays.markers.solids import Solids, instances_of
+from webviz_displays.moveit.bodies import Body, named
+from webviz_displays.moveit.frames import Links, Places
+from webviz_displays.moveit.scene import Rgba, Scene
+from webviz_displays.shared.geometry import is_drawable, origin_near
+
+MOST_MESHES = 2000
+"""Objects with meshes that are drawn, as each is a node of its own."""
+
+
+class Shown(NamedTuple):
+    """An object as it is drawn.
+
+    Attributes:
+        body: the object.
+        pose: in the frame of the scene.
+        rgba: 0 to 1.
+    """
+
+    body: Body
+    pose: Pose
+    rgba: Rgba
+
+
+class Group(NamedTuple):
+    """Nodes that are placed together.
+
+    Attributes:
+        key: of the group.
+        pose: in the frame of the scene.
+        nodes: by key.
+    """
+
+    key: str
+    pose: Pose
+    nodes: Mapping[str, Node]
+
+
+class Drawn(NamedTuple):
+    """Objects as nodes.
+
+    Attributes:
+        groups: of nodes.
+        owners: the objects by the keys of their nodes; a list where a node has several, by their
+            ids there.
+    """
+
+    groups: Sequence[Group]
+    owners: Mapping[str, object]
+
+    def add(self, frame: str, ctx: Context) -> None:
+        """Draw them in a frame."""
+        for key, pose, nodes in self.groups:
+            group = ctx.follow(frame, offset=pose, key=key)
+            for name, node in nodes.items():
+                group.add(name, node)
+
+
+def drawn(shown: Iterable[Shown], prefix: str) -> Drawn:
+    """Objects as nodes, whose keys begin with `prefix`: solids of one look together."""
+    bodies: list[Body] = []
+    solids: list[Solids] = []
+    owners: dict[str, object] = {}
+    groups: list[Group] = []
+    for number, (body, pose, rgba) in enumerate(shown):
+        bodies.append(body)
+        for kind, some in body.solids.items():
+            moved = some.moved(pose)
+            moved = moved.only(is_drawable(moved.positions))
+            count = len(moved.positions)
+            colors = np.tile(np.array(rgba, np.float32), (count, 1))
+            solids.append(Solids(kind, *moved, colors, np.full(count, number)))
+        opacity = opacity_of(rgba) if is_placeable(pose) else 0.0
+        if len(body.faces) and len(owners) < MOST_MESHES and opacity:
+            key = f"{prefix}mesh {body.id:.40} {zlib.crc32(body.id.encode()):08x}"
+            mesh = Mesh(body.vertices, body.faces, rgb_of(rgba), opacity)
+            groups.append(Group(key, pose, {key: mesh}))
+            owners[key] = body
+    solids = [each for each in solids if len(each.positions)]
+    if solids:
+        origin = np.array(origin_near(solids[0].positions))
+        for each in solids:
+            each.positions[:] -= origin
+        x, y, z = origin.tolist()
+        nodes = {prefix + kind: node for kind, node in instances_of(solids).items()}
+        groups.append(Group(f"{prefix}solids", Pose((x, y, z)), nodes))
+        owners |= dict.fromkeys(nodes, bodies)
+    return Drawn(groups, owners)
+
+
+@dataclass
+class Held:
+    """What a robot holds.
+
+    Args:
+        places: relative to the links.
+        owners: objects by the keys of nodes, see `Drawn`.
+        holders: links by the id of the object.
+    """
+
+    places: Places = field(default_factory=Places)
+    owners: Mapping[str, object] = field(default_factory=dict)
+    holders: dict[str, str] = field(default_factory=dict)
+
+    def draw(
+        self, scene: Scene, links: Links, rgba: Rgba, frame: str, prefix: str, ctx: Context
+    ) -> list[str]:
+        """Draw it where the links are; the objects that have no place.
+
+        Args:
+            scene: with what is attached.
+            links: poses in `frame`.
+            rgba: colour of objects without one.
+            frame: that places the robot.
+            prefix: begins the keys of the nodes.
+            ctx: receives the nodes.
+        """
+        self.places.update(scene, frame, links, ctx.frames)
+        held = self.places.attached(scene, links)
+        self.holders = {key: scene.attached[key].link for key in held}
+        shown = [
+            Shown(scene.attached[key].body, pose, scene.colors.get(key, rgba))
+            for key, pose in held.items()
+        ]
+        nodes = drawn(shown, f"{prefix}attached ")
+        nodes.add(frame, ctx)
+        self.owners = nodes.owners
+        return [key for key in scene.attached if key not in held]
+
+    def inspect(self, hit: Hit) -> Details | None:
+        """An object, by one of its shapes."""
+        body = owner_of(hit, self.owners)
+        if body is None:
+            return None
+        return body_details(body, {"Attached to": self.holders.get(body.id, "")})
+
+
+def owner_of(hit: Hit, owners: Mapping[str, object]) -> Body | None:
+    """The object of a shape that was selected; see `Drawn`."""
+    owner = owners.get(hit.key)
+    if isinstance(owner, list):
+        owner = owner[hit.id] if hit.id is not None and hit.id < len(owner) else None
+    return owner if isinstance(owner, Body) else None
+
+
+def body_details(body: Body, first: Mapping[str, object]) -> Details:
+    """What is known of an object."""
+    values = dict(first)
+    if body.type:
+        values["Type"] = body.type
+    values["Shapes"] = ", ".join(counted(n, kind) for kind, n in body.shapes.items())
+    if body.subframes:
+        values["Subframes"] = {name[:80]: body.subframes[name] for name in list(body.subframes)[:5]}
+    return Details(f"Object {named(body.id)}", values)
+
+
+def opacity_of(rgba: Rgba) -> float:
+    """The opacity of a colour."""
+    return float(opacities(rgba[3]))
+
+
+def rgb_of(rgba: Rgba) -> Rgb:
+    """A colour without its opacity."""
+    red, green, blue = rgb(np.array(rgba)).tolist()
+    return red, green, blue
+
+
+def with_alpha(color: Rgb, alpha: float) -> Rgba:
+    """A colour of a property with an opacity."""
+    red, green, blue = color
+    return red / 255.0, green / 255.0, blue / 255.0, alpha

@@ -1,0 +1,143 @@
+"""Draws the octomap of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from webviz import Context, Details, Frames, Hit, Pose, compose
+from webviz.data.words import counted
+from webviz_displays.moveit.frames import Links, Places
+from webviz_displays.moveit.joints import pose_of
+from webviz_displays.moveit.scene import Scene
+from webviz_displays.octomap.octree import LEVELS, OctreeFault, read_octree
+from webviz_displays.octomap.seen import Choice, Seen, by_height, by_probability, seen_of
+from webviz_displays.shared.geometry import FARTHEST, origin_near
+
+KEY = "octomap"
+Rendering = Literal["Occupied Voxels", "Free Voxels", "All Voxels", "Disabled"]
+Coloring = Literal["Z-Axis", "Cell Probability"]
+
+
+@dataclass(frozen=True, eq=False)
+class _Read:
+    """What a worker found.
+
+    Args:
+        seen: what is drawn.
+        log_odds: of its voxels.
+        fault: why there is nothing, or "".
+    """
+
+    seen: Seen | None = None
+    log_odds: Any = None
+    fault: str = ""
+
+
+@dataclass
+class Octomap:
+    """The octomap that is drawn.
+
+    Args:
+        message: octomap_msgs/OctomapWithPose.
+        number: of the message.
+        shown: what is drawn of it.
+    """
+
+    message: Any = None
+    number: int = 0
+    shown: _Read | None = None
+
+    def draw(
+        self,
+        scene: Scene,
+        places: Places,
+        links: Links,
+        looks: tuple[Rendering, Coloring, float],
+        frame: str,
+        ctx: Context,
+    ) -> None:
+        """Draw it, once it is read.
+
+        Args:
+            scene: with the octomap.
+            places: of the objects of the scene.
+            links: poses in `frame`.
+            looks: which voxels, in which colours, and their opacity.
+            frame: of the scene.
+            ctx: receives nodes and statuses.
+        """
+        rendering, coloring, alpha = looks
+        message = scene.octomap
+        if message is None or not len(message.octomap.data) or rendering == "Disabled":
+            return
+        if message is not self.message:
+            self.message, self.number = message, self.number + 1
+        pose = self._pose(scene, places, links, frame, ctx.frames)
+        if pose is None:
+            name = message.header.frame_id
+            ctx.error(
+                "Octomap",
+                f"The frame '{name:.80}' is unknown. {ctx.frames.why_not(name[:80])}",
+            )
+            return
+        choice = Choice(rendering, LEVELS, -FARTHEST, FARTHEST)
+        found = ctx.background((KEY, self.number, rendering), _read, message.octomap, choice)
+        self.shown = found or self.shown
+        if found is None:
+            ctx.warn("Octomap", "Reading the octomap.")
+        if self.shown is None or (seen := self.shown.seen) is None:
+            if self.shown is not None:
+                ctx.error("Octomap", self.shown.fault)
+            return
+        voxels = seen.voxels
+        if not len(voxels.nodes):
+            ctx.warn("Octomap", f"It has no {rendering.lower()}. Choose another Voxel Rendering.")
+            return
+        if found is not None:
+            ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {seen.wanted}.")
+        edges, heights = voxels.sizes / 2.0, voxels.centers[:, 2]
+        if coloring == "Z-Axis":
+            low, high = float((heights - edges).min()), float((heights + edges).max())
+            colors, _ = by_height(voxels, low, high)
+        else:
+            colors, _ = by_probability(self.shown.log_odds)
+        if alpha > 0.0:
+            origin = origin_near(voxels.centers)
+            ctx.follow(frame, offset=compose(pose, Pose(origin)), key=KEY).instances(
+                KEY,
+                "box",
+                voxels.centers - origin,
+                np.repeat(voxels.sizes[:, None], 3, axis=1),
+                colors,
+                opacity=alpha,
+            )
+
+    def inspect(self, hit: Hit) -> Details | None:
+        """A voxel."""
+        seen = self.shown and self.shown.seen
+        if hit.key != KEY or seen is None or hit.id is None or hit.id >= len(seen.voxels.nodes):
+            return None
+        size = f"{seen.voxels.sizes[hit.id]:g} m"
+        return Details("Voxel of the octomap", {"Size": size})
+
+    def _pose(
+        self, scene: Scene, places: Places, links: Links, frame: str, frames: Frames
+    ) -> Pose | None:
+        at, turn = self.message.origin.position, self.message.origin.orientation
+        pose = pose_of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
+        name = (self.message.header.frame_id or self.message.octomap.header.frame_id).lstrip("/")
+        base = places.base(name, scene, frame, links, frames)
+        return compose(base, pose) if base and pose else None
+
+
+def _read(message: Any, choice: Choice) -> _Read:
+    """In a worker: what is to be drawn of a tree."""
+    try:
+        tree = read_octree(message)
+    except OctreeFault as fault:
+        return _Read(fault=str(fault))
+    seen = seen_of(tree, choice)
+    return _Read(seen, tree.log_odds[seen.voxels.nodes])

@@ -1,0 +1,180 @@
+"""Draws a path: the robot on its way, and where it was."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from webviz import Context, Details, Hit, Rgb
+from webviz.data.words import counted, listed
+from webviz_displays.moveit.bodies import named
+from webviz_displays.moveit.drawing import Held, with_alpha
+from webviz_displays.moveit.joints import Poser
+from webviz_displays.moveit.paths import Path, path_of
+from webviz_displays.moveit.playing import DEFAULT_SPEED, Player, Speed, speed_of
+from webviz_displays.moveit.properties import ATTACHED
+from webviz_displays.moveit.robots import Look, Robots
+from webviz_displays.moveit.scene import Scene
+from webviz_displays.moveit.trail import MOST_STATES, Trail
+
+SECOND = 1_000_000_000
+NAMED = 5
+PREFIX = "path "
+
+
+@dataclass(frozen=True)
+class Playback:
+    """How a path is played, from the properties of a display.
+
+    Args:
+        look: of the robot.
+        speed: as MoveIt writes it.
+        by_shown_time: whether the time that is shown counts.
+        loops, interrupts: see the properties.
+        trail: whether there is one.
+        step: points between its states.
+        share: of the point that is held, None to play.
+        attached: colour of what the robot holds.
+    """
+
+    look: Look
+    speed: str
+    by_shown_time: bool
+    loops: bool
+    interrupts: bool
+    trail: bool
+    step: int
+    share: float | None
+    attached: Rgb = ATTACHED
+
+
+def playback_of(path: Any, attached: Rgb = ATTACHED) -> Playback:
+    """From the properties of Trajectory or of a planned path, which have the same names."""
+    look = Look(
+        path.show_robot_visual,
+        path.show_robot_collision,
+        path.robot_alpha,
+        path.links,
+        path.all_links_enabled,
+        path.robot_color if path.color_enabled else None,
+    )
+    return Playback(
+        look,
+        path.state_display_time,
+        path.use_sim_time,
+        path.loop_animation,
+        path.interrupt_display,
+        path.show_trail,
+        path.trail_step_size,
+        path.position if path.paused else None,
+        attached,
+    )
+
+
+@dataclass
+class PathView:
+    """The path that a display shows.
+
+    Args:
+        robots: draw the robot.
+        player: says at which point it is.
+    """
+
+    robots: Robots
+    player: Player = field(default_factory=Player)
+    held: Held = field(default_factory=Held)
+    _trail: Trail = field(default_factory=Trail)
+    _made: tuple[Any, Poser, Path] | None = None
+
+    @property
+    def newest(self) -> Path | None:
+        """The newest path."""
+        return self._made and self._made[2]
+
+    def take(self, message: Any, playback: Playback) -> None:
+        """Take the newest message, None before the first."""
+        model = self.robots.model
+        if message is None or model is None:
+            self._made = None
+        elif self._made is None or self._made[:2] != (message, model.poser):
+            self._made = message, model.poser, path_of(message, model.poser)
+        self.player.take(self.newest, playback.interrupts)
+
+    def advance(self, playback: Playback, now_ns: int) -> object:
+        """Go on to this time; the result changes with what is to be drawn."""
+        clock_s = now_ns / SECOND if playback.by_shown_time else time.monotonic()
+        self.player.step(clock_s, speed_of(playback.speed) or Speed(), playback.loops)
+        if playback.share is not None:
+            self.player.hold(playback.share)
+        return self.player.index, self.player.path, self.player.is_moving
+
+    def draw(self, playback: Playback, frame: str, ctx: Context) -> None:
+        """Draw the robot at the current point, and the trail.
+
+        Args:
+            playback: how.
+            frame: that places the robot if the path does not say it.
+            ctx: receives nodes and statuses.
+        """
+        model, path = self.robots.model, self.player.path
+        self.robots.report(playback.look, ctx)
+        if speed_of(playback.speed) is None:
+            ctx.warn(
+                "Speed",
+                f"State Display Time {named(playback.speed)} is invalid. Write a factor such as "
+                f"3x or a time such as 0.05s. {DEFAULT_SPEED} is used.",
+            )
+        if model is None or path is None:
+            return
+        newest = self.newest or path
+        if not len(path):
+            ctx.warn("Path", "The path has no points. Plan again.")
+            return
+        self._report(path, newest, ctx)
+        index, frame = self.player.index, path.frame or frame
+        poses = model.poser.place(path.values[index], path.poses[index])
+        self.robots.draw(poses, playback.look, frame, PREFIX, ctx)
+        rgba = with_alpha(playback.attached, playback.look.alpha)
+        scene = Scene(attached=path.attached or {})
+        if playback.look.visual or playback.look.collision:
+            self.held.draw(scene, poses, rgba, frame, PREFIX, ctx)
+        if playback.trail:
+            step = max(playback.step, -(-len(path) // MOST_STATES))
+            if step > playback.step:
+                ctx.warn("Trail", f"Only every {step}th point is drawn: there are {len(path)}.")
+            last = index if self.player.is_moving else len(path) - 1
+            self._trail.draw(self.robots, path, step, last, playback.look, frame, ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """A link, with the point of the path; or what the robot holds."""
+        path = self.player.path
+        details = self.held.inspect(hit) or self._trail.inspect(hit)
+        details = details or self.robots.inspect(hit, ctx.frames)
+        if details is None or path is None or not hit.key.startswith(PREFIX):
+            return details
+        point: Mapping[str, object] = {"Point": _point(path, self.player.index)}
+        return replace(details, values={**point, **details.values})
+
+    def _report(self, path: Path, newest: Path, ctx: Context) -> None:
+        ctx.ok("Path", f"{_point(path, self.player.index)}.")
+        model = self.robots.model
+        if newest.strangers:
+            names = listed([named(name) for name in newest.strangers], NAMED)
+            ctx.warn(
+                "Joints",
+                f"The robot has no joint {names}. Check that its URDF is that of the path.",
+            )
+        elif newest.model and model is not None and newest.model != model.robot.name:
+            ctx.warn(
+                "Joints",
+                f"The path is for the robot {named(newest.model)}, the URDF describes "
+                f"{named(model.robot.name)}.",
+            )
+        if newest.faults:
+            ctx.warn("Points", " ".join(newest.faults[:NAMED]))
+
+
+def _point(path: Path, index: int) -> str:
+    return f"Point {index + 1} of {counted(len(path), 'point')}, at {path.times[index]:.2f} s"

@@ -1,0 +1,132 @@
+"""The PlanningScene display."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Annotated
+
+from webviz import Context, Details, Display, Hit, Prop, Sample, Topic
+from webviz.api.wire import Wire
+from webviz_displays.moveit.asking import Asking
+from webviz_displays.moveit.properties import (
+    ROBOT_DESCRIPTION,
+    MoveGroupNamespace,
+    PlanningSceneTopic,
+    RobotDescription,
+    SceneGeometry,
+    SceneRobot,
+)
+from webviz_displays.moveit.robots import Robots
+from webviz_displays.moveit.scene import Scene, updated
+from webviz_displays.moveit.world import World, look_of
+
+
+@dataclass(frozen=True)
+class Received:
+    """What publishers said.
+
+    Args:
+        description: URDF of the robot, None before the first.
+        scene: the messages so far, None before the first.
+    """
+
+    description: str | None = None
+    scene: Scene | None = None
+
+    def with_sample(self, name: str, sample: Sample) -> Received:
+        """The same with a message of the input `name`."""
+        if name == "robot_description":
+            return replace(self, description=sample.message.data)
+        return replace(self, scene=updated(self.scene or Scene(), sample.message))
+
+    def scene_over(self, answer: Scene | None) -> Scene | None:
+        """The scene, completed by the answer of move_group where messages have changes only."""
+        if self.scene is None or answer is None or self.scene.is_whole:
+            return self.scene or answer
+        return self.scene.over(answer)
+
+
+@dataclass
+class State:
+    """What is drawn of a scene.
+
+    Args:
+        robots: the robot.
+        asking: move_group.
+        world: what is drawn.
+    """
+
+    robots: Robots = field(default_factory=Robots)
+    asking: Asking = field(default_factory=Asking)
+    world: World = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.world = World(self.robots)
+
+
+class PlanningScene(Display):
+    """What MoveIt knows of the world: objects, the robot, and what the robot holds."""
+
+    rviz = "moveit_rviz_plugin/PlanningScene"
+    is_threaded = True
+
+    planning_scene_topic: PlanningSceneTopic = Topic("/monitored_planning_scene")
+    robot_description: RobotDescription = ROBOT_DESCRIPTION
+    move_group_namespace: MoveGroupNamespace = ""
+    scene_geometry: Annotated[SceneGeometry, Prop(help="How the objects look.")] = SceneGeometry()
+    scene_robot: Annotated[SceneRobot, Prop(help="How the robot looks.")] = SceneRobot()
+
+    def new_state(self) -> State:
+        """Nothing."""
+        return State()
+
+    def waits(self, name: str) -> bool:
+        """Scenes have no stamp."""
+        return False
+
+    def fold(self, name: str, sample: Sample, state: Received | None) -> Received:
+        """Apply each change to the scene."""
+        return (state or Received()).with_sample(name, sample)
+
+    def talk(self, wire: Wire, ctx: Context) -> None:
+        """Ask move_group for the whole scene."""
+        state: State = ctx.state
+        state.asking.step(self.move_group_namespace, wire)
+
+    def depends(self, ctx: Context) -> object:
+        """Loading progress, the answer of move_group, and frames that objects wait for."""
+        state: State = ctx.state
+        structure = ctx.frames.structure, ctx.frames.fixed_frame
+        late = state.world.is_late(self.scene_geometry.scene_display_time)
+        return state.robots.progress(), state.asking.scene, state.asking.problem, structure, late
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """The newest scene."""
+        state: State = ctx.state
+        received: Received = samples[-1].message if samples else Received()
+        state.robots.begin()
+        collisions = self.scene_robot.show_robot_collision
+        topic = self.robot_description.name
+        state.robots.load(received.description, topic, collisions, ctx)
+        scene = received.scene_over(state.asking.scene)
+        if scene is None:
+            ctx.warn("Scene", no_scene(self.planning_scene_topic.name, state.asking))
+            return
+        state.world.draw(scene, self.scene_geometry, self.scene_robot, ctx)
+
+    def tick(self, ctx: Context) -> None:
+        """The trails of links."""
+        state: State = ctx.state
+        state.robots.follow(look_of(self.scene_robot), "", ctx)
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """An object, or a link of the robot."""
+        state: State = ctx.state
+        return state.world.inspect(hit) or state.robots.inspect(hit, ctx.frames)
+
+
+def no_scene(topic: str, asking: Asking) -> str:
+    """Why there is no scene, with the remedy."""
+    problem = f" {asking.problem}" if asking.problem else ""
+    return f"No planning scene received on {topic}.{problem} Start move_group."

@@ -1,0 +1,206 @@
+"""Draws a planning scene: its objects, its robot, and what the robot holds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from webviz import Context, Details, Hit, Pose
+from webviz.data.words import counted, listed
+from webviz_displays.moveit.bodies import Body, named
+from webviz_displays.moveit.drawing import (
+    Drawn,
+    Held,
+    Shown,
+    body_details,
+    drawn,
+    owner_of,
+    with_alpha,
+)
+from webviz_displays.moveit.joints import Joints, Poser, Stance
+from webviz_displays.moveit.octomap import Octomap
+from webviz_displays.moveit.properties import SceneGeometry, SceneRobot
+from webviz_displays.moveit.robots import Look, Robots
+from webviz_displays.moveit.scene import Rgba, Scene
+
+NAMED = 5
+"""Objects, joints and faults that are listed."""
+NO_LINKS: Mapping[str, Pose] = {}
+
+
+@dataclass
+class World:
+    """What is drawn of a scene.
+
+    Args:
+        robots: draw its robot.
+        owners: objects by the keys of nodes.
+        held: what the robot holds.
+        octomap: that of the scene.
+        scene: that is drawn.
+        frame: of the scene.
+    """
+
+    robots: Robots
+    owners: Mapping[str, object] = field(default_factory=dict)
+    held: Held = field(default_factory=Held)
+    octomap: Octomap = field(default_factory=Octomap)
+    scene: Scene = field(default_factory=Scene)
+    frame: str = ""
+    _made: tuple[object, object, Rgba, Drawn] | None = None
+    _stance: tuple[Poser, Joints, float, Stance] | None = None
+
+    def is_late(self, interval_s: float) -> bool:
+        """Whether the robot may move now to where the scene has it."""
+        if self._stance is None or self._stance[1] is self.scene.joints:
+            return False
+        return time.monotonic() - self._stance[2] >= interval_s
+
+    def draw(self, scene: Scene, geometry: SceneGeometry, robot: SceneRobot, ctx: Context) -> None:
+        """Draw a scene.
+
+        Args:
+            scene: to draw.
+            geometry: how its objects look.
+            robot: how its robot looks.
+            ctx: receives nodes and statuses.
+        """
+        model = self.robots.model
+        self.scene = scene
+        frame = self.frame = scene.frame or (model.robot.root if model else ctx.frames.fixed_frame)
+        links = NO_LINKS
+        if model is not None:
+            stance = self._posed(model.poser, geometry.scene_display_time)
+            links = stance.poses
+            report_joints(scene, stance.assumed, stance.strangers, ctx)
+        look = look_of(robot)
+        self.robots.draw(links, look, frame, "", ctx)
+        self.robots.report(look, ctx)
+        lost = self.held.places.update(scene, frame, links, ctx.frames)
+        self.owners = {}
+        if geometry.show_scene_geometry:
+            nodes = self._objects(scene, with_alpha(geometry.scene_color, geometry.scene_alpha))
+            nodes.add(frame, ctx)
+            self.owners = nodes.owners
+            looks = geometry.voxel_rendering, geometry.voxel_coloring, geometry.scene_alpha
+            self.octomap.draw(scene, self.held.places, links, looks, frame, ctx)
+        lost_held: list[str] = []
+        if robot.show_robot_visual or robot.show_robot_collision:
+            color = with_alpha(robot.attached_body_color, robot.robot_alpha)
+            lost_held = self.held.draw(scene, links, color, frame, "", ctx)
+        report_objects(scene, lost, lost_held, ctx)
+
+    def _objects(self, scene: Scene, default: Rgba) -> Drawn:
+        """The objects as nodes, made anew only if one of them or its colour has changed."""
+        world = self.held.places.world
+        made = self._made
+        if (
+            made is None
+            or made[0] is not world
+            or made[1] is not scene.colors
+            or made[2] != default
+        ):
+            shown = [
+                Shown(body, pose, scene.colors.get(key, default))
+                for key, (body, pose) in world.items()
+            ]
+            made = self._made = world, scene.colors, default, drawn(shown, "object ")
+        return made[3]
+
+    def _posed(self, poser: Poser, interval_s: float) -> Stance:
+        """Where the links are, computed anew after some time at the earliest."""
+        joints, now_s, before = self.scene.joints, time.monotonic(), self._stance
+        if (
+            before is not None
+            and before[0] is poser
+            and (before[1] is joints or now_s - before[2] < interval_s)
+        ):
+            return before[3]
+        self._stance = poser, joints, now_s, poser.stance(joints)
+        return self._stance[3]
+
+    def inspect(self, hit: Hit) -> Details | None:
+        """An object, by one of its shapes."""
+        body = owner_of(hit, self.owners)
+        if body is None:
+            return self.held.inspect(hit) or self.octomap.inspect(hit)
+        place = self.held.places.world.get(body.id)
+        return body_details(body, {f"Pose in {self.frame}": place[1]} if place else {})
+
+
+def look_of(robot: SceneRobot) -> Look:
+    """How the robot of a scene is drawn."""
+    return Look(
+        robot.show_robot_visual,
+        robot.show_robot_collision,
+        robot.robot_alpha,
+        robot.links,
+        robot.all_links_enabled,
+    )
+
+
+def report_joints(
+    scene: Scene, assumed: tuple[str, ...], strangers: tuple[str, ...], ctx: Context
+) -> None:
+    """Report joints that the scene or the robot does not know."""
+    known = len(scene.joints.positions) + len(scene.joints.poses)
+    report_names(known, assumed, strangers, "The scene", ctx)
+
+
+def report_names(
+    known: int, assumed: tuple[str, ...], strangers: tuple[str, ...], what: str, ctx: Context
+) -> None:
+    """Report joints that a message or the robot does not know.
+
+    Args:
+        known: joints with a position.
+        assumed: joints without one.
+        strangers: joints that the robot does not have.
+        what: the message.
+        ctx: receives the status.
+    """
+    if strangers:
+        names = listed([named(name) for name in strangers], NAMED)
+        ctx.warn(
+            "Joints",
+            f"The robot has no joint {names}. Check that its URDF is that of the message.",
+        )
+    elif assumed:
+        ctx.warn(
+            "Joints",
+            f"{what} has no position for {counted(len(assumed), 'joint')}: "
+            f"{listed(list(assumed), NAMED)}. They stay at their default.",
+        )
+    else:
+        ctx.ok("Joints", f"The positions of {counted(known, 'joint')} are known.")
+
+
+def report_objects(scene: Scene, lost: list[Body], lost_held: list[str], ctx: Context) -> None:
+    """Report how many objects there are, and which cannot be drawn."""
+    name = f"{named(scene.name)}: " if scene.name else ""
+    count = len(scene.objects)
+    attached = f", {len(scene.attached)} attached" if scene.attached else ""
+    ctx.ok("Scene", f"{name}{counted(count, 'object')}{attached}.")
+    faults = list(scene.faults)
+    for body in (*scene.objects.values(), *(each.body for each in scene.attached.values())):
+        faults += body.faults
+        if len(faults) > NAMED:
+            break
+    if lost:
+        first = lost[0]
+        ctx.error(
+            "Object frames",
+            f"{counted(len(lost), 'object')} in an unknown frame, such as {named(first.id)} in "
+            f"{named(first.frame)}. Publish its transform, or give it in the frame of the scene.",
+        )
+    elif lost_held:
+        link = scene.attached[lost_held[0]].link
+        ctx.error(
+            "Object frames",
+            f"{counted(len(lost_held), 'attached object')} without the pose of the link, such as "
+            f"{named(lost_held[0])} at {named(link)}. Check the URDF.",
+        )
+    if faults:
+        more = " And more." if len(faults) > NAMED else ""
+        ctx.warn("Objects", " ".join(faults[:NAMED]) + more)

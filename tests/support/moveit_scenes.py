@@ -1,0 +1,119 @@
+"""Messages for the displays of MoveIt, in which every property has something to change."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from octrees import full, octree
+
+URDF = """
+<robot name="rail">
+  <link name="base">
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <collision><geometry><sphere radius="1"/></geometry></collision>
+  </link>
+  <link name="rider"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <link name="hand"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/><child link="rider"/><limit lower="0" upper="9" effort="1" velocity="1"/>
+  </joint>
+  <joint name="grip" type="fixed"><parent link="rider"/><child link="hand"/></joint>
+</robot>
+"""
+UNTURNED = {"w": 1.0}
+
+
+def at(x: float) -> dict[str, Any]:
+    return {"position": {"x": x}, "orientation": UNTURNED}
+
+
+def state(position: float, *held: dict[str, Any]) -> dict[str, Any]:
+    joints = {"header": {"frame_id": "base"}, "name": ["slide"], "position": [position]}
+    return {"joint_state": joints, "attached_collision_objects": [*held]}
+
+
+def box(name: str, x: float, frame: str = "base") -> dict[str, Any]:
+    cube = {"type": 1, "dimensions": [0.2, 0.2, 0.2]}
+    return {"id": name, "header": {"frame_id": frame}, "pose": at(x), "primitives": [cube]}
+
+
+ROOT = octree([(0, 0, 0), (3, 0, 5)])
+ROOT.place((9, 0, 0), log_odds=-2.0)
+TREE = full(ROOT)
+HELD = {"link_name": "rider", "object": box("cup", 0.5, "rider")}
+SCENE = {
+    "name": "cell",
+    "robot_state": state(1.0, HELD),
+    "world": {
+        "collision_objects": [box("table", 2.0), box("door", 3.0)],
+        "octomap": {"header": {"frame_id": "base"}, "octomap": TREE},
+    },
+    "object_colors": [{"id": "door", "color": {"g": 1.0, "a": 0.5}}],
+}
+PATH = {
+    "trajectory_start": state(1.0, HELD),
+    "trajectory": [
+        {
+            "joint_trajectory": {
+                "joint_names": ["slide"],
+                "points": [
+                    {"positions": [place], "time_from_start": {"sec": 1000 * number}}
+                    for number, place in enumerate((1.0, 1.5, 2.0, 12.0))
+                ],
+            }
+        }
+    ],
+}
+SHOWN = {
+    "state": state(1.0, HELD),
+    "highlight_links": [{"id": "base", "color": {"r": 1.0, "a": 0.5}}],
+}
+
+MOVEIT_MESSAGES: dict[str, dict[str, Any]] = {
+    "moveit_msgs/msg/PlanningScene": SCENE,
+    "moveit_msgs/msg/DisplayTrajectory": PATH,
+    "moveit_msgs/msg/DisplayRobotState": SHOWN,
+    "moveit_msgs/msg/RobotState": state(1.0),
+}
+"""A message of each type that draws something."""
+
+
+def moveit(bench: Any) -> None:
+    """All that MoveIt sends about a robot; a path of 1000 s at the default speed, twice."""
+    bench.transform("map", "base", (1.0, 0.0, 0.0))
+    whole = {"scene": {"world": {"collision_objects": [box("wall", 5.0)]}}}
+    bench.serve("/robot/get_planning_scene", "moveit_msgs/srv/GetPlanningScene", whole)
+    bench.send("std_msgs/msg/String", {"data": URDF}, topic="robot_description")
+    settle(bench)
+    scene = SCENE | {"is_diff": True}
+    topics = {
+        "/monitored_planning_scene": ("moveit_msgs/msg/PlanningScene", scene),
+        "/display_planned_path": ("moveit_msgs/msg/DisplayTrajectory", PATH),
+        "display_robot_state": ("moveit_msgs/msg/DisplayRobotState", SHOWN),
+    }
+    for topic, (type_name, values) in topics.items():
+        bench.send(type_name, values, topic=topic)
+    # The link that leaves a trail moves.
+    for x in (1.0, 1.5, 2.0):
+        bench.transform("map", "base", (x, 0.0, 0.0))
+        bench.turn(100.0)
+    bench.send("moveit_msgs/msg/DisplayTrajectory", PATH, topic="/display_planned_path")
+    moved = {"robot_state": state(4.0) | {"is_diff": True}, "is_diff": True}
+    bench.send("moveit_msgs/msg/PlanningScene", moved, topic="/monitored_planning_scene")
+    for seconds in (0.0, 900.0, 400.0):
+        bench.turn(seconds)
+    after = time.monotonic() + 0.02  # of which half is the time that a scene stays
+    while time.monotonic() < after:
+        bench.turn()
+    settle(bench)
+
+
+def settle(bench: Any) -> None:
+    """Let slow work finish."""
+    deadline = time.monotonic() + 60
+    bench.turn()
+    while "Loading" in bench.statuses() or bench.runner.is_busy():
+        assert time.monotonic() < deadline, bench.statuses()
+        time.sleep(0.005)
+        bench.turn()
