@@ -40,6 +40,7 @@ setup(
         "webviz.displays": [
             "AccelStamped = webviz_displays.vectors:AccelStamped",
             "Axes = webviz_displays.axes:Axes",
+            "Camera = webviz_displays.camera:Camera",
             "CameraInfo = webviz_displays.camera_info:CameraInfo",
             "ColorOccupancyGrid = webviz_displays.octomap:ColorOccupancyGrid",
             "Costmap = webviz_displays.map:Costmap",

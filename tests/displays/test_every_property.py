@@ -118,6 +118,19 @@ def camera_infos(bench: Any) -> None:
     bench.settle()
 
 
+def cameras(bench: Any) -> None:
+    """Two depth images of different ranges, by a camera with distortion."""
+    bench.transform("map", "camera", (1.0, 0.0, 0.0))
+    bend = {"distortion_model": "plumb_bob", "d": [-0.1, 0.0, 0.0, 0.0, 0.0]}
+    for topic in ("/camera/camera_info", "/info"):
+        values = photos.info(16, 12, **bend)
+        bench.send(photos.INFO, values, frame="camera", topic=topic)
+    for scale in (0.5, 1.0):
+        values = photos.raw(scale * photos.room(16, 12)[1], "32FC1")
+        bench.send(photos.RAW, values, frame="camera", topic="/camera/image_raw")
+        bench.turn()
+
+
 def depth_clouds(bench: Any) -> None:
     """Depths with a camera info and a colour image, of a tilted camera."""
     bench.transform("map", "camera", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
@@ -229,6 +242,7 @@ def texts(bench: Any) -> None:
 
 SCENES: dict[str, Callable[[Any], None]] = {
     "Axes": robot_frame,
+    "Camera": cameras,
     "CameraInfo": camera_infos,
     "DepthCloud": depth_clouds,
     "Grid": robot_frame,
@@ -256,6 +270,7 @@ ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_si
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
 # drawn already.
 OF_THE_FUTURE = {
+    ("Camera", "median_window"),
     ("Image", "median_window"),
     ("OccupancyMap", "max_octree_depth"),
     ("OccupancyMapStamped", "max_octree_depth"),
@@ -271,6 +286,10 @@ OF_THE_FUTURE = {
     ("TF", "update_interval"),
     ("Text", "update_interval"),
 }
+
+# What the page does with the scene that a display draws (tests/page/test_images.py), and a choice
+# that depends on the name of the topic (tests/displays/test_camera.py).
+ELSEWHERE = {("Camera", "visibility"), ("Camera", "undistort")}
 
 # Entries of properties that hold settings by name: each differs from none in one setting.
 ENTRIES: dict[type, list[Any]] = {
@@ -385,7 +404,7 @@ def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) ->
 def properties() -> Iterator[Any]:
     for cls in display_classes():
         for path, hint, condition in leaves(cls, cls(), "", {}):
-            if path != "name":
+            if path != "name" and (cls.__name__, path) not in ELSEWHERE:
                 yield pytest.param(cls, path, hint, condition, id=f"{cls.__name__}.{path}")
 
 

@@ -5,27 +5,39 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
+import lenses
 import numpy as np
 import photos
 import pytest
 from numpy.typing import NDArray
 
-from webviz.api.nodes import Pane
-from webviz.api.pictures import Encoded, Packet, Pixels, Video
+from webviz.api.nodes import Labels, Pane, Points, Pose
+from webviz.api.pictures import Encoded, Packet, Pixels, Sight, Video, Warp
 from webviz.api.status import Level, Status
-from webviz.data.images import RawImage, Tone
+from webviz.data.images import CameraModel, Lens, RawImage, Tone
 from webviz.edges.page.pictures import Pictures
+from webviz.edges.scene import ViserScene
 from webviz.engine.state import Row
+from webviz_displays.camera import Camera
+from webviz_displays.grid import Grid
 from webviz_displays.image import Image
 
+NO_ROI = SimpleNamespace(x_offset=0, y_offset=0, width=0, height=0)
 COLORS, DEPTHS = photos.room(160, 120)
 
 
 @pytest.fixture(scope="module")
-def pictures(server: Any) -> Pictures:
-    return Pictures(server.channel)
+def scene(server: Any) -> ViserScene:
+    return ViserScene(server)
+
+
+@pytest.fixture(scope="module")
+def pictures(scene: ViserScene) -> Pictures:
+    return scene.link.pictures
 
 
 @pytest.fixture
@@ -92,7 +104,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(tab: Any, pictures: Pict
     sent: list[str] = []
     send = pictures._channel.send_bytes
     pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
-        sent.append(key),
+        sent.append(key.rpartition(" ")[0]),
         send(data, key, browser),
     )[1]
     try:
@@ -184,6 +196,120 @@ def test_on_a_phone_images_are_below_the_scene(tab: Any) -> None:
     tab.wait_for(is_below)
     tab.page.set_viewport_size(size)
     tab.wait_for(lambda: root.bounding_box()["width"] < size["width"] - 600)
+
+
+def test_the_scene_is_over_the_image_where_the_camera_sees_it(
+    scene: ViserScene, pictures: Pictures, open_tab: Callable[..., Any]
+) -> None:
+    # Points along rays of the rectified camera, and the pixels in which OpenCV sees them.
+    chosen = {"red": (2, (255, 0, 0)), "green": (3, (0, 255, 0)), "blue": (1, (0, 0, 255))}
+    _, _, seen = lenses.SEEN["plumb_bob"]
+    image = np.zeros((lenses.HEIGHT, lenses.WIDTH, 3), np.uint8)
+    for name, (index, color) in chosen.items():
+        xyz = np.array([2.0 * lenses.RAYS[index]], np.float32)
+        group = f"{name.title()}/draw"
+        scene.set_pose(group, Pose((5.0, 6.0, 7.0)))
+        scene.upsert(group, "dot", Points(xyz, color, 0.06))
+        column, row = map(round, seen[index])
+        image[row - 7 : row + 8, column - 7 : column + 8] = color
+    middle = np.array([(0.0, 0.0, 2.0)], np.float32)
+    scene.upsert("Red/draw", "text", Labels(middle, ("Text",), 0.3))
+    scene.flush()
+    info = SimpleNamespace(**lenses.info("plumb_bob"), roi=NO_ROI)
+    camera = CameraModel.whole(info)
+    grid = Lens.of(info).grid(camera)
+    assert grid is not None
+    sight = Sight(
+        position=(5.0, 6.0, 7.0),
+        wxyz=(1.0, 0.0, 0.0, 0.0),
+        size=(camera.width, camera.height),
+        focal=(camera.fx, camera.fy),
+        principal=(camera.cx, camera.cy),
+        part=(0.0, 0.0, 1.0, 1.0),
+        far=100.0,
+        zoom=0.75,
+        overlay=0.0,
+        is_background=False,
+        warp=Warp(grid),
+    )
+
+    def dots() -> dict[str, Any]:
+        """Where each colour is in the pane: column, row, and how many pixels; nothing if none."""
+        return other.page.get_by_label("Image Camera", exact=True).evaluate(FIND)
+
+    def expected(index: int) -> Any:
+        """The place of a ray by hand: the pane shows 4/3 of the camera's width."""
+        width, height = dots()["size"]
+        pixel = np.array((camera.cx, camera.cy)) + 580.0 * lenses.RAYS[index][:2] + 0.5
+        scale = 0.75 * min(width / 640, height / 480)
+        return np.array((width, height)) / 2 + (pixel - (320, 240)) * scale
+
+    def are_right(names: set[str], has_text: bool = False) -> bool:
+        found = dots()
+        if {name for name in chosen if found[name]} != names:
+            return False
+        if found["white"] != has_text:
+            return False
+        return all(
+            np.abs(np.subtract(found[name][:2], expected(chosen[name][0]))).max() < 2.0
+            for name in names
+        )
+
+    other = open_tab(resolution=1.0)
+    rows = [Row(name.title(), "Grid", Grid(name=name.title()), name.title(), {}) for name in chosen]
+    other.loop.show(Row("Camera", "Camera", Camera(name="Camera"), "Camera", {}), *rows)
+    try:
+        pictures.show("Camera", replace(pixels(image, "rgb8"), sight=sight))
+        other.wait_for(lambda: are_right({"red", "green", "blue"}, has_text=True))  # of the scene
+        hiding = Camera(name="Camera", visibility={"Red": False})
+        other.loop.show(Row("Camera", "Camera", hiding, "Camera", {}), *rows)
+        other.wait_for(lambda: are_right({"green", "blue"}))
+        for name in chosen:
+            scene.remove_group(f"{name.title()}/draw")
+        scene.flush()
+        other.wait_for(lambda: are_right(set()))
+        # Of the image alone, undistorted: it fits the scene.
+        pictures.show("Camera", replace(pixels(image, "rgb8"), sight=replace(sight, overlay=1.0)))
+        other.wait_for(lambda: are_right({"red", "green", "blue"}))
+        found = dots()
+        x, y = (found["blue"][i] / found["size"][i] for i in range(2))
+        canvas = other.page.get_by_label("Image Camera", exact=True).locator("canvas")
+        box = canvas.bounding_box()
+        column, row = map(round, seen[1])
+        value = other.page.get_by_label("Image Camera", exact=True).locator(".wv-pane-value")
+
+        def reads() -> bool:
+            other.page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+            words = value.inner_text().split()
+            if len(words) < 8 or words[-3:] != ["0", "0", "255"]:
+                return False
+            return abs(int(words[1]) - column) <= 3 and abs(int(words[4]) - row) <= 3
+
+        other.wait_for(reads)
+    finally:
+        pictures.remove("Camera")
+
+
+FIND = """(pane) => {
+  const canvas = pane.querySelector("canvas");
+  const { width, height } = canvas;
+  const found = { size: [width, height], red: null, green: null, blue: null, white: false };
+  if (!pane.dataset.stamp) return found;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+  for (const [channel, name] of ["red", "green", "blue"].entries()) {
+    let [x, y, count] = [0, 0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      const [own, ...others] = [0, 1, 2].map((k) => data[i + ((channel + k) % 3)]);
+      if (own < 150 || Math.max(...others) > 60) continue;
+      x += ((i / 4) % width) + 0.5;
+      y += Math.floor(i / 4 / width) + 0.5;
+      count += 1;
+    }
+    if (count) found[name] = [x / count, y / count, count];
+  }
+  for (let i = 0; i < data.length; i += 4) found.white ||= Math.min(...data.slice(i, i + 3)) > 200;
+  return found;
+}"""
 
 
 RECORD = """async (codec) => {

@@ -8,6 +8,8 @@ import photos
 
 from webviz.api.views import Orbit
 from webviz.shell.testing import Stage
+from webviz_displays.axes import Axes
+from webviz_displays.camera import Camera
 from webviz_displays.camera_info import CameraInfo
 from webviz_displays.depth_cloud import DepthCloud
 from webviz_displays.grid import Grid
@@ -27,6 +29,23 @@ def test_a_camera_has_a_pyramid_with_its_image(webviz_stage: Stages) -> None:
     seen.publish(camera.image_topic.name, photos.RAW, values, frame="camera")
     seen.turn()
     seen.check_picture("camera_info/default")
+
+
+def test_the_scene_is_over_the_image_of_its_camera(webviz_stage: Stages) -> None:
+    camera = Camera(overlay_alpha=0.2, zoom_factor=0.9)
+    frame = Axes(reference_frame="box", length=0.5, radius=0.03)
+    seen = webviz_stage(
+        CameraInfo(show_polygons=False), camera, frame, Grid(plane_cell_count=6), view=VIEW
+    )
+    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    seen.transform("map", "box", (2.0, -0.4, 0.0))
+    bend = {"distortion_model": "plumb_bob", "d": [-0.3, 0.1, 0.0, 0.0, 0.0]}
+    values = photos.info(640, 480, **bend)
+    seen.publish("/camera/camera_info", photos.INFO, values, frame="camera")
+    image = photos.jpeg(photos.room(640, 480)[0])
+    seen.publish(camera.topic.name, photos.COMPRESSED, image, frame="camera")
+    seen.turn()
+    seen.check_picture("camera/default")
 
 
 def test_depths_are_points_in_color(webviz_stage: Stages) -> None:

@@ -56,6 +56,19 @@ Visualization Manager:
         "": true
         0: false
         1: true
+    - Class: rviz_default_plugins/Camera
+      Name: Camera
+      Topic: {Value: /camera/image_raw}
+      Image Rendering: overlay
+      Overlay Alpha: 0.25
+      Zoom Factor: 2
+      Far Plane Distance: 50
+      Visibility:
+        Grid: true
+        Full: {TF: false, Robot: true, Value: true}
+        Empty: {Value: false}
+        Value: true
+      Value: true
     - Class: rviz_plugins::Thing
       Name: Thing
     - {}

@@ -27,6 +27,13 @@ def jpeg(pixels: NDArray[np.uint8], format_: str = "rgb8; jpeg compressed bgr8")
     return {"format": format_, "data": np.frombuffer(file.getvalue(), np.uint8)}
 
 
+def png16(pixels: NDArray[np.uint16]) -> dict[str, Any]:
+    """A sensor_msgs/CompressedImage of 16 bits."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return {"format": "16UC1; png compressed ", "data": np.frombuffer(file.getvalue(), np.uint8)}
+
+
 def room(width: int = 160, height: int = 120) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """Colours, and depths in metres: floor, wall, and a red box."""
     rows, columns = np.mgrid[:height, :width].astype(np.float32)

@@ -39,7 +39,7 @@ def Prop(
     unit: str = "",
     rviz: str = "",
     when: tuple[str, object] | None = None,
-    widget: Literal["", "frame", "names", "slider"] = "",
+    widget: Literal["", "displays", "frame", "names", "slider"] = "",
     otherwise: str = "",
     gt: float | None = None,
     ge: float | None = None,
@@ -55,7 +55,7 @@ def Prop(
         when: (property, value) at which this property has an effect; several values as a tuple.
         widget: the control, if the type alone does not determine it; "frame" for the id of a frame,
             or for switches by the ids of frames; "names" for switches by names that the display
-            offers, see `Context.offered`.
+            offers, see `Context.offered`; "displays" for switches of the other displays.
         otherwise: of switches, the property that holds for names without one.
         gt, ge, lt, le: bounds.
     """

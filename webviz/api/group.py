@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from webviz.api.display import Display
 
+PATH = " > "
+"""Joins the names of groups and displays where one text names a display in groups."""
+
 
 class DisplayGroup(Display):
     """A group of displays; switched off, none of them is drawn.

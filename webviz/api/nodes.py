@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.pictures import Picture
+from webviz.api.pictures import Picture, Sight
 
 F32 = NDArray[np.float32]
 U8 = NDArray[np.uint8]
@@ -271,11 +271,13 @@ class Pane(_Node):
         picture: of one message.
         stamp_ns: of its message, 0 if it has none.
         order: see `Context.order`.
+        sight: of the camera that took the picture, if the scene is drawn with it.
     """
 
     picture: Picture
     stamp_ns: int = 0
     order: int = 0
+    sight: Sight | None = None
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image | Pane

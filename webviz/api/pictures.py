@@ -145,3 +145,45 @@ class Readout:
 
 
 Picture = Pixels | Encoded | Video | Readout
+
+
+@dataclass(frozen=True, eq=False)
+class Warp:
+    """How an image is bent to show what a camera without distortion sees; equal only to itself.
+
+    Args:
+        grid: float32 (R, C, 2), see `webviz.data.images.Lens.grid`.
+    """
+
+    grid: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Sight:
+    """How a camera sees the scene, so that a page draws it over and under a picture.
+
+    Args:
+        position, wxyz: of the optical frame's centre of projection in the fixed frame, metres and a
+            unit quaternion; x to the right, y down, z ahead.
+        size: width and height in pixels of what the camera sees at a zoom of 1.
+        focal: focal lengths in these pixels.
+        principal: principal point in these pixels; the centre of the first one is at 0, 0.
+        part: left, top, right and bottom of the picture, as shares of the size.
+        far: distance of the far end of what is drawn of the scene, metres.
+        zoom: by how much more all is magnified than to fill the pane.
+        overlay: opacity of the picture over the scene.
+        is_background: whether the picture is opaque behind the scene, too.
+        warp: how the picture is bent before; it then takes the whole size.
+    """
+
+    position: tuple[float, float, float]
+    wxyz: tuple[float, float, float, float]
+    size: tuple[int, int]
+    focal: tuple[float, float]
+    principal: tuple[float, float]
+    part: tuple[float, float, float, float]
+    far: float
+    zoom: float
+    overlay: float
+    is_background: bool
+    warp: Warp | None

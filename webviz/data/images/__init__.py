@@ -6,6 +6,7 @@ from webviz.data.images.compressed import CompressedInfo, inspect_compressed, re
 from webviz.data.images.compressed_depth import decode_depth
 from webviz.data.images.encodings import ENCODINGS, Layout, layout_of
 from webviz.data.images.errors import ImageError
+from webviz.data.images.lens import Lens
 from webviz.data.images.raw import RawImage, remarks, values
 from webviz.data.images.render import jpeg, render
 from webviz.data.images.tone import Tone, to_rgb, value_range
@@ -17,6 +18,7 @@ __all__ = [
     "CompressedInfo",
     "ImageError",
     "Layout",
+    "Lens",
     "RawImage",
     "Tone",
     "decode_depth",

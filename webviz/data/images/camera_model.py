@@ -33,8 +33,35 @@ class CameraModel:
     center: tuple[float, float] = (0.0, 0.0)
 
     @staticmethod
-    def of(info: Any) -> CameraModel:
+    def of(info: Any, otherwise: tuple[int, int] = (0, 0)) -> CameraModel:
         """The camera of a sensor_msgs/CameraInfo: P, or K if P is empty.
+
+        Args:
+            info: a sensor_msgs/CameraInfo.
+            otherwise: width and height in pixels for a camera info without a size.
+
+        Raises:
+            ImageError: it is not calibrated, or its numbers are invalid.
+        """
+        roi = info.roi
+        least = int(roi.width) or otherwise[0], int(roi.height) or otherwise[1]
+        whole = CameraModel.whole(info, least)
+        width, height = int(roi.width) or whole.width, int(roi.height) or whole.height
+        bx, by = binning(info)
+        left, top = int(roi.x_offset), int(roi.y_offset)
+        return CameraModel(
+            max(width // bx, 1),
+            max(height // by, 1),
+            whole.fx / bx,
+            whole.fy / by,
+            (whole.cx - left) / bx,
+            (whole.cy - top) / by,
+            whole.center,
+        )
+
+    @staticmethod
+    def whole(info: Any, otherwise: tuple[int, int] = (0, 0)) -> CameraModel:
+        """As `of`, without region of interest and binning: what the whole sensor sees.
 
         Raises:
             ImageError: it is not calibrated, or its numbers are invalid.
@@ -52,27 +79,16 @@ class CameraModel:
             raise ImageError(
                 f"The focal lengths {fx:g} and {fy:g} px of P are invalid. Calibrate the camera."
             )
-        roi = info.roi
-        width, height = int(roi.width) or int(info.width), int(roi.height) or int(info.height)
+        width, height = int(info.width) or otherwise[0], int(info.height) or otherwise[1]
         if not width or not height:
             raise ImageError(
                 f"The camera info has a size of {info.width} x {info.height} pixels. Set width and "
                 "height in the driver."
             )
-        bx, by = max(int(info.binning_x), 1), max(int(info.binning_y), 1)
-        left, top = int(roi.x_offset), int(roi.y_offset)
         center = -tx / fx, -ty / fy
         if not max(map(abs, center)) < 1e6:
             raise ImageError("The last column of P puts the camera farther away than 1000 km.")
-        return CameraModel(
-            max(width // bx, 1),
-            max(height // by, 1),
-            fx / bx,
-            fy / by,
-            (cx - left) / bx,
-            (cy - top) / by,
-            center,
-        )
+        return CameraModel(width, height, fx, fy, cx, cy, center)
 
     def rays(self, columns: F64, rows: F64) -> F64:
         """Directions (..., 3) of places in the image, 1 m ahead; (0, 0) is the corner of a pixel.
@@ -106,6 +122,11 @@ class CameraModel:
         points[..., 2] = z
         points[..., :2] += np.asarray(self.center, np.float32)
         return points
+
+
+def binning(info: Any) -> tuple[int, int]:
+    """Columns and rows of the sensor for each pixel of an image; 0 means 1."""
+    return max(int(info.binning_x), 1), max(int(info.binning_y), 1)
 
 
 def optical_problem(frame: str) -> str:

@@ -2,22 +2,37 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Iterable
+from dataclasses import dataclass, fields
 from typing import Any
 
 import msgspec
 import numpy as np
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Packet, Pixels, Readout, Video
+from webviz.api.pictures import Packet, Pixels, Readout, Sight, Video, Warp
 from webviz.api.stills import File
 from webviz.data.images import COLOR_MAPS
 
 
+@dataclass(frozen=True)
+class Sent:
+    """What a page has already.
+
+    Args:
+        packet: number of the newest packet of a video.
+        warp: of the newest picture, None without one.
+    """
+
+    packet: int = -1
+    warp: Warp | None = None
+
+
 def frame(
-    display: str, number: int, pane: Pane, file: File | None, sent_packet: int
-) -> tuple[bytes, int]:
+    display: str, number: int, pane: Pane, file: File | None, sent: Sent
+) -> tuple[bytes, Sent]:
     """A message with a picture.
 
     Args:
@@ -25,33 +40,39 @@ def frame(
         number: of the picture.
         pane: with the picture.
         file: see `file_of`; None of a video.
-        sent_packet: number of the last packet of a video that the page has.
+        sent: what the page has.
 
     Returns:
-        The message, and the number of the last packet in it; without a new packet it is empty.
+        The message, and what the page has with it; without a new packet of a video it is empty.
     """
     picture = pane.picture
     head: dict[str, Any] = {"display": display, "number": number, "stamp": pane.stamp_ns / 1e9}
     if isinstance(picture, Video):
-        packets = _following(picture.packets, sent_packet)
+        packets = _following(picture.packets, sent.packet)
         if not packets:
-            return b"", sent_packet
+            return b"", sent
         head["video"] = picture.codec
         head["sizes"] = [len(packet.data) for packet in packets]
         head["starts"] = packets[0] is picture.packets[0]
-        return _joined(head, (packet.data for packet in packets)), packets[-1].number
+        return _joined(head, (packet.data for packet in packets)), Sent(packets[-1].number)
     assert file is not None
     head["mime"] = file.mime
     if isinstance(picture, Readout):
         head |= {"topic": picture.topic, "type": picture.type, "received": picture.received_s}
-        return _joined(head, [file.data]), sent_packet
+        return _joined(head, [file.data]), sent
     head["size"] = picture.size
     if isinstance(picture, Pixels):
         head |= _legend(picture)
         head["readable"] = True
     else:
         head["swaps"] = picture.swaps_red_and_blue
-    return _joined(head, [file.data]), sent_packet
+    warp = None
+    if pane.sight is not None:
+        warp = pane.sight.warp
+        head["sight"] = sight_values(pane.sight)
+        if warp is not sent.warp:
+            head["warp"] = warp_values(warp)
+    return _joined(head, [file.data]), Sent(sent.packet, warp)
 
 
 def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:
@@ -74,6 +95,21 @@ def _legend(picture: Pixels) -> dict[str, Any]:
             "colors": COLOR_MAPS[tone.color_map],
         }
     }
+
+
+def sight_values(sight: Sight) -> dict[str, Any]:
+    """A sight as JSON, without its warp."""
+    return {each.name: getattr(sight, each.name) for each in fields(sight) if each.name != "warp"}
+
+
+def warp_values(warp: Warp | None) -> dict[str, Any] | None:
+    """A warp as JSON: places by rows, null outside of what the lens sees."""
+    if warp is None:
+        return None
+    rows, columns, _ = warp.grid.shape
+    flat = np.round(warp.grid.astype(np.float64), 6).ravel().tolist()
+    places = [each if math.isfinite(each) else None for each in flat]
+    return {"rows": rows, "columns": columns, "places": places}
 
 
 def _joined(head: dict[str, Any], parts: Iterable[bytes | np.ndarray[Any, Any]]) -> bytes:

@@ -13,7 +13,7 @@ from webviz.api.pictures import Pixels, Video
 from webviz.api.stills import File, factor_for, file_of
 from webviz.data.images import ImageError
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.frames import frame
+from webviz.edges.page.frames import Sent, frame
 from webviz.edges.page.messages import FramesShown, PixelValue, ReadPixel, ShowPictures
 from webviz.edges.page.pixel_values import pixel_text
 
@@ -40,16 +40,18 @@ class _Look:
     Args:
         width: of it on the screen in pixels.
         sent: number of the newest picture that was sent.
-        packet: number of the newest packet of a video that was sent.
+        has: what the page has of what pictures share.
         waiting: numbers of pictures that were sent, and are not shown yet.
         is_busy: whether the next picture is being made.
+        turn: alternates with each picture that is sent.
     """
 
     width: int
     sent: int = 0
-    packet: int = -1
+    has: Sent = field(default_factory=Sent)
     waiting: deque[int] = field(default_factory=deque)
     is_busy: bool = False
+    turn: bool = False
 
 
 class Pictures:
@@ -92,10 +94,11 @@ class Pictures:
             for key in [key for key in self._made if key[0] == display]:
                 del self._made[key]
 
-    def panes(self) -> list[Pane]:
-        """What is shown now, in the order of the displays."""
+    def panes(self) -> dict[str, Pane]:
+        """What is shown now by id of the display, in the order of the displays."""
         with self._lock:
-            return sorted((each.pane for each in self._shown.values()), key=lambda pane: pane.order)
+            shown = {display: each.pane for display, each in self._shown.items()}
+        return dict(sorted(shown.items(), key=lambda item: item[1].order))
 
     # Called on the event loop
 
@@ -147,12 +150,12 @@ class Pictures:
         """Send the newest picture, in a thread."""
         with self._lock:
             shown = self._shown.get(display)
-            packet = look.packet
-        data, last = b"", packet
+            has = look.has
+        data = b""
         if shown is not None:
             try:
-                data, last = frame(
-                    display, shown.number, shown.pane, self._file(shown, display, look), packet
+                data, has = frame(
+                    display, shown.number, shown.pane, self._file(shown, display, look), has
                 )
             except Exception:
                 log.exception("A picture of %r could not be made", display)
@@ -160,10 +163,13 @@ class Pictures:
             look.is_busy = False
             if shown is None or self._looks.get(browser, {}).get(display) is not look:
                 return
-            look.sent, look.packet = shown.number, last
+            look.sent, look.has = shown.number, has
             if data:
                 look.waiting.append(shown.number)
-                self._channel.send_bytes(data, display, browser)
+                # Two at most are on their way, neither of which may replace the other there: later
+                # ones go on from what they say.
+                look.turn = not look.turn
+                self._channel.send_bytes(data, f"{display} {look.turn:d}", browser)
             self._continue(browser, display, look)
 
     def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:

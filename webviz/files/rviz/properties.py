@@ -30,6 +30,7 @@ class RvizProperty:
         low: least number allowed.
         high: greatest number allowed.
         port: of a topic, whether it is subscribed to or published.
+        is_tree: whether it has a switch for each display, nested as displays are in groups.
     """
 
     name: str
@@ -39,6 +40,7 @@ class RvizProperty:
     low: float | None = None
     high: float | None = None
     port: Input | Output | None = None
+    is_tree: bool = False
 
 
 @functools.lru_cache(maxsize=256)
@@ -58,6 +60,7 @@ def _property(declared: Property) -> RvizProperty:
         ge if gt is None else gt + LEAST,
         le if lt is None else lt - LEAST,
         declared.port,
+        declared.widget == "displays",
     )
 
 

@@ -11,7 +11,7 @@ import msgspec
 
 from webviz.api.declared import Topic
 from webviz.api.ports import Output
-from webviz.files.rviz import topics, values
+from webviz.files.rviz import switch_tree, topics, values
 from webviz.files.rviz.properties import RvizProperty, properties
 from webviz.files.rviz.tree import Path, Tree, leaves, put
 from webviz.files.rviz.values import Unfit
@@ -61,6 +61,9 @@ class Reading:
             if not isinstance(raw, Mapping):  # of an old file
                 self.used.add(path)
             return self.struct(place.kind, _opened(raw), path)
+        if place.is_tree:
+            self.used |= set(leaves(raw, path))
+            return switch_tree.read(raw)
         if origin is dict:
             others = {p.path[1] for p in all if p.path[0] == place.path[0] and len(p.path) > 1}
             return self._entries(typing.get_args(place.kind)[1], raw, path, others)
@@ -126,6 +129,8 @@ def _written(value: Any, place: RvizProperty, first: Topic) -> Any:
         return topics.write(value, place.port, first)
     if isinstance(value, msgspec.Struct):
         return struct_tree(value)
+    if place.is_tree:
+        return switch_tree.write(value)
     if isinstance(value, dict):
         kind = typing.get_args(place.kind)[1]
         inner = RvizProperty(place.name, place.path, kind, None)

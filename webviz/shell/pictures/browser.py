@@ -8,7 +8,7 @@ import io
 import os
 import shutil
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -17,11 +17,14 @@ import PIL.Image
 from numpy.typing import NDArray
 
 from webviz.api.errors import Error
+from webviz.api.pictures import Sight
+from webviz.edges.page.frames import sight_values, warp_values
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
     HOLD,
     OPAQUE,
+    PANE,
     SETTLE,
     TRANSPARENT,
 )
@@ -247,6 +250,24 @@ class Page:
         url = self.evaluate(TRANSPARENT if transparent else OPAQUE)
         png = base64.b64decode(url.split(",")[1])
         return np.asarray(PIL.Image.open(io.BytesIO(png)).convert("RGBA" if transparent else "RGB"))
+
+    def pane(
+        self, picture: PIL.Image.Image, sight: Sight, size: tuple[int, int], hidden: Sequence[str]
+    ) -> PIL.Image.Image:
+        """A picture with the scene over and under it.
+
+        Args:
+            picture: as the camera took it.
+            sight: of the camera.
+            size: width and height of the result in pixels.
+            hidden: ids of displays to leave out.
+        """
+        file = io.BytesIO()
+        picture.save(file, "PNG")
+        url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
+        found = [*size, sight_values(sight), warp_values(sight.warp), [*hidden], url]
+        png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
+        return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 
     def pixel_of(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
         """Column and row of a point of the fixed frame."""

@@ -92,3 +92,32 @@ TRANSPARENT = """
   }
 }
 """
+
+# A picture with the scene over and under it, drawn by the modules of the page.
+PANE = """
+async ([width, height, sight, warp, hidden, url]) => {
+  const load = (name) => import(new URL(`webviz/images/${name}.js`, location.href));
+  const [{ paint }, { bend }] = [await load("over"), await load("bend")];
+  const picture = new Image();
+  picture.src = url;
+  await picture.decode();
+  const make = (width, height) => {
+    const canvas = document.createElement("canvas");
+    return Object.assign(canvas, { width, height }).getContext("2d");
+  };
+  const size = [picture.naturalWidth, picture.naturalHeight];
+  const bent = warp && make(...size);
+  if (bent) bend(picture, warp, bent);
+  const image = bent ? bent.canvas : picture;
+  const context = make(width, height);
+  const {gl} = window.__viserMutable.scene.__r3f.root.getState();
+  const {render} = gl;
+  if (window.webvizRender) gl.render = window.webvizRender;
+  try {
+    paint(context, { image, size, sight, hidden });
+  } finally {
+    gl.render = render;
+  }
+  return context.canvas.toDataURL("image/png");
+}
+"""

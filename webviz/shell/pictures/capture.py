@@ -222,7 +222,8 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
             shown = viewer.wait(awaited, deadline)
             for name, view in looks:
                 studio.look(viewer.focused(view, order.focus) if order.focus else view)
-                yield Picture(studio.capture(order.transparent), name, at_s, shown)
+                pixels = studio.capture(order.transparent, viewer.hidden())
+                yield Picture(pixels, name, at_s, shown)
 
 
 @contextlib.contextmanager

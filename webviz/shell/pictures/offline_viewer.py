@@ -13,6 +13,7 @@ from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
+from webviz.edges.page.content.visibility import hidden_in
 from webviz.engine.loop import FrameLoop
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
@@ -124,6 +125,11 @@ class OfflineViewer:
     def names(self) -> list[str]:
         """Names of all enabled displays except groups; duplicate names are numbered."""
         return list(self._statuses(self._viewer.state()))
+
+    def hidden(self) -> dict[str, list[str]]:
+        """Ids of the displays that panes with the scene leave out, by their own."""
+        rows = self._viewer.state().rows
+        return hidden_in(rows, rows)
 
     def focused(self, view: View, frame: str) -> View:
         """A view of the current position of a frame, from the same direction and distance.

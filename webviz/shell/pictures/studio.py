@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from webviz.api.nodes import Rgb
+from PIL import Image
+
+from webviz.api import pictures
+from webviz.api.nodes import Pane, Rgb
+from webviz.api.stills import opened
 from webviz.api.views import View
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import BACKGROUND
@@ -85,11 +91,14 @@ class Studio:
         self.scene.acknowledge(PATIENCE_S)
         self.page.settle(PATIENCE_S)
 
-    def capture(self, transparent: bool = False) -> Pixels:
+    def capture(
+        self, transparent: bool = False, hidden: Mapping[str, Sequence[str]] = MappingProxyType({})
+    ) -> Pixels:
         """The picture of everything that was flushed.
 
         Args:
             transparent: omit the background.
+            hidden: ids of the displays that a pane leaves out, by its display.
 
         Returns:
             uint8 (height, width, 3), or (height, width, 4) with straight alpha if transparent.
@@ -98,4 +107,11 @@ class Studio:
             TimeoutError, BrowserDied: as `settle`.
         """
         self.settle()
-        return with_panes(self.page.pixels(transparent), self.scene.link.pictures.panes())
+        whole = self.page.pixels(transparent)
+
+        def draw(display: str, pane: Pane, size: tuple[int, int]) -> Image.Image:
+            assert pane.sight is not None
+            assert isinstance(pane.picture, pictures.Pixels | pictures.Encoded)
+            return self.page.pane(opened(pane.picture), pane.sight, size, hidden.get(display, ()))
+
+        return with_panes(whole, self.scene.link.pictures.panes(), draw)

@@ -14,6 +14,8 @@ from webviz.api.properties import Property, properties_of
 
 MAX_TEXT = 100_000
 """Characters of a value that is shown."""
+OFFERED = ("names", "displays")
+"""Widgets of switches whose names are not those of frames."""
 
 
 @functools.lru_cache(maxsize=128)
@@ -23,8 +25,8 @@ def form(cls: type[msgspec.Struct], without: tuple[str, ...] = ()) -> msgspec.Ra
     Each has a "path", a "label" without its unit, a "kind", and its "default"; and, where there is
     any, "help", "unit", "bounds" in words and as "low" and "high" ("above" and "below" if they are
     excluded), "choices", "when", the message "type" of a topic, the "items" of a list, and of
-    switches by name the path that holds "otherwise", and whether their names are "offered" by the
-    display, instead of being those of frames.
+    switches by name the path that holds "otherwise", and whether their names are "offered", instead
+    of being those of frames.
     """
     defaults = cls()
     declared = [
@@ -80,7 +82,7 @@ def _declared(each: Property, defaults: msgspec.Struct) -> dict[str, Any]:
         "type": _message_types(each.port),
         "items": _items(each.type),
         "otherwise": each.otherwise,
-        "offered": each.widget == "names",
+        "offered": each.widget in OFFERED,
         **_bounds(each.type),
     }
     return known | {key: value for key, value in more.items() if value or value == 0.0}
@@ -98,7 +100,7 @@ def _kind(each: Property) -> str:
         return "group"
     if each.widget == "frame":
         return "switches" if isinstance(each.type, inspect.DictType) else "frame"
-    if each.widget == "names":
+    if each.widget in OFFERED:
         return "switches"
     if each.choices:
         return "choice"

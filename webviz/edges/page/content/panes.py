@@ -7,16 +7,21 @@ from typing import Any
 
 from webviz.api.status import Level
 from webviz.edges.page.content.forms import brief, sendable
+from webviz.edges.page.content.visibility import hidden_in
 from webviz.engine.state import Row, State
 
 
 def panes(state: State, _: str) -> Mapping[str, Any]:
     """What is said about each pane by the id of its display, and "order": the ids.
 
-    Each has a "name", the first "problem" of the worst, and whether it "has_picture".
+    Each has a "name", the first "problem" of the worst, and whether it "has_picture"; one that
+    draws the scene, too, the ids of displays that are "hidden" in it.
     """
     rows = list(_visible(state.rows))
-    return {"order": [row.id for row in rows], **{row.id: _about(row) for row in rows}}
+    about = {row.id: _about(row) for row in rows}
+    for display, ids in hidden_in(rows, state.rows).items():
+        about[display]["hidden"] = ids
+    return {"order": [row.id for row in rows], **about}
 
 
 def _visible(rows: tuple[Row, ...]) -> Iterator[Row]:
@@ -30,7 +35,7 @@ def _visible(rows: tuple[Row, ...]) -> Iterator[Row]:
             yield row
 
 
-def _about(row: Row) -> Mapping[str, Any]:
+def _about(row: Row) -> dict[str, Any]:
     level = row.level
     problem = ""
     if level is not Level.OK:

@@ -11,6 +11,7 @@ from webviz.api.ports import ANY
 from webviz.api.status import Status
 from webviz.edges.page.content.displays import level_name
 from webviz.edges.page.content.forms import brief, form, sendable, values_of
+from webviz.edges.page.content.visibility import names, switches_of
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State
 
@@ -24,7 +25,8 @@ def properties(state: State, id_: str) -> Mapping[str, Any]:
 
     "name" and "type"; "declared", see `form`; each value, see `values_of`; for each input
     "topic." and its path: what is known of the topic; for switches by name "offered." and their
-    path: the names, with how many things have each; "worst" of the statuses.
+    path: the names, with how many things have each, or with the types of displays; "worst" of the
+    statuses.
     """
     row = _row(state, id_)
     if row is None:
@@ -34,7 +36,8 @@ def properties(state: State, id_: str) -> Mapping[str, Any]:
         return told
     told["declared"] = form(type(row.display), IN_THE_TREE)
     told |= values_of(row.display, IN_THE_TREE)
-    told |= {f"offered.{path}": sendable(names) for path, names in row.offered.items()}
+    told |= {f"offered.{path}": sendable(each) for path, each in row.offered.items()}
+    told |= {f"offered.{each.path}": sendable(names(state.rows, row)) for each in switches_of(row)}
     return told | {f"topic.{name}": _live(topic, state) for name, _, topic in inputs(row.display)}
 
 

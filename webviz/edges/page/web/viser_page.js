@@ -15,6 +15,8 @@ const NEEDS = {
   "scene.__r3f.root.getState().raycaster.setFromCamera()": "picking what is under the mouse",
   "scene.__r3f.root.getState().gl.getPixelRatio()": "picking points, which are as large as drawn",
   "scene.__r3f.root.getState().internal.subscribe()": "views that follow a frame",
+  "scene.__r3f.root.getState().gl.setViewport()": "drawing the scene over the images of cameras",
+  "camera.projectionMatrix.makePerspective()": "drawing the scene over the images of cameras",
   "canvas.clientHeight": "views without perspective",
   "camera.projectionMatrix.makeOrthographic()": "views without perspective",
   "cameraControl.setLookAt()": "views",
@@ -29,7 +31,7 @@ const NEEDS = {
   "configuredMaxOrbitDistance": "views from far away",
   "backgroundMaterial.uniforms": "the background of views that follow a frame",
   "nodeRefFromName": "nodes of the scene by their names",
-  nodePoseData: "picking texts",
+  nodePoseData: "texts: picking them, and hiding them in the images of cameras",
   "messageQueue.push()": "controls that go, and noticing that the server is silent",
   "firstMessageBatch": "poses and data in one step, and views after a lost connection",
   "drainMessageQueue()": "poses and data in one step",
@@ -121,13 +123,18 @@ export function filterMessages(pass) {
   };
 }
 
-/** Calls `act(gl, scene, camera, target)` each time before the scene is drawn. */
-export function beforeRender(act) {
+/** Calls `act(gl, scene, camera, target)` each time before the scene is drawn, with any camera. */
+export function beforeEveryRender(act) {
   const before = scene().onBeforeRender;
   scene().onBeforeRender = function (...args) {
     before.apply(this, args);
     act(...args);
   };
+}
+
+/** The same, only with the camera of the page. */
+export function beforeRender(act) {
+  beforeEveryRender((...args) => args[2] === camera() && act(...args));
 }
 
 /** Calls `act` in each frame; viser places nodes at -1000 and labels at 0. */

@@ -40,7 +40,7 @@ export function install(page) {
     }
     const order = rows.get("order") ?? [];
     for (const id of order) {
-      if (!panes.has(id)) panes.set(id, makePane(id, layOut));
+      if (!panes.has(id)) panes.set(id, makePane(id, layOut, Boolean(rows.get(id).hidden)));
       panes.get(id).update(rows.get(id));
     }
     setChildren(list, order.map((id) => panes.get(id).element));

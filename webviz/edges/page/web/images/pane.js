@@ -5,6 +5,7 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { plain } from "../plain.js";
 import { recall, remember } from "../remember.js";
+import { makeCamera } from "./camera.js";
 import * as frames from "./frames.js";
 import { makePicture } from "./picture.js";
 import { makeReadout } from "./readout.js";
@@ -16,10 +17,13 @@ const TEXT = "application/json";
 const readers = new Map();
 channel.on("PixelValue", (value) => readers.get(value.display)?.(value));
 
-/** The pane of a display; `changed()` is called when it takes more or less room. */
-export function makePane(id, changed) {
+/**
+ * The pane of a display; `changed()` is called when it takes more or less room. One `withScene` draws
+ * the scene, too.
+ */
+export function makePane(id, changed, withScene) {
   const canvas = el("canvas", { class: "wv-pane-picture", role: "img", ondblclick: toggleFull });
-  const picture = makePicture(canvas, { drawn, fail });
+  const picture = (withScene ? makeCamera : makePicture)(canvas, { drawn, fail });
   const name = el("b");
   const facts = el("span", { class: "wv-quiet" });
   const problem = el("div", { class: "wv-pane-problem" });
@@ -175,6 +179,7 @@ export function makePane(id, changed) {
       if (wanted !== title) isFolded = recall(`pane.${wanted}`, {}).isFolded ?? false;
       title = wanted;
       said = plain(row.problem);
+      picture.hide?.(row.hidden);
       element.classList.toggle("wv-pane-empty", !row.has_picture);
       mark();
     },

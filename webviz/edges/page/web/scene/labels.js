@@ -50,7 +50,7 @@ export const boxes = () =>
   group ? group.children.filter(({ renderOrder }) => renderOrder === BOXES) : [];
 
 export function install() {
-  viser.beforeRender((gl, scene) => {
+  viser.beforeEveryRender((gl, scene) => {
     if (!group || !group.parent) {
       scene.traverse((object) => object.renderOrder === BOXES && (group = object.parent));
     }

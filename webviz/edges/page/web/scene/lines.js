@@ -67,7 +67,7 @@ function markOpenEnds(geometry) {
 }
 
 export function install() {
-  viser.beforeRender((gl, scene) => {
+  viser.beforeEveryRender((gl, scene) => {
     scene.traverse(({ isLineSegments2, geometry, material }) => {
       if (!isLineSegments2) return;
       if (material.worldUnits && !geometry.attributes.webvizOpen) markOpenEnds(geometry);

@@ -40,7 +40,7 @@ function teach({ material }) {
 }
 
 export function install() {
-  viser.beforeRender((gl, scene) => {
+  viser.beforeEveryRender((gl, scene) => {
     if (Object.keys(factors).length > 0) scene.traverse(teach);
   });
 

@@ -25,7 +25,7 @@ const pushBack = (shader) => {
 };
 const layerOf = (name) => parseInt(name.split(MARK)[1]);
 export function install() {
-  viser.beforeRender(() => {
+  viser.beforeEveryRender(() => {
     const nodes = viser.nodes();
     for (const name in nodes) {
       if (!name.includes(MARK) || !nodes[name]) continue;

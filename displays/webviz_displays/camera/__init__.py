@@ -1,0 +1,5 @@
+"""The Camera display."""
+
+from webviz_displays.camera.display import Camera
+
+__all__ = ["Camera"]

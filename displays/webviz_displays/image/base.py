@@ -1,0 +1,100 @@
+"""What displays of images share: their properties, and how a message becomes a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from webviz import Context, Display, Input, Pane, Prop, Sample, Topic
+from webviz.api.pictures import Encoded, Pixels
+from webviz.data.images import RawImage, Tone, remarks
+from webviz_displays.image import transports
+from webviz_displays.image.newest import Newest
+from webviz_displays.image.range import RunningRange
+
+MAX_WINDOW = 100
+
+
+@dataclass
+class ImageState:
+    """Kept between images."""
+
+    decompressed: Newest[RawImage] = field(default_factory=Newest[RawImage])
+    range: RunningRange = field(default_factory=RunningRange)
+    pane: Pane | None = None
+
+
+class ImageDisplay(Display):
+    """Base of displays with a picture in a pane."""
+
+    has_pane = True
+
+    topic: Annotated[
+        Topic,
+        Input(transports.RAW, also=(transports.COMPRESSED,)),
+        Prop(help="Topic of the images; choose that of a transport to save bandwidth."),
+    ] = Topic("/camera/image_raw")
+    normalize_range: Annotated[
+        bool,
+        Prop(help="Scale depths and other measurements from the lowest to the highest value."),
+    ] = True
+    min_value: Annotated[
+        float,
+        Prop(when=("normalize_range", False), help="Value with the first colour."),
+    ] = 0.0
+    max_value: Annotated[
+        float,
+        Prop(when=("normalize_range", False), help="Value with the last colour."),
+    ] = 1.0
+    median_window: Annotated[
+        int,
+        Prop(
+            ge=1,
+            le=MAX_WINDOW,
+            rviz="Median window",
+            when=("normalize_range", True),
+            help="Number of images whose lowest and highest values are averaged by the median.",
+        ),
+    ] = 5
+    color_map: Annotated[
+        Literal["Grey", "Turbo", "Viridis", "Rainbow"],
+        Prop(help="Colours of depths and other measurements of one channel."),
+    ] = "Grey"
+
+    def picture(self, sample: Sample, ctx: Context) -> Pixels | Encoded | None:
+        """What to show of the newest message of `topic`, None if there is nothing yet.
+
+        Raises:
+            ImageError: it cannot be shown.
+        """
+        found = transports.read(sample)
+        if isinstance(found, Encoded):
+            ctx.ok("Image", f"{found.width} x {found.height}, {found.mime.partition('/')[2]}.")
+            return found
+        is_job = isinstance(found, transports.Job)
+        image = ctx.state.decompressed.of(sample.number, found.run, ctx) if is_job else found
+        if image is None:
+            ctx.warn("Image", "Decompressing the first image.")
+            return None
+        remark = "" if is_job else remarks(sample.message, image)
+        if remark:
+            ctx.warn("Image", remark)
+        else:
+            ctx.ok("Image", f"{image.width} x {image.height}, {image.encoding}.")
+        return Pixels(image, self._tone(sample.number, image, ctx))
+
+    def _tone(self, number: int, image: RawImage, ctx: Context) -> Tone:
+        """How measurements become colours."""
+        low, high = self.min_value, self.max_value
+        if not image.layout.is_scaled:
+            return Tone()
+        if self.normalize_range:
+            limits = ctx.state.range.of(number, image, self.median_window)
+            if limits is None:
+                ctx.warn("Image", "No pixel has a valid value: the image is black.")
+            low, high = limits or (low, high)
+        elif not low < high:
+            ctx.warn(
+                "Image", f"Min Value {low:g} is not below Max Value {high:g}. Correct one of them."
+            )
+        return Tone(low, high, self.color_map)

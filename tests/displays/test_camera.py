@@ -1,0 +1,154 @@
+"""The Camera display, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import lenses
+import numpy as np
+import photos
+import pytest
+
+from webviz import Topic
+from webviz.api.declared import make
+from webviz.data.images import values as values_of
+from webviz.shell.testing.source import SECOND
+from webviz_displays.camera import Camera
+
+Benches = Callable[..., Any]
+COLORS, DEPTHS = photos.room(16, 12)
+IMAGE, INFO = "/camera/image_raw", "/camera/camera_info"
+
+
+def send(at: Any, stamp_ns: int | None = None, frame: str = "camera") -> None:
+    values = photos.raw(COLORS, "rgb8")
+    at.send(photos.RAW, values, frame=frame, topic=IMAGE, stamp_ns=stamp_ns)
+
+
+def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
+    values = photos.info(16, 12) | changes
+    at.send(photos.INFO, values, frame="camera", topic=INFO, stamp_ns=stamp_ns)
+
+
+def test_the_camera_sees_from_where_it_was_at_the_stamp(bench: Benches) -> None:
+    at = bench(Camera(overlay_alpha=0.25, zoom_factor=2.0, far_plane_distance=30.0))
+    at.transform("map", "camera", (1.0, 2.0, 3.0))
+    send(at)
+    at.turn()
+    assert at.nodes()["pane"].sight is None
+    assert "No camera info yet" in at.statuses()["Camera Info"][1]
+    p = photos.info(16, 12)["p"]
+    send_info(at, p=[*p[:3], -1.6, *p[4:]])
+    at.turn()
+    sight = at.nodes()["pane"].sight
+    assert sight.position == pytest.approx((1.1, 2.0, 3.0))  # of the right camera of a pair
+    assert (sight.size, sight.focal, sight.principal) == ((16, 12), (16, 16), (7.5, 5.5))
+    assert (sight.part, sight.far, sight.zoom, sight.overlay) == ((0, 0, 1, 1), 30.0, 2.0, 0.25)
+    assert sight.is_background
+    assert sight.warp is None
+    assert at.statuses()["Camera Info"] == ("OK", "16 x 12, focal length 16 px.")
+    at.set("image_rendering", "background")
+    at.turn()
+    assert at.nodes()["pane"].sight.overlay == 0.0
+    at.set("image_rendering", "overlay")
+    at.turn()
+    assert not at.nodes()["pane"].sight.is_background
+
+
+def test_a_region_of_interest_is_a_part_of_what_the_camera_sees(bench: Benches) -> None:
+    at = bench(Camera())
+    at.transform("map", "camera")
+    send(at)
+    roi = {"x_offset": 8, "y_offset": 6, "width": 32, "height": 24, "do_rectify": False}
+    values = photos.info(64, 48, roi=roi, binning_x=2, binning_y=2)
+    at.send(photos.INFO, values, frame="camera", topic=INFO)
+    at.turn()
+    sight = at.nodes()["pane"].sight
+    assert (sight.size, sight.focal) == ((64, 48), (64, 64))
+    assert sight.part == (0.125, 0.125, 0.625, 0.625)
+    assert at.statuses()["Camera Info"][0] == "OK"
+
+
+def test_raw_images_are_undistorted_and_rectified_ones_are_not(bench: Benches) -> None:
+    for topic, choice, is_bent in (
+        ("/camera/image_raw", "Auto", True),
+        ("/camera/image_raw", "Never", False),
+        ("/camera/image_rect_color/compressed", "Auto", False),
+        ("/camera/image_rect", "Always", True),
+        ("/direct/image", "Auto", True),
+    ):
+        values = {"topic": topic, "camera_info_topic": INFO, "undistort": choice}
+        at = bench(make(Camera, values))
+        at.transform("map", "camera")
+        big = np.zeros((lenses.HEIGHT, lenses.WIDTH), np.uint8)
+        at.send(photos.RAW, photos.raw(big, "mono8"), frame="camera", topic=topic)
+        at.send(photos.INFO, lenses.info("plumb_bob"), frame="camera", topic=INFO)
+        at.turn()
+        warp = at.nodes()["pane"].sight.warp
+        assert (warp is not None) == is_bent, topic
+        level, told = at.statuses()["Camera Info"]
+        assert level == "OK"
+        assert ("undistorted by plumb_bob" in told) == is_bent
+        at.send(photos.RAW, photos.raw(big + 1, "mono8"), frame="camera", topic=topic)
+        at.turn()
+        assert at.nodes()["pane"].sight.warp is warp
+
+
+@pytest.mark.parametrize(
+    ("frame", "changes", "level", "told"),
+    [
+        ("camera", {"p": [0.0] * 12, "k": [0.0] * 9}, "ERROR", "not calibrated"),
+        ("camera", {"p": [float("nan")] * 12}, "ERROR", "invalid"),
+        ("camera", {"width": 32}, "WARN", "16 x 12 pixels, the camera info 32 x 12"),
+        ("camera", {"d": [1.0], "distortion_model": "other"}, "WARN", "Unsupported distortion"),
+        ("camera_link", {}, "WARN", "'camera_optical_frame'"),
+        ("camera", {"width": 0, "height": 0}, "OK", "16 x 12"),
+    ],
+)
+def test_a_camera_that_cannot_be_right_is_named(
+    bench: Benches, frame: str, changes: dict[str, Any], level: str, told: str
+) -> None:
+    at = bench(Camera())
+    at.transform("map", frame)
+    send(at, frame=frame)
+    send_info(at, **changes)
+    at.turn()
+    assert at.statuses()["Camera Info"][0] == level
+    assert told in at.statuses()["Camera Info"][1]
+
+
+def test_an_image_has_the_camera_info_of_its_stamp(bench: Benches) -> None:
+    at = bench(Camera())
+    at.transform("map", "camera")
+    for second, width in ((1, 16), (2, 20), (3, 24)):
+        p = [width, 0, 7.5, 0, 0, width, 5.5, 0, 0, 0, 1, 0]
+        send_info(at, second * SECOND, p=p)
+        at.turn()
+    for second, focal in ((2, 20), (3, 24)):
+        send(at, second * SECOND)
+        at.turn()
+        assert at.nodes()["pane"].sight.focal[0] == focal
+        assert at.statuses()["Camera Info"][0] == "OK"
+    send(at, 9 * SECOND)
+    at.turn()
+    assert "differs by 6 s" in at.statuses()["Camera Info"][1]
+
+
+def test_an_image_that_is_decompressed_keeps_the_pose_of_its_stamp(bench: Benches) -> None:
+    topic = "/camera/image_raw/compressed"
+    at = bench(Camera(topic=Topic(topic), camera_info_topic=Topic(INFO)))
+    send_info(at)
+    for second, x in ((1, 1.0), (2, 2.0)):
+        at.transform("map", "camera", (x, 0.0, 0.0), stamp_ns=second * SECOND)
+        values = photos.png16(np.full((12, 16), second, np.uint16))
+        at.send(photos.COMPRESSED, values, frame="camera", stamp_ns=second * SECOND, topic=topic)
+        at.turn()
+    seen = set()
+    while at.runner.is_busy() or not seen:
+        at.turn()
+        if pane := at.nodes().get("pane"):
+            value = int(values_of(pane.picture.image)[0, 0])
+            seen.add((value, pane.sight.position[0]))
+    assert seen <= {(1, 1.0), (2, 2.0)}
+    assert (2, 2.0) in seen

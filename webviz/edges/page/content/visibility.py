@@ -1,0 +1,57 @@
+"""Which displays a pane shows that draws the scene with a camera of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from webviz.api.group import PATH
+from webviz.api.properties import Property, properties_of
+from webviz.engine.state import Row
+
+MAX_NAMES = 1000
+"""Displays that get a switch in the page."""
+
+
+def paths(rows: tuple[Row, ...]) -> Iterator[tuple[Row, str]]:
+    """Each row, with the names of its groups before its own."""
+    groups: list[str] = []
+    for row in rows:
+        groups[row.depth :] = [row.name]
+        yield row, PATH.join(groups)
+
+
+def names(rows: tuple[Row, ...], own: Row) -> Mapping[str, str]:
+    """The names of switches, and the type of each display; its own display has none."""
+    found = {path: row.type for row, path in paths(rows) if row is not own}
+    return dict(list(found.items())[:MAX_NAMES])
+
+
+def switches_of(row: Row) -> list[Property]:
+    """The properties of a display with switches of the others."""
+    if row.display is None:
+        return []
+    return [each for each in properties_of(type(row.display)) if each.widget == "displays"]
+
+
+def hidden_in(panes: Iterable[Row], rows: tuple[Row, ...]) -> dict[str, list[str]]:
+    """Ids of the displays that a pane leaves out, by its own; only those that draw the scene."""
+    found: dict[str, list[str]] = {}
+    for row in panes:
+        for each in switches_of(row):
+            assert row.display is not None
+            found[row.id] = _hidden(rows, each.of(row.display))
+    return found
+
+
+def _hidden(rows: tuple[Row, ...], switches: Mapping[str, bool]) -> list[str]:
+    """Ids of the displays that are switched off, by themselves or with a group."""
+    found: list[str] = []
+    off: int | None = None
+    for row, path in paths(rows):
+        if off is not None and row.depth <= off:
+            off = None
+        if off is None and not switches.get(path, True):
+            off = row.depth
+        if off is not None:
+            found.append(row.id)
+    return found

@@ -1,0 +1,104 @@
+// Bends images, so that they look as if taken without lens distortion: a grid of triangles, whose
+// corners the server computes.
+
+const VERTEX = `
+  attribute vec2 to;
+  attribute vec2 from;
+  varying vec2 place;
+  void main() {
+    place = from;
+    gl_Position = vec4(2.0 * to.x - 1.0, 1.0 - 2.0 * to.y, 0.0, 1.0);
+  }`;
+const FRAGMENT = `
+  precision highp float;
+  uniform sampler2D image;
+  varying vec2 place;
+  void main() {
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThan(place, vec2(1.0)))) discard;
+    gl_FragColor = texture2D(image, place);
+  }`;
+
+let bench = null; // one for all images: browsers have few contexts
+
+/** Draws `image` bent by `warp` into a 2D context, over all of its canvas. */
+export function bend(image, warp, context) {
+  bench ??= makeBench();
+  const { width, height } = context.canvas;
+  context.clearRect(0, 0, width, height);
+  context.drawImage(bench(image, warp, width, height), 0, 0);
+}
+
+function makeBench() {
+  const canvas = document.createElement("canvas");
+  const gl = canvas.getContext("webgl", { premultipliedAlpha: true, antialias: true });
+  if (!gl) throw new Error("This browser cannot bend images: it has no WebGL.");
+  const program = gl.createProgram();
+  for (const [type, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  gl.useProgram(program);
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  for (const [name, value] of [
+    [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+  ]) gl.texParameteri(gl.TEXTURE_2D, name, value);
+  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  for (const [i, name] of ["to", "from"].entries()) {
+    const at = gl.getAttribLocation(program, name);
+    gl.enableVertexAttribArray(at);
+    gl.vertexAttribPointer(at, 2, gl.FLOAT, false, 16, 8 * i);
+  }
+  let loaded = null;
+  let corners = 0;
+  return (image, warp, width, height) => {
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    gl.viewport(0, 0, width, height);
+    if (loaded !== warp) {
+      const triangles = trianglesOf(warp);
+      gl.bufferData(gl.ARRAY_BUFFER, triangles, gl.DYNAMIC_DRAW);
+      loaded = warp;
+      corners = triangles.length / 4;
+    }
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, image);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.drawArrays(gl.TRIANGLES, 0, corners);
+    return canvas;
+  };
+}
+
+// Cells with a corner that the lens does not see are left out.
+function trianglesOf({ rows, columns, places }) {
+  const found = [];
+  for (let row = 0; row + 1 < rows; row++) {
+    for (let column = 0; column + 1 < columns; column++) {
+      const cell = [[0, 0], [0, 1], [1, 0], [1, 1]].map(([down, right]) => {
+        const [r, c] = [row + down, column + right];
+        const at = 2 * (r * columns + c);
+        return [c / (columns - 1), r / (rows - 1), places[at], places[at + 1]];
+      });
+      if (cell.flat().includes(null)) continue;
+      for (const corner of [0, 1, 2, 2, 1, 3]) found.push(...cell[corner]);
+    }
+  }
+  return new Float32Array(found);
+}
+
+/** Which place of the image, as shares of its size, is shown at a place of the bent one; or null. */
+export function straight({ rows, columns, places }, [x, y]) {
+  const [across, down] = [x * (columns - 1), y * (rows - 1)];
+  const column = Math.min(Math.floor(across), columns - 2);
+  const row = Math.min(Math.floor(down), rows - 2);
+  if (column < 0 || row < 0 || across > columns - 1 || down > rows - 1) return null;
+  const [u, v] = [across - column, down - row];
+  const share = [0, 1].map((axis) => {
+    const at = (r, c) => places[2 * ((row + r) * columns + column + c) + axis] ?? NaN;
+    return (at(0, 0) * (1 - u) + at(0, 1) * u) * (1 - v) + (at(1, 0) * (1 - u) + at(1, 1) * u) * v;
+  });
+  return share.every((each) => each >= 0 && each < 1) ? share : null;
+}

@@ -1,0 +1,104 @@
+// The canvas of a pane with the scene over and under a picture, as the camera sees it that took the
+// picture. It has the same functions as that of a pane without the scene, see picture.js.
+
+import * as viser from "../viser_page.js";
+import { bend, straight } from "./bend.js";
+import { boxIn, paint } from "./over.js";
+import { makePicture } from "./picture.js";
+
+const SCENE_MS = 100; // at most so often for what moves in the scene; for each picture anyway
+
+const open = new Set();
+let isInstalled = false;
+
+/** `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged. */
+export function makeCamera(canvas, { drawn, fail }) {
+  const context = canvas.getContext("2d");
+  const sheet = document.createElement("canvas");
+  const bent = document.createElement("canvas").getContext("2d");
+  const picture = makePicture(sheet, { drawn: take, fail });
+  let sight = null;
+  let warp = null;
+  let hidden = [];
+  let isDue = false;
+  let painted = 0;
+  let timer = 0;
+
+  function take() {
+    if (warp) {
+      Object.assign(bent.canvas, { width: sheet.width, height: sheet.height });
+      bend(sheet, warp, bent);
+    }
+    ask();
+    drawn();
+  }
+
+  function ask() {
+    isDue = true;
+    viser.requestRender();
+  }
+
+  // Called in each frame of the scene; most have nothing to do with what this camera sees.
+  function frame() {
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((length) =>
+      Math.round(length * devicePixelRatio));
+    if (!width || !height || !picture.size()[0]) return;
+    const rest = painted + SCENE_MS - performance.now();
+    if (!isDue && rest > 0) {
+      timer ||= setTimeout(ask, rest);
+      return;
+    }
+    clearTimeout(timer);
+    timer = 0;
+    isDue = false;
+    painted = performance.now();
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    paint(context, { image: warp ? bent.canvas : sheet, size: picture.size(), sight, hidden });
+  }
+
+  if (!isInstalled) viser.eachFrame(0, () => open.forEach((each) => each()));
+  isInstalled = true;
+  open.add(frame);
+  const resized = new ResizeObserver(ask);
+  resized.observe(canvas);
+
+  return {
+    size: picture.size,
+    async take(header, data) {
+      sight = header.sight ?? null;
+      if (header.warp !== undefined) warp = header.warp;
+      if (!sight) warp = null;
+      return picture.take(header, data);
+    },
+    /** Displays that are not drawn, by their ids. */
+    hide(ids) {
+      if (ids.join() !== hidden.join()) ask();
+      hidden = ids;
+    },
+    width: () => {
+      const { clientWidth, clientHeight } = canvas;
+      if (!picture.size()[0]) return clientWidth * devicePixelRatio;
+      return Math.max(1, boxIn(sight, picture.size(), clientWidth, clientHeight).width * devicePixelRatio);
+    },
+    pixelAt({ clientX, clientY }) {
+      const [wide, tall] = picture.size();
+      const pane = canvas.getBoundingClientRect();
+      if (!wide || !pane.width) return null;
+      const box = boxIn(sight, picture.size(), pane.width, pane.height);
+      const place = [
+        (clientX - pane.left - box.left) / box.width, (clientY - pane.top - box.top) / box.height,
+      ];
+      const share = warp ? straight(warp, place) : place;
+      if (!share) return null;
+      const [x, y] = [Math.floor(share[0] * wide), Math.floor(share[1] * tall)];
+      return x >= 0 && y >= 0 && x < wide && y < tall ? [x, y] : null;
+    },
+    colorAt: picture.colorAt,
+    close() {
+      clearTimeout(timer);
+      open.delete(frame);
+      resized.disconnect();
+      picture.close();
+    },
+  };
+}

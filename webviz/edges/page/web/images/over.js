@@ -1,0 +1,57 @@
+// A picture with the scene over and under it, as the camera sees it that took the picture.
+
+import { drawSecond } from "../scene/second.js";
+
+/**
+ * Fills a 2D context. `image` shows what the camera sees, undistorted; `size` is that of the picture;
+ * `sight` is that of the server, null for the picture alone; `hidden` has ids of displays to leave out.
+ */
+export function paint(context, { image, size, sight, hidden }) {
+  const { width, height } = context.canvas;
+  const box = boxIn(sight, size, width, height);
+  const draw = () => context.drawImage(image, box.left, box.top, box.width, box.height);
+  context.globalAlpha = 1;
+  context.clearRect(0, 0, width, height);
+  if (!sight) return draw();
+  if (sight.is_background) draw();
+  const { position, wxyz, far } = sight;
+  const edges = edgesOf(sight, width, height);
+  drawSecond(context, width, height, { position, wxyz, edges, far, hidden });
+  context.globalAlpha = sight.overlay;
+  if (sight.overlay > 0) draw();
+  context.globalAlpha = 1;
+}
+
+/** Where the picture is, in pixels of a pane so large. */
+export function boxIn(sight, size, width, height) {
+  const [wide, tall] = sight ? extent(sight, width, height) : fitting(size, width, height);
+  const [left, top, right, bottom] = sight ? sight.part : [0, 0, 1, 1];
+  return {
+    left: width * ((1 - wide) / 2 + left * wide),
+    top: height * ((1 - tall) / 2 + top * tall),
+    width: width * wide * (right - left),
+    height: height * tall * (bottom - top),
+  };
+}
+
+function fitting([wide, tall], width, height) {
+  const scale = Math.min(width / wide, height / tall);
+  return [(wide * scale) / width, (tall * scale) / height];
+}
+
+// How large all that the camera sees at a zoom of 1 is, as shares of the pane; as RViz does it.
+function extent({ size, focal, zoom }, width, height) {
+  const aspect = size[0] / focal[0] / (size[1] / focal[1]);
+  const own = width / height;
+  return aspect > own ? [zoom, (zoom / aspect) * own] : [(zoom / own) * aspect, zoom];
+}
+
+// Left, right, top and bottom of what the pane shows 1 m ahead of the camera, y upwards. The corner of
+// the first pixel is at -0.5, -0.5.
+function edgesOf(sight, width, height) {
+  const { size, focal, principal } = sight;
+  const [wide, tall] = extent(sight, width, height);
+  const at = (axis, share, side) =>
+    (((1 + side / share) * size[axis]) / 2 - 0.5 - principal[axis]) / focal[axis];
+  return [at(0, wide, -1), at(0, wide, 1), -at(1, tall, -1), -at(1, tall, 1)];
+}

@@ -1,0 +1,141 @@
+// The scene as another camera sees it: drawn on the page's own canvas before what the page shows, in
+// the same frame, and copied from there. So colours, depth and smoothing are those of the page.
+
+import constants from "../constants.js";
+import { pathOf } from "../handles/sight.js";
+import * as viser from "../viser_page.js";
+
+const { ROOT } = constants;
+const NEAR = 0.01; // metres, as RViz
+
+let eye = null;
+
+/**
+ * Draws the scene into a 2D context, `width` x `height` pixels large, transparent where it is empty.
+ *
+ * `position` and `wxyz` place the camera in the fixed frame: x to the right, y down, z ahead. `edges` are
+ * left, right, top and bottom of what it sees 1 m ahead. Displays with an id in `hidden` are left out.
+ */
+export function drawSecond(context, width, height, { position, wxyz, edges, far, hidden }) {
+  const gl = viser.gl();
+  const canvas = gl.domElement;
+  const shrink = Math.min(1, canvas.width / width, canvas.height / height);
+  const [wide, tall] = [Math.floor(width * shrink), Math.floor(height * shrink)];
+  if (!wide || !tall) return;
+  eye ??= makeEye();
+  place(position, wxyz);
+  Object.assign(eye, { edges, far });
+  eye.updateProjectionMatrix();
+  const undo = [hide(hidden), scalePoints(tall), background(gl)];
+  const dpr = gl.getPixelRatio();
+  try {
+    gl.setViewport(0, 0, wide / dpr, tall / dpr);
+    gl.render(viser.scene(), eye);
+    context.drawImage(canvas, 0, canvas.height - tall, wide, tall, 0, 0, width, height);
+  } finally {
+    gl.setViewport(0, 0, canvas.width / dpr, canvas.height / dpr);
+    for (const each of undo) each();
+  }
+}
+
+function makeEye() {
+  const made = new (viser.camera().constructor)();
+  made.near = NEAR;
+  made.edges = [-1, 1, 1, -1];
+  made.matrixAutoUpdate = false;
+  made.updateProjectionMatrix = function () {
+    const edges = this.edges.map((edge) => edge * NEAR);
+    const { coordinateSystem, reversedDepth } = this;
+    this.projectionMatrix.makePerspective(...edges, NEAR, this.far, coordinateSystem, reversedDepth);
+    this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
+  };
+  return made;
+}
+
+function place(position, [w, x, y, z]) {
+  const world = viser.node(ROOT);
+  world.updateWorldMatrix(true, false);
+  const at = eye.position.clone().fromArray(position);
+  eye.matrix.compose(at, eye.quaternion.clone().set(x, y, z, w), eye.scale.clone().set(1, -1, -1));
+  eye.matrix.premultiply(world.matrixWorld);
+  eye.matrixWorldNeedsUpdate = true;
+  eye.updateMatrixWorld();
+}
+
+function hide(hidden) {
+  const prefixes = hidden.map((id) => pathOf(`${id}/`));
+  const names = prefixes.length
+    ? Object.keys(viser.nodes()).filter((name) => prefixes.some((one) => name.startsWith(one))) : [];
+  const found = names.map(viser.node).filter(Boolean);
+  // Besides displays, what the page draws for itself: handles, marks, and the like.
+  const world = viser.node(ROOT);
+  const labels = viser.scene().children.find((child) => child.children.some(lettersOf));
+  for (const child of viser.scene().children) {
+    if (!child.isLight && child !== labels && !contains(child, world)) found.push(child);
+  }
+  const shown = found.filter((node) => node.visible);
+  const undo = names.length && labels ? hideLabels(labels, names) : () => {};
+  for (const node of shown) node.visible = false;
+  return () => {
+    for (const node of shown) node.visible = true;
+    undo();
+  };
+}
+
+const lettersOf = (mesh) => mesh.material?.uniforms?.uLabelData;
+
+// viser draws all labels at once, by a table of where each is and whether it can be seen; their nodes
+// have no objects.
+function hideLabels(labels, names) {
+  const table = labels.children.map(lettersOf).find(Boolean).value;
+  const { data } = table.image;
+  const key = (...xyz) => xyz.map((length) => Math.round(length * 1e4)).join();
+  const places = new Set();
+  for (const name of names) {
+    const outer = viser.node(name.slice(0, name.lastIndexOf("/")));
+    const at = viser.node(name) ? null : viser.positionOf(name);
+    if (!outer || !at) continue;
+    places.add(key(...eye.position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray()));
+  }
+  const off = [];
+  for (let i = 0; i < data.length; i += 4) {
+    if (data[i + 3] && places.has(key(data[i], data[i + 1], data[i + 2]))) off.push(i + 3);
+  }
+  const put = (value) => {
+    for (const i of off) data[i] = value;
+    if (off.length) table.needsUpdate = true;
+  };
+  put(0);
+  return () => put(1);
+}
+
+function contains(object, inner) {
+  for (let each = inner; each; each = each.parent) if (each === object) return true;
+  return false;
+}
+
+// viser sizes points for its own camera, in pixels at 1 m.
+function scalePoints(tall) {
+  const own = viser.camera();
+  const ownTall = viser.gl().domElement.height;
+  const factor =
+    (eye.projectionMatrix.elements[5] * tall * Math.tan((own.fov * Math.PI) / 360)) / ownTall;
+  const scales = [];
+  viser.scene().traverse(({ isPoints, material }) => {
+    if (isPoints && material.uniforms?.scale) scales.push(material.uniforms.scale);
+  });
+  const before = scales.map((scale) => scale.value);
+  for (const scale of scales) scale.value *= factor;
+  return () => scales.forEach((scale, i) => (scale.value = before[i]));
+}
+
+function background(gl) {
+  const { enabled } = viser.backgroundMaterial().uniforms;
+  const [was, alpha] = [enabled.value, gl.getClearAlpha()];
+  enabled.value = false;
+  gl.setClearAlpha(0);
+  return () => {
+    enabled.value = was;
+    gl.setClearAlpha(alpha);
+  };
+}

@@ -1,0 +1,56 @@
+"""Switches of displays, which RViz nests as the displays are in groups."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.api.group import PATH
+from webviz.files.rviz import values
+from webviz.files.rviz.tree import Tree
+from webviz.files.rviz.values import Unfit
+
+OWN = "Value"
+"""Of a group, its own switch."""
+MOST_LEVELS = 64
+
+
+def read(raw: Any) -> dict[str, bool]:
+    """Switches by the names of groups and display, joined by `webviz.api.group.PATH`.
+
+    Raises:
+        Unfit: it is not a tree of switches.
+    """
+    if not isinstance(raw, Mapping):
+        raise Unfit("expected a switch for each display")
+    found: dict[str, bool] = {}
+    _collect(raw, (), found)
+    return found
+
+
+def write(switches: Mapping[str, bool]) -> Tree:
+    """The tree of these switches."""
+    tree: Tree = {}
+    for path, is_on in switches.items():
+        *groups, name = path.split(PATH)
+        branch = tree
+        for group in groups:
+            inner = branch.get(group)
+            if not isinstance(inner, dict):
+                inner = branch[group] = {OWN: True if inner is None else inner}
+            branch = inner
+        known = branch.get(name)
+        branch[name] = {**known, OWN: is_on} if isinstance(known, dict) else is_on
+    return {**tree, OWN: True}
+
+
+def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], found: dict[str, bool]) -> None:
+    if len(groups) > MOST_LEVELS:
+        raise Unfit("nested too deeply")
+    for name, entry in raw.items():
+        if name == OWN and (not groups or not isinstance(entry, Mapping)):
+            continue
+        path = (*groups, name)
+        found[PATH.join(path)] = values.read(values.own_value(entry), bool)
+        if isinstance(entry, Mapping):
+            _collect(entry, path, found)
