@@ -7,6 +7,7 @@ const SHARP = 2;
 /** `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged. */
 export function makePicture(canvas, { drawn, fail }) {
   const context = canvas.getContext("2d");
+  const reader = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
   let size = [0, 0];
   let video = null;
 
@@ -31,8 +32,15 @@ export function makePicture(canvas, { drawn, fail }) {
     drawn();
   }
 
+  // Pixels of a part of the picture, read from memory: to read what a graphics card draws is slow.
+  function read(left, top, width, height) {
+    Object.assign(reader.canvas, { width, height });
+    reader.drawImage(canvas, left, top, width, height, 0, 0, width, height);
+    return reader.getImageData(0, 0, width, height);
+  }
+
   function swapRedAndBlue() {
-    const pixels = context.getImageData(0, 0, canvas.width, canvas.height);
+    const pixels = read(0, 0, canvas.width, canvas.height);
     const { data } = pixels;
     for (let i = 0; i < data.length; i += 4) [data[i], data[i + 2]] = [data[i + 2], data[i]];
     context.putImageData(pixels, 0, 0);
@@ -69,7 +77,7 @@ export function makePicture(canvas, { drawn, fail }) {
     colorAt([x, y]) {
       const column = Math.floor((x * canvas.width) / size[0]);
       const row = Math.floor((y * canvas.height) / size[1]);
-      return [...context.getImageData(column, row, 1, 1).data.slice(0, 3)];
+      return [...read(column, row, 1, 1).data.slice(0, 3)];
     },
     close() {
       video?.close();
