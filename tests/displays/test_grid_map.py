@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import io
 import math
 import struct
 from collections.abc import Callable
@@ -11,13 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-import trimesh
 from grid_maps import GRID_MAP, grid_map
 
 from webviz_displays.grid_map import GridMap
 from webviz_displays.grid_map import display as display_module
 from webviz_displays.grid_map.surface import faces_of
-from webviz_displays.shared.geometry import transformed
 
 NAN = math.nan
 Benches = Callable[..., Any]
@@ -40,12 +37,7 @@ def shown(bench: Benches) -> Callable[..., Any]:
 
 def corners(at: Any) -> dict[tuple[float, float, float], tuple[int, int, int]]:
     """The colours of the corners of the surface, by their places in the fixed frame."""
-    data = io.BytesIO(at.nodes()["surface"].data)
-    (mesh,) = trimesh.load_scene(data, "glb", process=False).geometry.values()
-    xyz = transformed(at.poses()["surface"], mesh.vertices)
-    linear = np.asarray(mesh.visual.vertex_attributes["color"], float)[:, :3]
-    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    colors = np.rint(255 * srgb).astype(int)
+    xyz, colors = at.xyz("surface"), at.nodes()["surface"].colors[:, :3]
     return {
         tuple(place): tuple(color)
         for place, color in zip(xyz.round(4).tolist(), colors.tolist(), strict=True)

@@ -14,11 +14,11 @@ from webviz import (
     Context,
     Details,
     Display,
-    Glb,
     Group,
     Hit,
     Input,
     Keep,
+    Mesh,
     Prop,
     Sample,
     Topic,
@@ -29,14 +29,13 @@ from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_la
 from webviz_displays.grid_map.surface import faces_of, lines_of, places
 from webviz_displays.shared.colors import RAINBOW, bounds, faded_color, ramp
 from webviz_displays.shared.geometry import LONGEST
-from webviz_urdf import MeshPart, Surface, write_glb
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
 MOST_CELLS = 100_000
-"""Cells drawn per map; each takes 52 bytes to send, and its lines 48."""
+"""Cells drawn per map; each takes 48 bytes to send, and its lines 48."""
 
 NO_VALUE = (128, 128, 128)
 """Colour of cells with a height, but without a value in the colour layer."""
@@ -201,10 +200,8 @@ class GridMap(Display):
         if self.color_transformer == "None" or not len(faces):
             return
         alphas = np.full((int(is_valid.sum()), 1), round(255 * self.alpha), np.uint8)
-        surface = Surface(is_clear=self.alpha < 1)
         corners = np.hstack((colors[is_valid], alphas))
-        part = MeshPart(points[is_valid], faces, surface, colors=corners)
-        group.add("surface", Glb(write_glb([part])))
+        group.add("surface", Mesh(points[is_valid], faces, self.color, colors=corners))
 
     def _draw_lines(self, points: F32, is_valid: Mask, resolution: float, group: Group) -> None:
         if self.show_grid_lines and is_valid.any():
