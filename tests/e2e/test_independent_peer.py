@@ -31,6 +31,13 @@ displays:
 - {type: Path, line_style: Billboards, line_width: 0.2, color: [255, 255, 0]}
 - {type: TF}
 - {type: Odometry}
+panels:
+- {type: Joints}
+"""
+ROBOT = """
+<robot name="rail"><link name="base"/><link name="cart"/>
+<joint name="slide" type="prismatic"><parent link="base"/><child link="cart"/>
+<limit lower="0.25" upper="0.75" effort="1" velocity="1"/></joint></robot>
 """
 
 SENT = {
@@ -79,7 +86,23 @@ def echo(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
     command = [peer_python, "-u", str(PEER), "echo", *SENT]
     program = Program(
-        [*command, "--seconds", "120", "--domain", domain], env, tmp_path / "echo.txt"
+        [*command, "joint_states", "--seconds", "120", "--domain", domain],
+        env,
+        tmp_path / "echo.txt",
+    )
+    yield program
+    program.end(signal.SIGTERM)
+
+
+@pytest.fixture
+def describing(peer_python: str, domain: str, tmp_path: Path) -> Iterator[Program]:
+    """The peer publishes the description of a robot."""
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text(ROBOT)
+    env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
+    command = [peer_python, str(PEER), "pub", "robot_description", "--urdf", str(urdf)]
+    program = Program(
+        [*command, "--seconds", "120", "--domain", domain], env, tmp_path / "describing.txt"
     )
     yield program
     program.end(signal.SIGTERM)
@@ -117,8 +140,8 @@ def test_it_sees_everything_the_peer_publishes(
     side.wait_for("from a DDS program (best effort, volatile)")
 
 
-def test_the_peer_receives_what_tools_send_from_the_page(
-    echo: Program, url: str, open_page: Callable[..., Page]
+def test_the_peer_receives_what_tools_and_sliders_send_from_the_page(
+    echo: Program, describing: Program, url: str, open_page: Callable[..., Page]
 ) -> None:
     page = open_page(url)
     answer = page.tab.locator(".wv-hint")
@@ -137,3 +160,9 @@ def test_the_peer_receives_what_tools_send_from_the_page(
     for topic, (key, heard) in SENT.items():
         page.wait_for(functools.partial(publish, key, topic), "a subscription", 60)
         echo.wait_for(rf"{topic} {heard}")
+    page.tab.get_by_role("tab", name="Joints").click()
+    slider = page.tab.get_by_role("slider", name="slide")
+    slider.wait_for(timeout=60_000)
+    assert slider.input_value() == "0.5"
+    page.tab.get_by_role("button", name="Center").click()
+    echo.wait_for(r"joint_states JointState\(.*name=\['slide'\], position=\[0\.5\]")

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from mapping_scenes import MAPPING_MESSAGES
+from moveit_scenes import MOVEIT_MESSAGES, URDF
 from plain_scenes import PLAIN_MESSAGES, ROBOT
 
 from webviz import Display, Level, Topic
@@ -18,6 +19,7 @@ from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
 from webviz_displays.markers import Marker, MarkerArray
+from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.poses import (
     ParticleCloud,
@@ -67,6 +69,21 @@ def test_each_display_draws_what_is_published_and_says_ok(
         viewer.wait_until_drawn(cls.__name__)
         status = viewer.status(cls.__name__)
         assert status.level is Level.OK, f"{cls.__name__}: {status.text}"
+
+
+def test_types_of_moveit_need_no_package(webviz_viewer: Callable[..., LiveViewer]) -> None:
+    shown = PlanningScene(), Trajectory(), RobotState()
+    viewer = webviz_viewer(*shown)
+    viewer.transform("map", "base")
+    text = "std_msgs/msg/String"
+    viewer.publish_bytes("/robot_description", text, encode(text, {"data": URDF}), latched=True)
+    for display in shown:
+        name, spec = next(iter(inputs_of(type(display)).items()))
+        topic = f"/{getattr(display, name).name.removeprefix('/')}"
+        viewer.publish(topic, spec.type, MOVEIT_MESSAGES[spec.type])
+        viewer.wait_until_drawn(type(display).__name__)
+        status = viewer.status(type(display).__name__)
+        assert status.level is Level.OK, status.text
 
 
 def cube(id: int, frame: str = "map", alpha: float = 1.0, **more: Any) -> dict[str, Any]:
