@@ -2,6 +2,7 @@
 
 import math
 from collections import deque
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,14 +13,20 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import String
 
+from webviz.data.messages import FrameTransform
+from webviz.data.rotations import from_rpy, multiply
 from webviz.edges.ros.types import message_class
 from webviz_sim import messages
-from webviz_sim.description import demo_description, read_joints
+from webviz_sim.description import demo_description, read_joints, read_robot
 from webviz_sim.lidar import LidarSettings, scan
+from webviz_sim.localization import Amcl, Perfect, Slam
 from webviz_sim.pose import Pose2D
 from webviz_sim.simulation import Simulation
 
 LOCALISATION_RATE = 10.0  # Hz, of map -> odom: AMCL sends it with every scan
+MAP_RATE = 1.0  # Hz, of a map that grows
+FAR = 2.0  # m; a path that long has room for a box on it
+BOX = 0.25  # m, its radius
 PATH_RATE = 2.0  # Hz, of /path, so that late subscribers receive it too
 
 _SECOND = 1_000_000_000
@@ -45,7 +52,10 @@ class Broadcaster:
         self._scan_due, self._joints_due = _Schedule(), _Schedule()
         self._localisation_due, self._path_due = _Schedule(), _Schedule()
 
-        urdf = demo_description()
+        self._prefix = values["frame_prefix"]
+        self._late = round(values["fault_clock"] * _SECOND)
+        now -= self._late
+        urdf = read_robot(values["robot"]) if values["robot"] else demo_description()
         joints = read_joints(urdf)
         fixed = [joint.transform(now) for joint in joints if joint.kind == "fixed"]
         by_name = {joint.name: joint for joint in joints}
@@ -57,21 +67,36 @@ class Broadcaster:
         ]
 
         tf_message = message_class("tf2_msgs/msg/TFMessage")
-        self._tf = node.create_publisher(tf_message, "/tf", 100)
-        self._tf_static = node.create_publisher(tf_message, "/tf_static", _LATCHED)
-        self._description = node.create_publisher(String, "/robot_description", _LATCHED)
-        self._map = node.create_publisher(OccupancyGrid, "/map", _LATCHED)
-        self._odometry = node.create_publisher(Odometry, "/odom", 10)
-        self._scan = node.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
-        self._joints = node.create_publisher(JointState, "/joint_states", 10)
-        self._path = node.create_publisher(Path, "/path", 10)
+        self._tf = node.create_publisher(tf_message, "tf", 100)
+        self._tf_static = node.create_publisher(tf_message, "tf_static", _LATCHED)
+        self._description = node.create_publisher(String, "robot_description", _LATCHED)
+        self._map = node.create_publisher(OccupancyGrid, "map", _LATCHED)
+        self.localization = self._localization_of(node)
+        self._map_due = _Schedule()
+        self._odometry = node.create_publisher(Odometry, "odom", 10)
+        self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
+        self._joints = node.create_publisher(JointState, "joint_states", 10)
+        self._path = node.create_publisher(Path, "path", 10)
         self._clock = None
         if values["publish_clock"]:
             self._clock = node.create_publisher(Clock, "/clock", 10)
 
-        self._tf_static.publish(messages.tf(fixed))
+        turn = from_rpy(0.0, 0.0, values["fault_laser_yaw"])
+        fixed = [
+            joint._replace(rotation=multiply(joint.rotation, turn)).transform(now)
+            if joint.child == messages.SCANNER
+            else joint.transform(now)
+            for joint in joints
+            if joint.kind == "fixed"
+        ]
+        self._is_misplaced = bool(values["fault_misplaced"])
+        if self._is_misplaced:
+            wrong = Pose2D(0.0, values["fault_misplaced"], 0.0) @ simulation.robot.pose
+            fixed.append(messages.planar("map", "odom", now, wrong))
+        self._tf_static.publish(self._tf_message(fixed))
         self._description.publish(String(data=urdf))
-        self._map.publish(messages.occupancy_grid(simulation.world, now))
+        if not isinstance(self.localization, Slam):
+            self._map.publish(messages.occupancy_grid(simulation.world, now))
 
     def publish(self, now: int) -> None:
         """Publishes the messages that are due; `now` is the simulation's time in nanoseconds."""
@@ -79,25 +104,38 @@ class Broadcaster:
         values, time = self._values, self._simulation.time
         if self._clock:
             self._clock.publish(messages.clock(now))
+        now -= self._late
         self._scanner_poses.append(robot.pose @ self._scanner)
 
         transforms = [messages.planar("odom", "base_link", now, robot.odometry)]
         if self._localisation_due(time, LOCALISATION_RATE):
             # AMCL stamps its transform ahead, so that it is valid until the next one.
             until = now + round(values["transform_tolerance"] * _SECOND)
-            correction = robot.pose @ robot.odometry.inverse()
-            transforms.append(messages.planar("map", "odom", until, correction))
+            self.localization.update(robot.pose, 1.0 / LOCALISATION_RATE)
+            correction = self.localization.pose @ robot.odometry.inverse()
+            if not self._is_misplaced:
+                transforms.append(messages.planar("map", "odom", until, correction))
+            if self._map_due(time, MAP_RATE) or isinstance(self.localization, Amcl):
+                self.localization.publish(now)
         if self._joints_due(time, values["joint_state_rate"]):
             self._joints.publish(messages.joint_state(robot, now))
             turned = zip(self._wheels, robot.wheels, strict=True)
             transforms += [joint.transform(now, angle) for joint, angle in turned]
-        self._tf.publish(messages.tf(transforms))
-        self._odometry.publish(messages.odometry(robot, now))
+        self._tf.publish(self._tf_message(transforms))
+        self._odometry.publish(messages.odometry(robot, now, self._prefix))
 
         if self._scan_due(time, values["scan_rate"]):
             self._publish_scan(now)
         if self._path_due(time, PATH_RATE) and len(simulation.path) > 1:
-            self._path.publish(messages.path(simulation.path, now))
+            self._publish_path(now)
+
+    def _publish_path(self, now: int) -> None:
+        path, simulation = self._simulation.path, self._simulation
+        if self._values["fault_stale_path"] >= 0.5:
+            if len(simulation.boxes) or math.dist(path[0], path[-1]) < FAR:
+                return
+            simulation.boxes = np.array([(*path[len(path) // 2], BOX)])
+        self._path.publish(messages.path(path, now))
 
     def _publish_scan(self, now: int) -> None:
         values = self._values
@@ -113,9 +151,32 @@ class Broadcaster:
             back = min(round(period * values["rate"]), len(self._scanner_poses) - 1)
             first = self._scanner_poses[-1 - back]
             now -= round(back / values["rate"] * _SECOND)
-        measured = scan(self._simulation.world, first, last, settings, self._random)
-        message = messages.laser_scan(measured, settings, now, period, values["scan_sweep"])
+        simulation = self._simulation
+        measured = scan(simulation.world, first, last, settings, self._random, simulation.circles)
+        self.localization.see(last, measured, settings.range_max)
+        sweep = values["scan_sweep"]
+        message = messages.laser_scan(measured, settings, now, period, sweep, self._prefix)
         self._scan.publish(message)
+
+    def _localization_of(self, node: Node) -> Perfect:
+        kind, truth = self._values["localization"], self._simulation.robot.pose
+        if kind == "amcl":
+            return Amcl(node, truth, self._values["seed"])
+        return Slam(self._simulation.world, self._map) if kind == "slam" else Perfect()
+
+    def _tf_message(self, transforms: Iterable[FrameTransform]) -> bytes:
+        """A message of transforms, with prefixes before the names of the robot's own frames."""
+        return messages.tf(
+            transform._replace(
+                parent=self._named(transform.parent), child=self._named(transform.child)
+            )
+            if self._prefix
+            else transform
+            for transform in transforms
+        )
+
+    def _named(self, frame: str) -> str:
+        return frame if frame == "map" else self._prefix + frame
 
 
 class _Schedule:

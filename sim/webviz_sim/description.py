@@ -7,6 +7,10 @@ from xml.etree import ElementTree
 
 from webviz.data.messages import FrameTransform
 from webviz.data.rotations import Quaternion, Vector, from_axis_angle, from_rpy, multiply, w_last
+from webviz_sim.world import WorldError
+
+WHEEL_JOINTS = ("wheel_left_joint", "wheel_right_joint")
+SCANNER = "base_scan"
 
 
 class Joint(NamedTuple):
@@ -36,6 +40,27 @@ def demo_description() -> str:
     assert spec.submodule_search_locations is not None
     [folder] = spec.submodule_search_locations
     return (Path(folder) / "demo" / "robot.urdf").read_text()
+
+
+def read_robot(path: str) -> str:
+    """The text of a URDF that has what the simulator moves.
+
+    Raises:
+        WorldError: it cannot be read, or lacks a joint.
+    """
+    try:
+        text = Path(path).read_text()
+        joints = read_joints(text)
+    except OSError as error:
+        raise WorldError(f"Cannot read the robot {path}: {error.strerror}.") from None
+    except (ElementTree.ParseError, ValueError, KeyError):
+        raise WorldError(f"The robot {path} is not a valid URDF.") from None
+    found = {joint.name for joint in joints} | {joint.child for joint in joints}
+    if missing := sorted({*WHEEL_JOINTS, SCANNER} - found):
+        raise WorldError(
+            f"The robot {path} lacks {' and '.join(missing)}, which the simulator moves."
+        )
+    return text
 
 
 def read_joints(urdf: str) -> list[Joint]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz_sim.circles import NONE, Circles, cast
 from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays
 from webviz_sim.world import World
@@ -35,7 +36,12 @@ class Scan(NamedTuple):
 
 
 def scan(
-    world: World, first: Pose2D, last: Pose2D, settings: LidarSettings, random: np.random.Generator
+    world: World,
+    first: Pose2D,
+    last: Pose2D,
+    settings: LidarSettings,
+    random: np.random.Generator,
+    circles: Circles = NONE,
 ) -> Scan:
     """Measures one revolution.
 
@@ -45,17 +51,22 @@ def scan(
         last: The scanner one revolution later; in between it moves steadily.
         settings: The scanner.
         random: Source of the noise.
+        circles: Obstacles that are not in the world.
     """
     fractions = np.arange(settings.beams) / settings.beams
     start, end = world.to_grid(first), world.to_grid(last)
     turned = math.remainder(end.yaw - start.yaw, math.tau)
-    distances, incidence = cast_rays(
-        world.occupied,
-        start.x + fractions * (end.x - start.x),
-        start.y + fractions * (end.y - start.y),
-        start.yaw + fractions * turned - math.pi + math.tau * fractions,
-        settings.range_max / world.resolution,
-    )
+    x = start.x + fractions * (end.x - start.x)
+    y = start.y + fractions * (end.y - start.y)
+    angles = start.yaw + fractions * turned - math.pi + math.tau * fractions
+    reach = settings.range_max / world.resolution
+    distances, incidence = cast_rays(world.occupied, x, y, angles, reach)
+    if len(circles):
+        centres = world.to_cells(circles[:, :2])
+        scaled = np.column_stack([centres, circles[:, 2] / world.resolution])
+        met = cast(scaled, x, y, angles)
+        incidence[met < distances] = 1.0
+        distances = np.minimum(distances, met)
     ranges = distances * world.resolution
     # A matt surface returns less of a beam that is flat or comes from far away.
     intensities = 100.0 * incidence / (1.0 + (ranges / 4.0) ** 2)

@@ -13,13 +13,11 @@ from numpy.typing import NDArray
 
 from webviz.data.messages import FrameTransform, Header, PoseStampedSequence, Time, encode
 from webviz.data.rotations import from_rpy, to_rpy, w_last
+from webviz_sim.description import SCANNER, WHEEL_JOINTS
 from webviz_sim.lidar import LidarSettings, Scan
 from webviz_sim.pose import Pose2D
 from webviz_sim.robot import Robot
 from webviz_sim.world import World
-
-WHEEL_JOINTS = ("wheel_left_joint", "wheel_right_joint")
-SCANNER = "base_scan"
 
 # Variances as diff_drive_controller's examples set them: x, y, z, roll, pitch, yaw.
 _COVARIANCE = np.diag([0.001, 0.001, 0.001, 0.001, 0.001, 0.01]).ravel()
@@ -97,13 +95,40 @@ def occupancy_grid(world: World, nanoseconds: int) -> bytes:
     return encode("nav_msgs/msg/OccupancyGrid", values)
 
 
-def odometry(robot: Robot, nanoseconds: int) -> bytes:
+def pose_with_covariance(pose: Pose2D, covariance: NDArray[np.float64], nanoseconds: int) -> bytes:
+    """A geometry_msgs/PoseWithCovarianceStamped in the map, with a covariance of shape (6, 6)."""
+    place = planar("", "", 0, pose)
+    values = {
+        "header": Header(stamp(nanoseconds), "map"),
+        "pose": {
+            "pose": {"position": place.translation, "orientation": place.rotation},
+            "covariance": covariance.ravel(),
+        },
+    }
+    return encode("geometry_msgs/msg/PoseWithCovarianceStamped", values)
+
+
+def particle_cloud(poses: NDArray[np.float64], nanoseconds: int) -> bytes:
+    """A nav2_msgs/ParticleCloud in the map: x, y and yaw, shape (n, 3), of equal weight."""
+    places = [planar("", "", 0, Pose2D(*pose)) for pose in poses.tolist()]
+    particles = [
+        {
+            "pose": {"position": place.translation, "orientation": place.rotation},
+            "weight": 1.0 / len(places),
+        }
+        for place in places
+    ]
+    values = {"header": Header(stamp(nanoseconds), "map"), "particles": particles}
+    return encode("nav2_msgs/msg/ParticleCloud", values)
+
+
+def odometry(robot: Robot, nanoseconds: int, prefix: str = "") -> bytes:
     """The wheel odometry as a nav_msgs/Odometry: base_link in odom, velocity in base_link."""
     pose = planar("", "", 0, robot.odometry)
     twist = {"linear": {"x": robot.linear}, "angular": {"z": robot.angular}}
     values = {
-        "header": Header(stamp(nanoseconds), "odom"),
-        "child_frame_id": "base_link",
+        "header": Header(stamp(nanoseconds), f"{prefix}odom"),
+        "child_frame_id": f"{prefix}base_link",
         "pose": {
             "pose": {"position": pose.translation, "orientation": pose.rotation},
             "covariance": _COVARIANCE,
@@ -125,7 +150,12 @@ def joint_state(robot: Robot, nanoseconds: int) -> bytes:
 
 
 def laser_scan(
-    scan: Scan, settings: LidarSettings, nanoseconds: int, period: float, sweep: bool
+    scan: Scan,
+    settings: LidarSettings,
+    nanoseconds: int,
+    period: float,
+    sweep: bool,
+    prefix: str = "",
 ) -> bytes:
     """One revolution of the scanner as a sensor_msgs/LaserScan.
 
@@ -135,10 +165,11 @@ def laser_scan(
         nanoseconds: time of the first beam.
         period: time from one revolution to the next, in seconds.
         sweep: whether the beams were measured one after another instead of all at once.
+        prefix: before the name of its frame.
     """
     step = math.tau / settings.beams
     values = {
-        "header": Header(stamp(nanoseconds), SCANNER),
+        "header": Header(stamp(nanoseconds), f"{prefix}{SCANNER}"),
         "angle_min": -math.pi,
         "angle_max": -math.pi + step * (settings.beams - 1),
         "angle_increment": step,

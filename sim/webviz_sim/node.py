@@ -6,15 +6,16 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from webviz_sim.options import OPTIONS
+from webviz_sim.options import FAULT, OPTIONS
 from webviz_sim.world import WorldError
 
 if TYPE_CHECKING:
     from webviz_sim.sim_node import SimNode
 
+MAX_ROBOTS = 20
 PATIENCE = 3.0  # s from the end of standard input to a forced exit
 MAX_LAG = 0.5  # s; a simulation that is later than this (a suspended laptop) skips time
 
@@ -53,15 +54,20 @@ def main(args: list[str] | None = None) -> int:
             threading.Thread(target=_end_with_stdin, daemon=True).start()
         _on_signal(stopping.set)
         # rclpy's own handlers would shut down the context while the node uses it.
+        # Overrides given later win.
+        faults = [word for fault in options.fault for word in ("-p", f"{FAULT}{_value(fault)}")]
+        args = [*args, "--ros-args", *faults]
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
         reason = " ".join(str(error).split()).partition(", at /")[0]
         print(f"ROS does not start ({type(error).__name__}): {reason}", file=sys.stderr)
         return 1
-    node = None
+    nodes: list[SimNode] = []
     try:
-        node = SimNode(time.time_ns())
-        _run(node, stopping)
+        for number in range(max(options.robots, 1)):
+            namespace = f"robot{number + 1}" if options.robots else ""
+            nodes.append(SimNode(time.time_ns(), tuple(nodes), namespace))
+        _run(nodes, stopping)
     except WorldError as error:
         print(error, file=sys.stderr)
         return 1
@@ -71,19 +77,20 @@ def main(args: list[str] | None = None) -> int:
         print(f"Invalid parameter: {sentence}", file=sys.stderr)
         return 1
     finally:
-        if node:
+        for node in nodes:
             node.destroy_node()
         try_shutdown()
     return 0
 
 
-def _run(node: "SimNode", stopping: threading.Event) -> None:
-    """Steps the node in real time, and serves its subscriptions in between."""
+def _run(nodes: Sequence["SimNode"], stopping: threading.Event) -> None:
+    """Steps the nodes in real time, and serves their subscriptions in between."""
     from rclpy.experimental.events_executor import EventsExecutor
 
     executor = EventsExecutor()
-    executor.add_node(node)
-    period = round(node.period * 1e9)
+    for node in nodes:
+        executor.add_node(node)
+    period = round(nodes[0].period * 1e9)
     due = time.time_ns()
     while not stopping.is_set():
         due += period
@@ -94,7 +101,8 @@ def _run(node: "SimNode", stopping: threading.Event) -> None:
             executor.spin_once(timeout_sec=max(0.0, (due - time.time_ns()) * 1e-9))
             if stopping.is_set() or time.time_ns() >= due:
                 break
-        node.step(due)
+        for node in nodes:
+            node.step(due)
     executor.shutdown()
 
 
@@ -114,6 +122,12 @@ def _end_with_stdin() -> None:
     os._exit(1)
 
 
+def _value(fault: str) -> str:
+    """A fault of the command line, as a parameter; without a value it is on."""
+    name, _, value = fault.partition("=")
+    return f"{name}:={float(value or 1.0)!r}"
+
+
 def _parser() -> argparse.ArgumentParser:
     parameters = "\n".join(
         f"  {name:<20} {option.help} [{option.default}]" for name, option in OPTIONS.items()
@@ -126,7 +140,23 @@ def _parser() -> argparse.ArgumentParser:
             "or --ros-args --params-file FILE.\n\nparameters of the node /sim:\n" + parameters
         ),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        usage="webviz-sim [-h] [--until-stdin-closes] [--ros-args ...]",
+        usage="webviz-sim [-h] [--robots N] [--fault NAME=VALUE] [--until-stdin-closes] "
+        "[--ros-args ...]",
+    )
+    parser.add_argument(
+        "--robots",
+        type=int,
+        default=0,
+        metavar="N",
+        choices=range(1, MAX_ROBOTS + 1),
+        help="this many robots, in the namespaces robot1, robot2 ...",
+    )
+    parser.add_argument(
+        "--fault",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a fault to find, such as laser_yaw=0.3 (repeatable)",
     )
     parser.add_argument(
         "--until-stdin-closes",

@@ -21,6 +21,7 @@ class Option:
     low: float = -math.inf
     high: float = math.inf
     read_only: bool = False
+    choices: tuple[str, ...] = ()
 
     @property
     def range(self) -> tuple[float, float] | None:
@@ -40,11 +41,16 @@ class Option:
         # A rate of 10 means 10.0.
         if type(value) is not kind and not (kind is float and type(value) is int):
             return f"{name} must be {_KINDS[kind]}, not {value!r}."
+        if self.choices and value not in self.choices:
+            return f"{name} must be {', '.join(self.choices[:-1])} or {self.choices[-1]}."
         # Written so that NaN is refused.
         if isinstance(value, int | float) and not self.low <= value <= self.high:
             return f"{name} must be between {self.low:g} and {self.high:g}, not {value:g}."
         return None
 
+
+FAULT = "fault_"
+"""What the names of faults begin with."""
 
 OPTIONS = {
     "world": Option(
@@ -57,6 +63,21 @@ OPTIONS = {
         "Where the robot starts in the map, [x, y, yaw] in m and rad; []: any free spot.",
         read_only=True,
     ),
+    "robot": Option(
+        "",
+        "URDF of the robot, with the joints and frames of the bundled one; empty: that.",
+        read_only=True,
+    ),
+    "frame_prefix": Option(
+        "", "Before the names of all frames but map, such as robot1/.", read_only=True
+    ),
+    "localization": Option(
+        "perfect",
+        "What places the robot in the map: perfect, amcl or slam, with their topics.",
+        read_only=True,
+        choices=("perfect", "amcl", "slam"),
+    ),
+    "obstacles": Option(0, "People who walk about, whom no map has.", 0, 50, read_only=True),
     "seed": Option(0, "Seed of all noise.", 0, 2**32 - 1, read_only=True),
     "rate": Option(50.0, "Steps, /odom and /tf per second.", 1, 500, read_only=True),
     "stamped_cmd_vel": Option(
@@ -71,6 +92,7 @@ OPTIONS = {
     "tour_speed": Option(0.35, "Speed along a path in m/s.", 0.05, 0.6),
     "cmd_vel_timeout": Option(0.5, "How long a /cmd_vel is valid, in s.", 0.05, 10),
     "odom_drift": Option(0.0, "Error of the odometry, as a fraction of the motion.", 0, 1),
+    "slip": Option(0.0, "Share of the wheels' motion that the robot does not make.", 0, 0.9),
     "transform_tolerance": Option(0.2, "How far map -> odom is stamped ahead, in s.", 0, 10),
     "joint_state_rate": Option(20.0, "/joint_states per second.", 0.1, 500),
     "scan_rate": Option(10.0, "Revolutions of the scanner, /scan, per second.", 0.1, 100),
@@ -83,6 +105,16 @@ OPTIONS = {
         "Measure each beam at its own time, as a rotating scanner does, and set time_increment; "
         "otherwise measure all beams at the stamp.",
     ),
+}
+
+OPTIONS |= {
+    FAULT + name: Option(0.0, f"A fault: {text}", low, high, read_only=True)
+    for name, (text, low, high) in {
+        "laser_yaw": ("/tf_static has the laser turned by this, in rad.", -math.pi, math.pi),
+        "misplaced": ("/tf_static has map -> odom, this far beside the robot, in m.", -100, 100),
+        "stale_path": ("a path is planned once, and a box on it later; 1 is on.", 0, 1),
+        "clock": ("all stamps are this late, in s.", -1000, 1000),
+    }.items()
 }
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from webviz_sim.circles import NONE, Circles, nearest
 from webviz_sim.pose import Pose2D
 from webviz_sim.world import World
 
@@ -49,6 +50,10 @@ class Robot:
     """The velocities of the last step, in m/s and rad/s, after limits and walls."""
     wheels: list[float] = field(default_factory=lambda: [0.0, 0.0])
     """Angles of the left and the right wheel, in radians."""
+    circles: Circles = field(default_factory=lambda: NONE)
+    """Obstacles that are not in the world."""
+    slip: float = 0.0
+    """Share of the wheels' motion that the robot does not make."""
 
     def step(self, linear: float, angular: float, seconds: float) -> None:
         """Moves with the commanded velocities, as far as limits and walls allow.
@@ -58,10 +63,11 @@ class Robot:
         """
         linear = min(max(linear, -MAX_LINEAR), MAX_LINEAR)
         angular = min(max(angular, -MAX_ANGULAR), MAX_ANGULAR)
-        linear *= self._free_fraction(linear, angular, seconds)
-        self.pose = drive(self.pose, linear, angular, seconds)
-        slip, skew = (1.0 + self.drift * self.random.standard_normal(2)).tolist()
-        self.odometry = drive(self.odometry, linear * slip, angular * skew, seconds)
+        grip = 1.0 - self.slip
+        linear *= self._free_fraction(linear * grip, angular * grip, seconds)
+        self.pose = drive(self.pose, linear * grip, angular * grip, seconds)
+        stretch, skew = (1.0 + self.drift * self.random.standard_normal(2)).tolist()
+        self.odometry = drive(self.odometry, linear * stretch, angular * skew, seconds)
         self.linear, self.angular = linear, angular
         for wheel, side in enumerate((-0.5, 0.5)):
             speed = (linear + side * WHEEL_SEPARATION * angular) / WHEEL_RADIUS
@@ -73,14 +79,19 @@ class Robot:
         turn = 0.5 * WHEEL_SEPARATION * self.angular
         return (self.linear - turn) / WHEEL_RADIUS, (self.linear + turn) / WHEEL_RADIUS
 
+    def _clearance(self, pose: Pose2D) -> float:
+        """Distance in metres from a pose to what is in the way, at most `RADIUS`."""
+        beside = nearest(self.circles, pose.x, pose.y)
+        return min(beside, self.world.clearance(pose, RADIUS))
+
     def _free_fraction(self, linear: float, angular: float, seconds: float) -> float:
         """The possible share of a step's forward motion, less than 1 at a wall."""
-        if linear == 0.0 or self.world.clearance(self.pose, RADIUS) < RADIUS:
+        if linear == 0.0 or self._clearance(self.pose) < RADIUS:
             return 1.0  # a robot placed inside a wall may leave it
 
         def fits(fraction: float) -> bool:
             pose = drive(self.pose, linear * fraction, angular, seconds)
-            return self.world.clearance(pose, RADIUS) >= RADIUS
+            return self._clearance(pose) >= RADIUS
 
         # A step is split so finely that no wall fits between two checked places.
         pieces = math.ceil(abs(linear) * seconds / (0.5 * self.world.resolution))

@@ -1,6 +1,7 @@
 """The node `/sim`: its parameters and commands."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped
@@ -18,24 +19,27 @@ from webviz_sim import messages, options
 from webviz_sim.broadcaster import Broadcaster
 from webviz_sim.navigation import Navigation
 from webviz_sim.pose import Pose2D
+from webviz_sim.robot import Robot
 from webviz_sim.simulation import Simulation, SimulationSettings
-from webviz_sim.world import load_world
+from webviz_sim.world import WorldError, load_world
 
 
 class SimNode(Node):
     """Steps a simulation, publishes what a real robot would, and receives commands."""
 
-    def __init__(self, start: int):
+    def __init__(self, start: int, fleet: Sequence["SimNode"] = (), namespace: str = ""):
         """Creates the node and publishes the latched messages.
 
         Args:
             start: The time in nanoseconds; ignored with `publish_clock`.
+            fleet: Of other robots in the same world.
+            namespace: Of its topics.
 
         Raises:
             WorldError: The world cannot be loaded, or has no room for the robot.
             rclpy.exceptions.InvalidParameterValueException: A parameter is refused.
         """
-        super().__init__("sim")
+        super().__init__("sim", namespace=namespace or None)
         self._values: dict[str, Any] = {}
         self._settings = SimulationSettings()
         self.add_on_set_parameters_callback(self._check)
@@ -44,21 +48,33 @@ class SimNode(Node):
             self.declare_parameter(name, option.default, _descriptor(option))
 
         values = self._values
-        world = load_world(values["world"] or options.BUILDING)
+        values["seed"] += len(fleet)
         start_pose = Pose2D(*values["start_pose"]) if values["start_pose"] else None
-        self._simulation = Simulation(world, self._settings, start_pose, values["seed"])
-        latched_at = 0 if values["publish_clock"] else start
+        if fleet:
+            world = fleet[0]._simulation.world
+            start_pose = fleet[0]._free_place([node._simulation.robot for node in fleet])
+        else:
+            world = load_world(values["world"] or options.BUILDING)
+        self._simulation = Simulation(
+            world, self._settings, start_pose, values["seed"], values["obstacles"]
+        )
+        for node in fleet:
+            node._simulation.others.append(self._simulation.robot)
+            self._simulation.others.append(node._simulation.robot)
+        self._is_simulated = values["publish_clock"]
+        latched_at = 0 if self._is_simulated else start
+        values["publish_clock"] &= not fleet  # one clock for all
         self._broadcaster = Broadcaster(self, self._simulation, values, latched_at)
         self._navigation = Navigation(self, self._simulation)
         self._publish(start)
 
         if values["stamped_cmd_vel"]:
-            self.create_subscription(TwistStamped, "/cmd_vel", self._drive_stamped, 10)
+            self.create_subscription(TwistStamped, "cmd_vel", self._drive_stamped, 10)
         else:
-            self.create_subscription(Twist, "/cmd_vel", self._drive, 10)
-        self.create_subscription(PoseStamped, "/goal_pose", self._go, 10)
-        self.create_subscription(PoseWithCovarianceStamped, "/initialpose", self._put, 10)
-        self.create_service(Empty, "/reset_odom", self._reset_odometry)
+            self.create_subscription(Twist, "cmd_vel", self._drive, 10)
+        self.create_subscription(PoseStamped, "goal_pose", self._go, 10)
+        self.create_subscription(PoseWithCovarianceStamped, "initialpose", self._put, 10)
+        self.create_service(Empty, "reset_odom", self._reset_odometry)
 
     @property
     def period(self) -> float:
@@ -76,7 +92,7 @@ class SimNode(Node):
         self._publish(now)
 
     def _publish(self, now: int) -> None:
-        simulated = self._values["publish_clock"]
+        simulated = self._is_simulated
         self._broadcaster.publish(round(self._simulation.time * 1e9) if simulated else now)
 
     def _check(self, parameters: list[Parameter]) -> SetParametersResult:
@@ -86,7 +102,7 @@ class SimNode(Node):
 
     def _apply(self, parameters: list[Parameter]) -> None:
         self._values.update({p.name: p.value for p in parameters})
-        for name in ("tour", "tour_speed", "cmd_vel_timeout", "odom_drift"):
+        for name in ("tour", "tour_speed", "cmd_vel_timeout", "odom_drift", "slip"):
             if name in self._values:
                 setattr(self._settings, name, self._values[name])
 
@@ -111,8 +127,19 @@ class SimNode(Node):
         pose = messages.to_map_pose(message.header, message.pose.pose)
         if isinstance(pose, str):
             self._warn(f"Ignored an /initialpose {pose}.")
-        else:
+        elif not self._broadcaster.localization.put(pose):
             self._simulation.put(pose)
+
+    def _free_place(self, robots: Sequence[Robot]) -> Pose2D:
+        """A place of the tour that is as far as possible from robots.
+
+        Raises:
+            WorldError: The world has no other place.
+        """
+        places = self._simulation.places
+        if len(places) < len(robots):
+            raise WorldError(f"The world has places for {len(places) + 1} robots only.")
+        return max(places, key=lambda p: min(math.dist(p[:2], r.pose[:2]) for r in robots))
 
     def _reset_odometry(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
         self._simulation.reset_odometry()

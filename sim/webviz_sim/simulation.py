@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz_sim.circles import NONE, Circles
+from webviz_sim.crowd import Crowd
 from webviz_sim.follower import Follower
 from webviz_sim.planner import Planner
 from webviz_sim.pose import Pose2D
@@ -32,6 +34,8 @@ class SimulationSettings:
     """How long a velocity command is valid, in seconds."""
     odom_drift: float = 0.0
     """See `Robot.drift`."""
+    slip: float = 0.0
+    """See `Robot.slip`."""
 
 
 class Simulation:
@@ -43,7 +47,12 @@ class Simulation:
     """
 
     def __init__(
-        self, world: World, settings: SimulationSettings, start: Pose2D | None = None, seed: int = 0
+        self,
+        world: World,
+        settings: SimulationSettings,
+        start: Pose2D | None = None,
+        seed: int = 0,
+        obstacles: int = 0,
     ):
         """Puts the robot into the world.
 
@@ -52,7 +61,8 @@ class Simulation:
             settings: May be changed between steps.
             start: Start of the robot in the map frame; None for a place with room near the middle
                 of the free space.
-            seed: Of the odometry's drift.
+            seed: Of the odometry's drift, and of the obstacles' ways.
+            obstacles: How many people walk about.
 
         Raises:
             WorldError: The world has no room for the robot.
@@ -66,6 +76,11 @@ class Simulation:
                 f"The world has no free place with {RADIUS:g} m around it for the robot to start."
             )
         self.robot = Robot(world, start, np.random.default_rng(seed))
+        self.crowd = Crowd(self.planner, start, obstacles, seed)
+        self.others: list[Robot] = []
+        """Robots in the same world, each of a simulation of its own."""
+        self.boxes: Circles = NONE
+        """Obstacles that stay where they are."""
         self.time = 0.0
         self.places = self.planner.spread(start, count=12)
         """The places of the tour, the next one first."""
@@ -78,6 +93,12 @@ class Simulation:
         self.reached: Pose2D | None = None
         """The last goal that was reached."""
         self._progress = (start, 0.0)
+
+    @property
+    def circles(self) -> Circles:
+        """All obstacles that are not in the world."""
+        others = [(*other.pose[:2], RADIUS) for other in self.others]
+        return np.vstack([self.crowd.circles, self.boxes, np.reshape(others, (-1, 3))])
 
     @property
     def path(self) -> NDArray[np.float64]:
@@ -127,7 +148,9 @@ class Simulation:
     def step(self, seconds: float) -> None:
         """Advances the simulation."""
         linear, angular = self._velocity(seconds)
-        self.robot.drift = self.settings.odom_drift
+        self.crowd.step(seconds)
+        self.robot.circles = self.circles
+        self.robot.drift, self.robot.slip = self.settings.odom_drift, self.settings.slip
         self.robot.step(linear, angular, seconds)
         self.time += seconds
 

@@ -23,8 +23,8 @@ from webviz.files.config import Config, ConfigError, Unreadable, dump, standard
 from webviz.files.config.schema import schema
 from webviz.files.opening import parse
 from webviz.shell.cli import main as cli
+from webviz.shell.cli.fleet import DEMO
 from webviz.shell.cli.schema import COMMAND, SHIPPED, text
-from webviz.shell.cli.serving import DEMO
 
 INSTALLED = display_types()
 SCHEMA = schema(INSTALLED, plugin_types(Tool), plugin_types(Panel))

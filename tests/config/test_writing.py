@@ -95,7 +95,9 @@ def structs(cls: type[msgspec.Struct]) -> st.SearchStrategy[dict[str, Any]]:
     fields = {n: values_of(hints[n], {}) for n in cls.__struct_fields__ if n not in FIXED}
     config = cls.__struct_config__
     tag: Any = {config.tag_field: st.just(config.tag)} if config.tag_field else {}
-    return st.fixed_dictionaries(tag, optional=fields)
+    needed = {field.name for field in msgspec.structs.fields(cls) if field.required} & fields.keys()
+    always = tag | {name: fields.pop(name) for name in needed}
+    return st.fixed_dictionaries(always, optional=fields)
 
 
 @st.composite

@@ -36,12 +36,15 @@ class Bench:
         allow_publish: Sequence[str] = (),
         may_publish: bool = True,
         graph: Any = None,
+        robots: tuple[str, ...] = (),
     ) -> None:
         self.source = HandFedSource(**({"graph": graph} if graph else {}))
         self.scene = RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0
-        config = Config(Settings(fixed_frame=fixed_frame, publish=publish), list(displays))
+        config = Config(
+            Settings(fixed_frame=fixed_frame, publish=publish, robots=robots), list(displays)
+        )
         self.viewer = FrameLoop(
             config,
             self.source,
@@ -60,7 +63,14 @@ class Bench:
         self.source.put(topic, type_name, encode(type_name, values))
 
     def transform(
-        self, parent: str, child: str, stamp_ns: int, x: float = 0.0, *, static: bool = False
+        self,
+        parent: str,
+        child: str,
+        stamp_ns: int,
+        x: float = 0.0,
+        *,
+        static: bool = False,
+        topic: str = "",
     ) -> None:
         transform = {"translation": {"x": x}, "rotation": {"w": 1.0}}
         stamped = {
@@ -68,7 +78,7 @@ class Bench:
             "child_frame_id": child,
             "transform": transform,
         }
-        topic = "/tf_static" if static else "/tf"
+        topic = topic or ("/tf_static" if static else "/tf")
         self.publish(topic, "tf2_msgs/msg/TFMessage", {"transforms": [stamped]})
 
     def pose(self, topic: str, frame: str, stamp_ns: int, x: float = 0.0) -> None:

@@ -267,7 +267,8 @@ class Context(Group):
             ValueError: the offset is not finite or out of reach.
         """
         _checked(offset, f"{frame or 'the fixed frame'} {key}".rstrip())
-        placement = Placement(frame or None, when, offset, keep_last, interval_s, is_rigid)
+        frame = self.frames.named(frame) if frame else None
+        placement = Placement(frame, when, offset, keep_last, interval_s, is_rigid)
         return self.groups.setdefault(f"{frame or ''}|{key}", Group(placement))
 
     def ok(self, key: str, text: str) -> None:

@@ -95,6 +95,10 @@ class Frames:
         for name, position, wxyz, is_ok in rows:
             self._poses[name, 0] = Pose(tuple(position), tuple(wxyz)) if is_ok else None
 
+    def named(self, frame: str) -> str:
+        """The name in the viewer of a frame that a message names."""
+        return frame.removeprefix("/")
+
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
         """Pose of a frame at a stamp (0: the latest common time), None if it is unknown."""
         key = (frame, stamp_ns)

@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
+from webviz.api.robots import Robot, robots_of
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
@@ -98,10 +99,17 @@ class FrameLoop:
         gate = Gate(source, rights, lambda: self._settings.settings.publish)
         core = self._core = Core(source, gate, scene, self._guard, clock)
         services = Services(
-            scene, self._workers, source.resolve, strict, clock, gate=gate, wake=self._wake
+            scene,
+            self._workers,
+            source.resolve,
+            strict,
+            clock,
+            gate=gate,
+            wake=self._wake,
+            robots=self._robots,
         )
         self._tracer = services.tracer
-        transforms = TransformsPart(core)
+        transforms = TransformsPart(core, self._robots)
         self._time = TimePart(core, lambda: self._parts.reset())
         displays = self._displays = DisplaysPart(core, services)
         settings = self._settings = SettingsPart(core)
@@ -230,6 +238,9 @@ class FrameLoop:
         """Look up frames at the time that is shown now."""
         core = self._core
         core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
+
+    def _robots(self) -> tuple[Robot, ...]:
+        return robots_of(self.settings.robots)
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from webviz.api.robots import Robot
 from webviz.api.status import Status
 from webviz.data.transforms import Diagnosis, TransformException, diagnose, explain
 from webviz.engine.commands import Command, InspectTransforms, Sender
@@ -25,8 +26,10 @@ class TransformsPart(Part):
 
     name = "Transforms"
 
-    def __init__(self, core: Core) -> None:
+    def __init__(self, core: Core, robots: Callable[[], Sequence[Robot]]) -> None:
         super().__init__(core)
+        self._robots = robots
+        self._followed: Sequence[Robot] = ()
         self._listener = TransformListener(core.buffer, core.clock)
         self._wanted = InspectTransforms(tree=False)
         self._tree: tuple[float, int, Diagnosis] | None = None
@@ -38,6 +41,9 @@ class TransformsPart(Part):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The topics of tf2."""
+        if (robots := self._robots()) != self._followed:
+            self._followed = robots
+            self._listener.follow(robots)
         return self._listener.subscriptions()
 
     def insert(self, batches: Batches) -> bool:

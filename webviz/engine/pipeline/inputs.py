@@ -41,6 +41,10 @@ class Inputs:
         """The subscriptions by topic."""
         return {i.name: i.subscription() for i in self._active().values() if i.name and i.type}
 
+    def topics(self) -> list[str]:
+        """The full names of the topics."""
+        return [intake.name for intake in self.intakes.values()]
+
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""
         return any(intake.is_waiting for intake in self._active().values())

@@ -114,7 +114,7 @@ class Intake:
                 arrivals.append(Arrival(raw, "", 0, reception.count - 1))
                 continue
             frame, stamp_ns = header
-            arrival = Arrival(raw, frame.removeprefix("/"), stamp_ns, reception.count - 1)
+            arrival = Arrival(raw, frames.named(frame), stamp_ns, reception.count - 1)
             if not waits:
                 arrivals.append(arrival)
                 continue

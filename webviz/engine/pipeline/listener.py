@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from webviz.api.declared import Topic
+from webviz.api.robots import Robot
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.clocks import clock_problem
 from webviz.data.transforms.quarrels import quarrels
-from webviz.engine.pipeline.transform_layout import Layouts
+from webviz.engine.pipeline.transform_layout import Batch, Layouts
 from webviz.engine.sources import Offer, Raw, Subscription
 
-TOPICS = {"/tf": False, "/tf_static": True}
+TOPICS = {"tf": False, "tf_static": True}
 TYPE = "tf2_msgs/msg/TFMessage"
+
+Names = Sequence[tuple[str, str]]
+"""Parents and children."""
 
 BACK_NS = 1_000_000_000
 BACK_S = 2.0
@@ -51,32 +55,40 @@ class TransformListener:
         self._back_since: float | None = None
         self._back_messages = 0
         self._offers: Mapping[str, Offer] | None = None
-        self._publishers: dict[str, tuple[str, ...]] = dict.fromkeys(TOPICS, ())
-        self._static_publishers: tuple[str, ...] = ()
+        self._topics = _topics(())
+        self._names: dict[str, tuple[Names, Names]] = {}
+        self._publishers: dict[str, tuple[str, ...]] = {}
+        self._static_publishers: list[tuple[str, ...]] = []
         self._asked = 0
         self._asked_at = 0.0
         self._settled_changes = 0
         self._reviewed_at: float | None = None
         self._found: dict[str, Status] = {}
 
+    def follow(self, robots: Sequence[Robot]) -> None:
+        """Read the topics of these robots as well."""
+        self._topics = _topics(robots)
+        self._names.clear()
+        self._offers = None
+
     def subscriptions(self) -> dict[str, Subscription]:
         """The topics of tf2."""
         return {
             topic: Subscription(TYPE, Topic(topic), is_static, self._asked if is_static else 0)
-            for topic, is_static in TOPICS.items()
+            for topic, (is_static, _) in self._topics.items()
         }
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:
         """Insert what arrived; whether the transforms started over in the past."""
         if offers is not self._offers:  # else nothing has changed
             self._offers = offers
-            self._publishers = {topic: _nodes(offers, topic) for topic in TOPICS}
+            self._publishers = {topic: _nodes(offers, topic) for topic in self._topics}
             self._buffer.nodes = {
                 topic: nodes[0] for topic, nodes in self._publishers.items() if len(nodes) == 1
             }
-        for topic, is_static in TOPICS.items():
+        for topic, (is_static, robot) in self._topics.items():
             for raw in batches.get(topic, ()):
-                self._insert(topic, raw, is_static)
+                self._insert(topic, raw, is_static, robot)
         self._watch_static()
         return (
             self._back_since is not None
@@ -98,13 +110,13 @@ class TransformListener:
             self._found = self._review(offers, now_ns)
         return self._faults | self._found
 
-    def _insert(self, topic: str, raw: Raw, is_static: bool) -> None:
+    def _insert(self, topic: str, raw: Raw, is_static: bool, robot: Robot | None) -> None:
+        named = robot.frame if robot else _as_sent
         if not is_static and (batch := self._layouts.read(raw.cdr)) is not None:
             self._faults.pop(topic, None)
-            self._notice_time(batch.names[0][1], batch.stamps_ns[0])
-            self._buffer.set_moving(
-                batch.names, batch.stamps_ns, batch.poses, topic, raw.received_ns
-            )
+            names = self._names_of(topic, batch, robot)
+            self._notice_time(names[0][1], batch.stamps_ns[0])
+            self._buffer.set_moving(names, batch.stamps_ns, batch.poses, topic, raw.received_ns)
             return
         try:
             message: TFMessage = decode(TYPE, raw.cdr)
@@ -114,11 +126,11 @@ class TransformListener:
         self._faults.pop(topic, None)
         if message.transforms and not is_static:
             self._layouts.learn(raw.cdr, message)
-            self._notice_time(message.transforms[0].child, message.transforms[0].stamp_ns)
+            self._notice_time(named(message.transforms[0].child), message.transforms[0].stamp_ns)
         for t in message.transforms:
             self._buffer.set_transform(
-                t.parent,
-                t.child,
+                named(t.parent),
+                named(t.child),
                 t.stamp_ns,
                 t.translation,
                 t.rotation,
@@ -126,6 +138,16 @@ class TransformListener:
                 topic,
                 raw.received_ns,
             )
+
+    def _names_of(self, topic: str, batch: Batch, robot: Robot | None) -> Names:
+        """The frames of a batch by their names in the viewer, made once for equal messages."""
+        if robot is None:
+            return batch.names
+        known = self._names.get(topic)
+        if known is None or known[0] is not batch.names:
+            names = [(robot.frame(parent), robot.frame(child)) for parent, child in batch.names]
+            known = self._names[topic] = batch.names, names
+        return known[1]
 
     def _notice_time(self, child: str, stamp_ns: int) -> None:
         """Note whether a message is from the past, by its first transform."""
@@ -140,7 +162,7 @@ class TransformListener:
 
     def _watch_static(self) -> None:
         """Subscribe again when static transforms or the publishers of contested ones changed."""
-        publishers = self._publishers["/tf_static"]
+        publishers = [self._publishers[t] for t, (static, _) in self._topics.items() if static]
         if publishers != self._static_publishers:
             self._static_publishers = publishers
             if any(p.contest for p in self._buffer.publishers.values()):
@@ -162,7 +184,8 @@ class TransformListener:
         problems = [sentence for frame in buffer.publishers for sentence in quarrels(buffer, frame)]
         if problems:
             who = [
-                f"{topic}: {', '.join(_nodes(offers, topic)) or 'no publisher'}" for topic in TOPICS
+                f"{topic}: {', '.join(_nodes(offers, topic)) or 'no publisher'}"
+                for topic in self._topics
             ]
             problems = [*_few(problems), f"Publishers of {'; of '.join(who)}."]
         refused = [
@@ -181,6 +204,20 @@ class TransformListener:
             "Clocks": clock_problem(buffer, now_ns),
         }
         return {key: Status(Level.WARN, text) for key, text in found.items() if text}
+
+
+def _topics(robots: Sequence[Robot]) -> dict[str, tuple[bool, Robot | None]]:
+    """The topics of tf2: whether each is static, and whose it is."""
+    roots: list[tuple[str, Robot | None]] = [("/", None), *((each.root, each) for each in robots)]
+    return {
+        root + name: (is_static, robot)
+        for root, robot in roots
+        for name, is_static in TOPICS.items()
+    }
+
+
+def _as_sent(frame: str) -> str:
+    return frame
 
 
 def _few(sentences: list[str]) -> list[str]:

@@ -11,6 +11,7 @@ from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
+from webviz.api.robots import RobotFrames, robot_of
 from webviz.api.status import Level, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.gripping import Gripping
@@ -125,13 +126,13 @@ class Runner:
     ) -> None:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
-            self._guard("take", self._holder.take, batches, frames, offers)
+            self._guard("take", self._holder.take, batches, self._own(frames), offers)
             self._gripping.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
         """Update the scene."""
         if self.display.enabled:
-            self._guard("scene", self._draw, frames)
+            self._guard("scene", self._draw, self._own(frames))
 
     def is_waiting(self) -> bool:
         """Whether the newest message of an input waits for its transform."""
@@ -159,7 +160,7 @@ class Runner:
 
     def grip(self, grip: Grip, frames: Frames) -> None:
         """Let the display take up what a browser does with a handle."""
-        if context := self._painter.context(self.display, self._guard, frames):
+        if context := self._painter.context(self.display, self._guard, self._own(frames)):
             self._gripping.grip(grip, self.display, self._guard, context)
 
     # Selection
@@ -178,7 +179,7 @@ class Runner:
 
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """What the display says about something that was selected, if it still exists."""
-        return self._painter.inspect(self.display, self._guard, found.hit, frames)
+        return self._painter.inspect(self.display, self._guard, found.hit, self._own(frames))
 
     def shows(self, found: Found) -> bool:
         """Whether the message that something was drawn from is still drawn."""
@@ -195,7 +196,8 @@ class Runner:
         """All statuses of the display, its own and the framework's, by key."""
         if not self.display.enabled:
             return {}
-        result = self._guard.attempt("statuses", {}, self._statuses, offers, frames, dropped)
+        own = self._own(frames)
+        result = self._guard.attempt("statuses", {}, self._statuses, offers, own, dropped)
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.remarks
@@ -204,6 +206,12 @@ class Runner:
         return result
 
     # Internal
+
+    def _own(self, frames: Frames) -> Frames:
+        """The frames by the names of the robot whose topics the display has."""
+        robots = self._services.robots()
+        robot = robot_of(self._holder.inputs.topics(), robots) if robots else None
+        return RobotFrames(frames, robot) if robot else frames
 
     def _new_guard(self) -> Guard:
         who = type(self.display).__name__

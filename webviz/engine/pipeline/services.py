@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from webviz.api.robots import Robot
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import Scene
 from webviz.engine.sources import Gate
@@ -25,6 +26,7 @@ class Services:
         tracer: traces samples on request.
         gate: for displays that follow a protocol of their own; None if they cannot.
         wake: makes the frame loop turn again soon.
+        robots: whose topics and frames have a name of their own.
     """
 
     scene: Scene
@@ -35,3 +37,4 @@ class Services:
     tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
     gate: Gate | None = None
     wake: Callable[[], None] = lambda: None
+    robots: Callable[[], Sequence[Robot]] = tuple

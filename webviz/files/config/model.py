@@ -13,6 +13,7 @@ from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
+from webviz.api.robots import Namespace, Robot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
 
@@ -42,6 +43,11 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
             "tools, displays and panels use; * matches any characters."
         ),
     ] = None
+    robots: Annotated[
+        tuple[Namespace | Robot, ...],
+        msgspec.Meta(max_length=50),
+        Prop(help="Namespaces of robots that publish /tf with frames of the same names."),
+    ] = ()
     view: View = Orbit()
     """The view new browsers start with."""
     views: dict[str, View] = {}

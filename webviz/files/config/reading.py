@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -13,6 +13,7 @@ from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
+from webviz.api.robots import robots_of
 from webviz.api.tool import Tool
 from webviz.api.views import with_type
 from webviz.files.config.errors import ConfigError, nearest
@@ -27,6 +28,7 @@ from webviz.files.config.model import (
     ToolItem,
     Unreadable,
 )
+from webviz.files.config.robots import filled, repeated
 from webviz.files.config.source import Location, YamlDocument
 
 NO_TYPE = "a {} needs a `type`, such as `type: {}`."
@@ -75,26 +77,31 @@ def read(text: str, where: str) -> Config:
     except msgspec.ValidationError as error:
         path, clause = explain(error, Settings, rest)
         raise ConfigError(top.at(*path).says(clause)) from error
-    entries = _list(document, "displays", top)
-    refuse_too_many(entries, "displays", where)
-    items = [read_display(entry, top.at("displays", i)) for i, entry in enumerate(entries)]
+    names = [robot.name for robot in robots_of(settings.robots)]
+    entries = repeated(_list(document, "displays", top), names)
+    refuse_too_many([entry for _, entry, _ in entries], "displays", where)
+    items = [read_display(filled(entry, name), top.at("displays", i)) for i, entry, name in entries]
     config = Config(settings, items)
     if "tools" in document:
-        config.tools = _plugins(Tool, document, where, top)
+        config.tools = _plugins(Tool, document, where, top, names)
     if "panels" in document:
         config.panels = _plugins(Panel, document, where, top)
     return config
 
 
 def _plugins(
-    base: type[P], document: Mapping[Any, Any], where: str, top: Location
+    base: type[P],
+    document: Mapping[Any, Any],
+    where: str,
+    top: Location,
+    robots: Sequence[str] = (),
 ) -> list[P | Unreadable]:
     """The list of tools or panels."""
     key = f"{base.kind}s"
-    entries = _list(document, key, top)
+    entries = repeated(_list(document, key, top), robots)
     if len(entries) > MAX_PLUGINS:
         raise ConfigError(f"{where} has {len(entries)} {key}; the limit is {MAX_PLUGINS}.")
-    return [_read_plugin(base, entry, top.at(key, i)) for i, entry in enumerate(entries)]
+    return [_read_plugin(base, filled(entry, name), top.at(key, i)) for i, entry, name in entries]
 
 
 def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:

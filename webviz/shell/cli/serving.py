@@ -20,8 +20,6 @@ from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.viewing_options import ViewingOptions
 
-DEMO = Path(__file__).parent / "demo.yaml"
-
 
 def serve(
     options: ViewingOptions, ros: Sequence[str], stop: Stop, standard: Path | None = None

@@ -1,7 +1,11 @@
 """`webviz` and `webviz demo`; slow imports wait until a command runs."""
 
+from typing import Annotated
+
+from cyclopts import Parameter, validators
+
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.options import RosArgs
+from webviz.shell.cli.options import Repeatable, RosArgs
 from webviz.shell.cli.viewing_options import ViewingOptions
 
 EXAMPLES = """\
@@ -11,6 +15,7 @@ Examples:
   webviz -d nav2.rviz             open a config of RViz
   webviz --plugin my_display.py   load your own display, see the README
   webviz demo                     show a simulated robot
+  webviz demo --robots 3          show several, each in a namespace of its own
   webviz screenshot -d lab.yaml --bag run.mcap -o lab.png
   webviz --ros-args -p use_sim_time:=true -r /scan:=/front/scan
 
@@ -29,14 +34,30 @@ def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
     return until_signal(work)
 
 
-def demo(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
-    """Serve the page with a simulated robot."""
+def demo(
+    *,
+    robots: Annotated[int, Parameter(validator=validators.Number(gte=1, lte=20))] = 1,
+    fault: Annotated[Repeatable[str], Parameter(metavar="NAME=VALUE")] = (),
+    options: ViewingOptions = ViewingOptions(),
+    ros: RosArgs,
+) -> int:
+    """Serve the page with a simulated robot.
+
+    Args:
+        robots: How many; several have the namespaces robot1, robot2 ...
+        fault: A fault to find, such as laser_yaw=0.3 (repeatable): see `webviz-sim --help`.
+        options: Of the viewer.
+        ros: Arguments for ROS.
+    """
 
     def work(stop: Stop) -> int:
-        from webviz.shell.cli.serving import DEMO, serve
+        from webviz.shell.cli.fleet import standard_config
+        from webviz.shell.cli.serving import serve
         from webviz.shell.cli.simulator import simulator
 
-        with simulator(ros, stop):
-            return serve(options, ros, stop, DEMO)
+        extra = ["--robots", str(robots)] if robots > 1 else []
+        extra += [word for each in fault for word in ("--fault", each)]
+        with standard_config(robots) as standard, simulator([*extra, *ros], stop):
+            return serve(options, ros, stop, standard)
 
     return until_signal(work)

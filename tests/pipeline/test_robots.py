@@ -1,0 +1,99 @@
+"""Several robots with frames of the same names, each with a /tf in its own namespace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from bench import Bench
+
+from webviz.api.declared import Topic
+from webviz.api.robots import Robot, robot_of
+from webviz.files.config import Branch, Unreadable, dump
+from webviz.files.opening import parse
+from webviz_displays.laser_scan import LaserScan
+from webviz_displays.poses import Pose
+
+S = 1_000_000_000
+TEMPLATE = """\
+version: 1
+robots: [robot1, {namespace: fleet/robot2, prefix: r2_, shared: [map, earth]}]
+displays:
+- {type: Grid}
+- type: Group
+  name: "{robot}"
+  displays: [{type: LaserScan, topic: "/{robot}/scan"}]
+tools:
+- {type: GoalPose, name: "Goal {robot}", topic: "/{robot}/goal_pose"}
+"""
+
+
+@pytest.mark.parametrize(
+    ("robot", "frame", "name"),
+    [
+        (Robot("robot1"), "base_link", "robot1/base_link"),
+        (Robot("/robot1/"), "/base_link", "robot1/base_link"),
+        (Robot("robot1"), "map", "map"),
+        (Robot("robot1"), "robot1/base_link", "robot1/base_link"),
+        (Robot("robot1"), "", ""),
+        (Robot("robot1", "r_", ("earth",)), "map", "r_map"),
+        (Robot("robot1", ""), "base_link", "base_link"),
+    ],
+)
+def test_a_robot_prefixes_its_own_frames(robot: Robot, frame: str, name: str) -> None:
+    assert robot.frame(frame) == name
+
+
+def test_a_display_belongs_to_the_robot_whose_namespace_its_topics_have() -> None:
+    one, ten = Robot("robot1"), Robot("robot10")
+    assert robot_of(["", "/robot10/scan"], (one, ten)) is ten
+    assert robot_of(["/scan", "/robot11/scan"], (one, ten)) is None
+
+
+def test_two_robots_with_equal_frames_are_drawn_where_each_is(
+    bench: Callable[..., Bench],
+) -> None:
+    displays = [Pose(topic=Topic(f"/{name}/pose")) for name in ("robot1", "robot2")]
+    b = bench(*displays, robots=("robot1", "robot2"))
+    for x, name in ((1.0, "robot1"), (5.0, "robot2")):
+        b.transform("map", "odom", S, x, topic=f"/{name}/tf")
+        b.transform("odom", "base_link", 0, 0.5, static=True, topic=f"/{name}/tf_static")
+        b.pose(f"/{name}/pose", "base_link", S, 0.25)
+    b.turn()
+    assert {"robot1/odom", "robot2/odom", "map"} <= {*b.viewer.state().frames}
+    assert "odom" not in b.viewer.state().frames
+    xs = [b.statuses(index) for index in (0, 1)]
+    assert all(found["Transform"][0] == "OK" for found in xs), xs
+    buffer = b.viewer.buffer
+    assert buffer.lookup("map", "robot2/base_link", 0).translation[0] == 5.5
+
+
+def test_a_missing_transform_is_explained_with_the_frame_of_the_robot(
+    bench: Callable[..., Bench],
+) -> None:
+    b = bench(Pose(topic=Topic("/robot1/pose")), robots=("robot1",))
+    b.pose("/robot1/pose", "base_link", S)
+    for _ in range(3):
+        b.turn()
+        b.clock += 1.0
+    assert "robot1/base_link" in b.statuses()["Transform"][1]
+
+
+def test_entries_with_a_placeholder_are_repeated_for_each_robot() -> None:
+    config = parse(TEMPLATE, "x.yaml")
+    groups = [item for item in config.displays if isinstance(item, Branch)]
+    assert [group.group.name for group in groups] == ["robot1", "fleet/robot2"]
+    scans = [scan for group in groups for scan in group.displays]
+    assert [s.topic.name for s in scans if isinstance(s, LaserScan)] == [
+        "/robot1/scan",
+        "/fleet/robot2/scan",
+    ]
+    assert [tool.name for tool in config.tools] == ["Goal robot1", "Goal fleet/robot2"]
+    # Saved, they stand for themselves.
+    assert dump(parse(dump(config), "y.yaml")) == dump(config)
+
+
+def test_without_robots_a_placeholder_is_an_error_of_its_display() -> None:
+    text = 'version: 1\ndisplays: [{type: LaserScan, topic: "/{robot}/scan", size: -1}]\n'
+    [item] = parse(text, "x.yaml").displays
+    assert isinstance(item, Unreadable)

@@ -1,0 +1,22 @@
+"""The configs of `webviz demo`, for one robot and for several."""
+
+import contextlib
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+DEMO, FLEET = (Path(__file__).with_name(name) for name in ("demo.yaml", "fleet.yaml"))
+_NO_ROBOTS = "robots: []"
+
+
+@contextlib.contextmanager
+def standard_config(robots: int) -> Iterator[Path]:
+    """The file of a config for so many robots, during the block."""
+    if robots == 1:
+        yield DEMO
+        return
+    names = ", ".join(f"robot{number}" for number in range(1, robots + 1))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, FLEET.name)
+        path.write_text(FLEET.read_text().replace(_NO_ROBOTS, f"robots: [{names}]"))
+        yield path
