@@ -27,7 +27,8 @@ def refused(path: Path) -> str:
 
 
 def test_the_example_of_the_readme_is_the_one_tested_here() -> None:
-    section = (ROOT / "README.md").read_text().split("## A display of your own")[1]
+    page = (ROOT / "displays/docs/python/README.md").read_text()
+    section = page.split("## A display of your own")[1]
     code = section.split("```python\n")[1].split("```")[0]
     assert code == Path(__file__).with_name("polygon.py").read_text()
 

@@ -424,7 +424,7 @@ def test_a_view_at_the_start_that_is_not_saved_is_refused(
 def test_the_program_of_the_readme_does_what_it_says(
     webviz_domain: int, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    readme = (Path(__file__).parents[2] / "README.md").read_text()
+    readme = (Path(__file__).parents[2] / "displays/docs/python/README.md").read_text()
     section = readme.partition("## From Python and from ROS")[2]
     program = section.partition("```python\n")[2].partition("```")[0]
     for written, here in (

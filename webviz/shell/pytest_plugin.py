@@ -1,4 +1,4 @@
-"""Fixtures for visual tests of any package; see "Visual tests for your package" in the README.
+"""Fixtures for visual tests of any package; see displays/docs/testing/README.md.
 
 pytest imports this module whenever webviz is installed, so fixtures import the rest on demand.
 """
