@@ -348,7 +348,7 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
     # rclpy checks the ranges that are declared.
     is_done, reason = set_parameter("scan_rate", -1.0)
     assert not is_done
-    assert reason.startswith("Parameter scan_rate out of range Min: 0.1, Max: 100, value: -1.0")
+    assert reason.startswith("Parameter scan_rate out of range Min: 0.1, Max: 100.0, value: -1.0")
     # A whole number is as good, and checked as well.
     assert set_parameter("scan_rate", 8) == (True, "")
     assert set_parameter("scan_rate", -1) == (
