@@ -84,14 +84,12 @@ class Blocks:
             rows |= set(table.rows.values())
         is_drawn = table.is_shown & ~table.in_namespaces(off) if off else table.is_shown
         dirty = {n for n, block in self._blocks.items() if not arrived.isdisjoint(block.requests)}
-        for row in rows:
-            was_large = row in self._large
-            is_large = bool(table.counts[row] > LARGE)
-            (self._large.add if is_large else self._large.discard)(row)
-            if is_large or was_large:
-                dirty.add(-1 - row)
-            if not (is_large and was_large):
-                dirty.add(row // BLOCK)
+        each = np.array(list(rows), np.intp)
+        large = set(each[table.counts[each] > LARGE].tolist())
+        were_large = self._large & rows
+        self._large = (self._large - were_large) | large
+        dirty.update(-1 - row for row in large | were_large)
+        dirty.update((np.array(list(rows - (large & were_large)), np.intp) // BLOCK).tolist())
         for number in dirty:
             block = self._make(number, table, is_drawn, assets)
             if block is None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Frames, Pose
-from webviz.data.messages.markers import Content, MarkerSequence
+from webviz.data.messages.markers import NOTHING, Content, MarkerSequence
 from webviz.data.rotations import matrices, multiply_many, normalized, w_first
 from webviz_displays.markers.actions import Key, effect_of
 from webviz_displays.markers.contents import Memory, detached, is_same, size_of
@@ -98,14 +98,16 @@ class Store:
     def _put(self, markers: MarkerSequence, numbers: NDArray[np.intp], received_ns: int) -> None:
         """Add markers, or new versions of them."""
         table = self.table
-        ok = is_valid(markers)
-        rows, taken = [], []
+        ok, ids = is_valid(markers).tolist(), markers.ids.tolist()
+        rows: list[int] = []
+        taken: list[int] = []
         for i in numbers.tolist():
-            key = markers.namespaces[i], int(markers.ids[i])
+            key = markers.namespaces[i], ids[i]
             if not ok[i]:
                 self.remarks.refuse(key, "It has a number that is not finite, or more than 1e9 m.")
                 continue
-            if (length := len(markers.contents[i].text)) > MAX_TEXT:
+            content = markers.contents[i]
+            if content is not NOTHING and (length := len(content.text)) > MAX_TEXT:
                 why = f"Its text has {length} characters; the limit is {MAX_TEXT}."
                 self.remarks.refuse(key, why)
                 continue
@@ -113,7 +115,7 @@ class Store:
                 self.remarks.overflow += 1
                 continue
             row = table.row_of(key)
-            if not self._put_content(row, markers.contents[i]):
+            if not self._put_content(row, content):
                 self.remarks.refuse(key, "The markers of this display exceed 256 MB.")
                 if not table.is_shown[row]:
                     self._remove(key, "Deleted", received_ns)
@@ -215,13 +217,13 @@ class Store:
                 self._show(np.array(some), pose)
         self.version += 1
 
-    def _by_place(self, rows: Iterable[int]) -> dict[Place, list[int]]:
+    def _by_place(self, rows: Sequence[int]) -> dict[Place, list[int]]:
         """Rows by what their pose depends on; locked ones need none."""
-        table = self.table
-        locked, stamps = table.wanted["locked"], table.wanted["stamp_ns"]
+        frames, some = self.table.frames, self.table.wanted[np.array(rows, np.intp)]
         found: dict[Place, list[int]] = {}
-        for row in rows:
-            place = ("", 0) if locked[row] else (table.frames[row], int(stamps[row]))
+        each = zip(rows, some["locked"].tolist(), some["stamp_ns"].tolist(), strict=True)
+        for row, is_locked, stamp_ns in each:
+            place = ("", 0) if is_locked else (frames[row], stamp_ns)
             found.setdefault(place, []).append(row)
         return found
 
