@@ -24,7 +24,7 @@ from webviz.data.messages import (
 from webviz.data.messages.definitions import DEFINITIONS
 
 
-def fields(message: Any, **limits: int) -> dict[str, Any]:
+def fields(message: Any, **limits: Any) -> dict[str, Any]:
     tree = to_tree(message, **limits)
     assert isinstance(tree, dict)
     return tree["fields"]
