@@ -45,16 +45,18 @@ class House:
         server: of the pages.
         tokens: one of each role.
         path: of the file with them.
+        access: reads it.
     """
 
     server: Server
     tokens: dict[Role, Token]
     path: Path
+    access: Access
 
     def __post_init__(self) -> None:
         self.reached: list[str] = []
         self.guests: list[Guest] = []
-        Pages(self.server.channel, self._enqueue, self._steer)
+        Pages(self.server.channel, self._enqueue, self._steer, self.access)
         self.reached.clear()
 
     def cookie(self, role: Role) -> str:
@@ -97,8 +99,9 @@ def house(tmp_path: Path) -> Iterator[House]:
     now = datetime.now(UTC)
     tokens = {role: make(f"some {role.label}", role, now) for role in Role}
     token_file.modify(path, lambda _: list(tokens.values()))
-    server = open_server(port=0, access=Access(True, path))
-    house = House(server, tokens, path)
+    access = Access(True, path)
+    server = open_server(port=0, access=access)
+    house = House(server, tokens, path, access)
     yield house
     for guest in house.guests:
         guest.close()
@@ -317,6 +320,36 @@ def test_an_expired_token_closes_its_pages(tmp_path: Path) -> None:
         server.stop()
 
 
+def test_an_owner_ends_a_visit(house: House) -> None:
+    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+    browsers = {role: guest.page["browser"] for role, guest in ((1, watcher), (3, owner))}
+    owner.receive("You"), watcher.receive("You")
+    watcher.send("Dismiss", number=1, browser=browsers[3], revokes=True)
+    assert "this needs an owner" in watcher.receive("Done")["text"]
+    owner.send("Dismiss", number=1, browser=browsers[3], revokes=False)
+    assert "your own page" in owner.receive("Done")["text"]
+    owner.send("Dismiss", number=2, browser=browsers[1], revokes=False)
+    assert owner.receive("Done")["text"] == "Ended a visit of some watcher."
+    assert "Reload the page" in watcher.receive("Dismissed")["text"]
+    with pytest.raises(websockets.exceptions.ConnectionClosed):
+        watcher.receive("You")
+    owner.send("Dismiss", number=3, browser=browsers[1], revokes=True)
+    assert owner.receive("Done")["text"] == "They are gone already."
+    # The link is still valid.
+    house.enter(Role.WATCHER).receive("You")
+
+
+def test_an_owner_revokes_a_link(house: House) -> None:
+    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+    owner.receive("You"), watcher.receive("You")
+    owner.send("Dismiss", number=1, browser=watcher.page["browser"], revokes=True)
+    assert owner.receive("Done")["text"] == "Revoked the link of some watcher."
+    with pytest.raises(websockets.exceptions.ConnectionClosed):
+        watcher.receive("Dismissed")
+    assert {token.role for token in token_file.read(house.path)} == {"operator", "owner"}
+    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 403
+
+
 def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     few = {
         Role.WATCHER: Limits(0.5, 64, 100.0, 1000),
@@ -326,7 +359,7 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
     monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", few)
     monkeypatch.setattr("webviz.edges.scene.connections.MAX_BROWSERS", 4)
     server = open_server(port=0, access=Access(True, house.path))
-    small = House(server, house.tokens, house.path)
+    small = House(server, house.tokens, house.path, house.access)
     try:
         for role, count in ((Role.WATCHER, 2), (Role.OPERATOR, 1), (Role.OWNER, 1)):
             for _ in range(count):

@@ -6,7 +6,9 @@ import logging
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
 from webviz.edges.access.visitors import Visitor
 
@@ -35,9 +37,14 @@ class Entry:
 
 
 class Journal:
-    """The newest entries; from any thread."""
+    """The newest entries; from any thread.
 
-    def __init__(self) -> None:
+    Args:
+        keep: also called with the line of each entry, such as `JournalFile.write`.
+    """
+
+    def __init__(self, keep: Callable[[str], object] | None = None) -> None:
+        self._keep = keep
         self._lock = threading.Lock()
         self._entries: tuple[Entry, ...] = ()
         self._newest: deque[Entry] = deque(maxlen=MAX_ENTRIES)
@@ -59,4 +66,8 @@ class Journal:
             self._newest.appendleft(entry)
             self._entries = tuple(self._newest)
         who = ", ".join(filter(None, (role, address))) or "a page that is gone"
-        log.info("%s%s: %s", f"{name} " if name else "", f"({who})", plain)
+        line = f"{name} ({who}): {plain}".lstrip()
+        log.info("%s", line)
+        if self._keep is not None:
+            at = datetime.fromtimestamp(entry.time_s, UTC).isoformat(timespec="seconds")
+            self._keep(f"{at} {line}")

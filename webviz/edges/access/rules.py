@@ -53,6 +53,7 @@ COMMANDS: Mapping[type[Command], Role] = {
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,
+    "Dismiss": Role.OWNER,
     "Do": None,
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,

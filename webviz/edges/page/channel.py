@@ -9,7 +9,7 @@ import logging
 import secrets
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from functools import reduce
 from operator import or_
 from typing import Any, Protocol, TypeVar
@@ -53,6 +53,8 @@ class Connection(Protocol):
 
     logger: Any
     transport: Any
+    is_expelled: bool
+    """Whether nothing that it sends counts any more."""
     latency: float
     """Of the last ping in seconds, 0 before the first."""
 
@@ -91,6 +93,8 @@ class Channel:
     def __init__(self) -> None:
         self.on_lost: Callable[[int], None] = lambda browser: None
         """Called on the event loop with a browser whose channel has ended."""
+        self.end_scene: Callable[[int], Awaitable[None]] = _nothing
+        """Ends viser's connection of a browser, which then does not connect again by itself."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._outboxes: dict[int, _Outbox] = {}
@@ -160,6 +164,21 @@ class Channel:
             browser: msgspec.structs.replace(visitor, latency_s=connection.latency or None)
             for browser, (visitor, connection) in known
         }
+
+    def grant_of(self, browser: int) -> Grant | None:
+        """What a browser may do, None if it is gone; from any thread."""
+        with self._lock:
+            known = self._visitors.get(browser)
+        return None if known is None else known[1].grant
+
+    async def dismiss(self, browser: int) -> None:
+        """Ends the visit of a browser; what it has sent counts no more. On the event loop."""
+        with self._lock:
+            known = self._visitors.get(browser)
+        if known is not None:
+            known[1].is_expelled = True
+            await self.end_scene(browser)
+            known[1].transport.abort()
 
     def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:
         """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
@@ -342,6 +361,10 @@ class _Outbox:
         else:
             self.waiting.clear()
             self.is_full = True
+
+
+async def _nothing(browser: int) -> None:
+    pass
 
 
 class _Long(msgspec.Struct, tag="Do"):

@@ -1,4 +1,4 @@
-"""The messages by which an owner invites others; see `webviz.edges.page.messages`."""
+"""The messages by which an owner invites and dismisses others; see `webviz.edges.page.messages`."""
 
 from __future__ import annotations
 
@@ -25,6 +25,30 @@ class Invite(FromPage, frozen=True):
     role: Literal["watcher", "operator", "owner"]
     days: float | None
     url: Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]
+
+
+class Dismiss(FromPage, frozen=True):
+    """Ends the visit of somebody else; the answer is a `Done`.
+
+    Args:
+        number: of the request.
+        browser: whose visit ends.
+        revokes: whether its link is not valid any more, either.
+    """
+
+    number: Number
+    browser: int
+    revokes: bool
+
+
+class Dismissed(ToPage, frozen=True):
+    """The last message to a page whose visit the owner has ended.
+
+    Args:
+        text: for its user, a sentence.
+    """
+
+    text: str
 
 
 class Invitation(ToPage, frozen=True):

@@ -35,6 +35,7 @@ class Pages:
         enqueue: takes commands and their senders, from any thread.
         steer: takes set-points of vehicles, see `webviz.engine.driving.Helms`.
         access: knows the tokens; None if none are asked for.
+        keep: called with each line of the journal, from any thread.
     """
 
     def __init__(
@@ -43,10 +44,11 @@ class Pages:
         enqueue: Callable[[Command, Sender], Future[str]],
         steer: Steer,
         access: Access | None = None,
+        keep: Callable[[str], object] | None = None,
     ) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
-        journal = Journal()
+        journal = Journal(keep)
 
         def note(browser: int, text: str) -> None:
             journal.note(channel.visitors().get(browser), text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
 from collections.abc import Mapping
 from concurrent.futures import Future
@@ -13,13 +14,14 @@ import segno
 from webviz.api.errors import Error
 from webviz.data.disk import in_thread
 from webviz.edges.access import token_file
-from webviz.edges.access.access import Access
+from webviz.edges.access.access import Access, Grant
 from webviz.edges.access.journal import Journal
 from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.tokens import Token, TokenError, make
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.invitation_messages import Invitation, Invite
+from webviz.edges.page.invitation_messages import Dismiss, Dismissed, Invitation, Invite
+from webviz.edges.page.messages import Done
 from webviz.engine.state import State
 
 NOT_ASKED = (
@@ -42,6 +44,8 @@ class People:
         self._journal = journal
         self._access = access
         channel.on(Invite, self._invite)
+        channel.on(Dismiss, self._dismiss)
+        self._dismissing: set[asyncio.Task[None]] = set()
 
     def people(self, state: State, _: str) -> Mapping[str, Any]:
         """Of each browser by its id: name, role, since when, latency in ms, and what it drives."""
@@ -81,6 +85,58 @@ class People:
             self._journal.note(self._channel.visitors().get(browser), text)
 
         in_thread(lambda: self._make(invite)).add_done_callback(answer)
+
+    def _dismiss(self, browser: int, dismiss: Dismiss) -> None:
+        visitor = self._channel.visitors().get(dismiss.browser)
+        grant = self._channel.grant_of(dismiss.browser)
+        if visitor is None or grant is None:
+            self._answer(browser, dismiss, "", "They are gone already.")
+        elif dismiss.browser == browser:
+            self._answer(browser, dismiss, "", "Not done: this is your own page. Close it.")
+        elif dismiss.revokes:
+            self._revoke(browser, dismiss, grant)
+        else:
+            text = "The owner has ended your visit. Reload the page to come back."
+            self._channel.send(Dismissed(text), dismiss.browser)
+            task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.browser))
+            self._dismissing.add(task)
+            task.add_done_callback(self._dismissing.discard)
+            who = visitor.name or visitor.address
+            self._answer(browser, dismiss, f"Ended a visit of {who}.")
+
+    def _revoke(self, browser: int, dismiss: Dismiss, grant: Grant) -> None:
+        def answer(done: Future[None]) -> None:
+            try:
+                done.result()
+            except Error as error:
+                self._answer(browser, dismiss, "", str(error))
+            else:
+                self._answer(browser, dismiss, f"Revoked the link of {grant.name}.")
+
+        in_thread(lambda: self._remove(grant)).add_done_callback(answer)
+
+    def _answer(self, browser: int, dismiss: Dismiss, done: str, problem: str = "") -> None:
+        level = "error" if problem else "ok"
+        self._channel.send(Done(dismiss.number, level, problem or done, ""), browser)
+        if done:
+            self._journal.note(self._channel.visitors().get(browser), done)
+
+    def _remove(self, grant: Grant) -> None:
+        """Remove the token of a grant; its pages are closed soon."""
+        if not self._access.asks or self._access.path is None:
+            raise TokenError("Not revoked: this viewer asks for no tokens.")
+
+        def remove(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+            kept = tuple(token for token in tokens if token.cookie != grant.cookie)
+            if len(kept) == len(tokens):
+                raise TokenError(
+                    f"Not revoked: {grant.name} is not in the file of tokens. Restart webviz "
+                    "without it in the environment."
+                )
+            return kept
+
+        token_file.modify(self._access.path, remove)
+        self._access.refresh()
 
     def _make(self, invite: Invite) -> Token:
         if not self._access.asks or self._access.path is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from webviz.edges.page.invitation_messages import Invitation, Invite
+from webviz.edges.page.invitation_messages import Dismiss, Invitation, Invite
 from webviz.edges.page.messages import (
     Do,
     Done,
@@ -26,7 +26,7 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         reason: a sentence.
     """
     match message:
-        case Do() | Use():
+        case Do() | Use() | Dismiss():
             return Done(message.number, "error", reason, "")
         case StrokeDone():
             return Result(message.number, "error", reason)

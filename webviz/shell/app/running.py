@@ -21,6 +21,7 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
+from webviz.edges.access.journal_file import JournalFile
 from webviz.edges.access.login import cookie_name
 from webviz.edges.access.tls import doubts, server_context
 from webviz.engine import plugins as plugin_files
@@ -78,12 +79,16 @@ class Running:
         keyfile: str | os.PathLike[str] | None = None,
         trust_proxies: Sequence[str] = (),
         token: bool = False,
+        journal: str | os.PathLike[str] | None = None,
         control: bool = True,
         read: Callable[[Path | None], Config] = read_config,
     ) -> None:
         with contextlib.ExitStack() as stack:
             closing = _Closing(stack)
             _check_names(allow_publish)
+            kept = None if journal is None else JournalFile(Path(journal))
+            if kept is not None:
+                closing.add("The journal", kept.close)
             if source is not None:
                 closing.add("The source of messages", source.close)
             files = [Path(file) for file in plugins]
@@ -136,7 +141,11 @@ class Running:
                 autosave=autosave,
             )
             self._pages = Pages(
-                server.channel, self._loop.enqueue, self._loop.helms.steer, self.access
+                server.channel,
+                self._loop.enqueue,
+                self._loop.helms.steer,
+                self.access,
+                kept and kept.write,
             )
             self._scheme = "http" if tls is None else "https"
             self._host, self.port = host, server.get_port()

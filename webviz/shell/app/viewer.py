@@ -65,6 +65,8 @@ class Viewer(Running):
         trust_proxies: IP addresses or networks of proxies whose forwarded headers are used.
         token: whether browsers of this machine need a link with a token, too. Without tokens in the
             file of this user or in the environment, one of each role is made: `webviz token`.
+        journal: file to which it is appended who published, saved and opened what; 1 MB, and as
+            much before that in FILE.1.
         control: whether parameters and services of the ROS node may change the viewer.
         read: reads a config file; called with None for the default config.
 

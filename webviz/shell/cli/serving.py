@@ -66,6 +66,7 @@ def serve(
             keyfile=options.keyfile,
             trust_proxies=options.trust_proxy,
             token=options.token,
+            journal=options.journal,
             control=not options.no_control,
         ) as viewer:
             stop.then(viewer.stop)

@@ -30,6 +30,8 @@ class ViewingOptions(ConfigOptions):
     """Use the X-Forwarded headers of a proxy at this IP address or network (repeatable)."""
     token: Flag = False
     """Also ask browsers on this machine for a link with a token, see `webviz token`."""
+    journal: File | None = None
+    """Append to this file who published, saved and opened what; kept to 2 MB, in two files."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
     allow_publish: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()

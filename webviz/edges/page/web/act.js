@@ -48,6 +48,15 @@ export function use(panel, widget, value = null) {
   return answer;
 }
 
+/** Ends the visit of a browser, and if it `revokes`, its link; otherwise like `act`. */
+export function dismiss(browser, revokes) {
+  const answer = request({ type: "Dismiss", browser, revokes });
+  answer.then(({ level, text }) => {
+    if (text) toast(text, { level });
+  });
+  return answer;
+}
+
 function request(message) {
   count += 1;
   channel.send({ ...message, number: count });

@@ -18,6 +18,13 @@ export function install() {
     hide();
   }
   channel.on("Beat", hear);
+  channel.on("Dismissed", ({ text }) => {
+    clearInterval(timer);
+    hear();
+    banner.textContent = text;
+    document.body.append(banner);
+    document.body.classList.add("wv-lost");
+  });
   viser.filterMessages((messages) => {
     hear();
     return messages;
@@ -61,6 +68,6 @@ export function install() {
     document.body.classList.add("wv-lost");
   }
 
-  setInterval(tick, TICK_MS);
+  const timer = setInterval(tick, TICK_MS);
   channel.onClose(askAgain);
 }

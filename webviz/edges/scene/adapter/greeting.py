@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import time
 
 import viser
@@ -12,6 +14,8 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Beat
 from webviz.edges.page.modules import Modules
 
+FAREWELL_S = 1.0
+"""For a page to close its connection when its visit is ended."""
 BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
 
@@ -37,7 +41,17 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
         if browser in socket._live_connections:
             socket._live_connections[ClientId(browser)].transport.abort()
 
+    async def end_for_good(browser: int) -> None:
+        if (connection := socket._live_connections.get(ClientId(browser))) is None:
+            return
+        connection.is_expelled = True
+        with contextlib.suppress(TimeoutError):
+            # With this code viser's page does not connect again.
+            await asyncio.wait_for(connection.close(1002, "Ended by the owner"), FAREWELL_S)
+        connection.transport.abort()
+
     channel.on_lost = end
+    channel.end_scene = end_for_good
     loop = server.get_event_loop()
 
     def beat() -> None:

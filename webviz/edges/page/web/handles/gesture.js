@@ -1,5 +1,6 @@
 // What the pointer does to handles while the tool Interact is active.
 
+import { why } from "../access.js";
 import * as channel from "../channel.js";
 import { pickAt } from "../scene/picking/pick.js";
 import { tell, tellLive } from "../tools/hint.js";
@@ -83,7 +84,8 @@ export function pointer(event) {
 
 function press(part, event) {
   const handle = known.all().get(part.id);
-  const refusal = handle.refusal || (handle.holder !== null && `Browser ${handle.holder} holds it.`);
+  const refusal = why("Gripped") || handle.refusal
+    || (handle.holder !== null && `Browser ${handle.holder} holds it.`);
   if (refusal) {
     tell("warn", refusal);
     return true;
@@ -237,6 +239,8 @@ function point(part) {
 
 function wordsOf(part) {
   const handle = known.all().get(part.id);
+  const reason = why("Gripped");
+  if (reason) return `${handle.name}: ${reason}`;
   const { mode, help } = known.controlOf(part);
   const does = DOES[mode] ?? (TURNS.test(mode) ? "Rotate" : "Move");
   const holder = handle.holder === null ? "" : `Browser ${handle.holder} holds it.`;

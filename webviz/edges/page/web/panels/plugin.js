@@ -67,6 +67,7 @@ function properties(name) {
     type: "button", class: "wv-plugin-remove", hidden: true,
     onclick: () => act("RemovePanel", { panel: id }),
   }, "Remove panel");
+  needs("RemovePanel", remove);
   const made = maker(place, (declared, values) => {
     return form(declared, { send, name: `panel.${values.get("type")}`, command: "SetPanelProperty" });
   });

@@ -1,6 +1,6 @@
 // The saved views: show, rename and remove them, let browsers begin with one, save the current one.
 
-import { needs } from "../access.js";
+import { needs, why } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { icon } from "../icons.js";
@@ -58,7 +58,7 @@ function line(name) {
   const show = el("button", {
     type: "button", class: "wv-saved-show", "aria-label": name, title: `Show ${name}`,
     onclick: () => act("ShowView", { view: name }),
-    onkeydown: ({ key }) => key === "F2" && rename(),
+    onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
   }, el("span", { class: "wv-saved-name" }, name), type, mark);
   const field = el("input", {
     class: "wv-field", type: "text", "aria-label": `New name of ${name}`, hidden: true,
@@ -75,7 +75,7 @@ function line(name) {
   const element = el(
     "li", { class: "wv-saved-line" }, show, field,
     needs("StartWithView", tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name }))),
-    tool("pencil", `Rename ${name}`, rename),
+    needs("RenameView", tool("pencil", `Rename ${name}`, rename)),
     needs("RemoveView", tool("trash", `Remove ${name}`, () => act("RemoveView", { name }))),
   );
 

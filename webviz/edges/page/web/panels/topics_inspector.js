@@ -1,5 +1,6 @@
 // One topic: who publishes it and how, its last message as a tree, and a display for it.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import { copy } from "../clipboard.js";
 import { wallNow } from "../clock.js";
@@ -25,6 +26,7 @@ export function inspector(place, name, dismiss) {
     el("button", { type: "button", class: "wv-icon", title: label, "aria-label": label, onclick },
       icon(iconName));
   const show = el("button", { type: "button", class: "wv-button", onclick: add }, icon("plus"), "Show");
+  needs("AddDisplay", show);
   const copyMessage = button("Copy message", "file", () => copied(textOf(message)));
   const facts = el("div", { class: "wv-topic-facts wv-quiet" });
   const why = el("div", { class: "wv-topic-why wv-quiet", hidden: true });

@@ -1,5 +1,6 @@
 // The list of commands (Ctrl+K): everything that can be done, found by its name.
 
+import { why } from "../access.js";
 import { act } from "../act.js";
 import { el } from "../dom.js";
 import { watch } from "../stores.js";
@@ -55,6 +56,7 @@ export function openCommandList() {
             icon: one.icon ?? "chevron",
             note: one.note,
             key: keysOf(one)[0],
+            ...lockOf(one),
             group: input.value.trim() ? "" : one.group,
           })),
         );
@@ -78,6 +80,11 @@ export function openCommandList() {
   });
 }
 
+const lockOf = ({ needs }) => {
+  const refusal = needs ? why(needs) : "";
+  return { disabled: refusal !== "", refusal };
+};
+
 function commands(values) {
   const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
@@ -100,6 +107,7 @@ function commands(values) {
       icon: "axes",
       group: "Fixed frame",
       note: frame === settings?.get("fixed_frame") ? "now" : "",
+      needs: "SetFixedFrame",
       run: () => act("SetFixedFrame", { frame }),
     })),
   ];

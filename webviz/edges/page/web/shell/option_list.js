@@ -63,7 +63,7 @@ export function optionList(input, label, choose) {
   }
 
   function rowOf(row, number) {
-    const { title, icon: name, picture, line, note, key, checked, disabled } = row;
+    const { title, icon: name, picture, line, note, key, checked, disabled, refusal } = row;
     return el(
       "div",
       {
@@ -72,6 +72,7 @@ export function optionList(input, label, choose) {
         id: prefix + number,
         "aria-selected": "false",
         "aria-disabled": disabled ? "true" : null,
+        "data-why": refusal || null,
         "aria-checked": checked === undefined ? null : String(checked),
         onpointermove: () => disabled || active === row.id || mark(row.id),
         // The field keeps the focus.

@@ -1,10 +1,11 @@
 // Who is connected and what they did, and how the owner invites others.
 
 import { onRole, self, why } from "../access.js";
+import { dismiss } from "../act.js";
 import { copy } from "../clipboard.js";
-import { el } from "../dom.js";
+import { el, setText } from "../dom.js";
 import { watch } from "../stores.js";
-import { openDialog } from "./dialog.js";
+import { ask, openDialog } from "./dialog.js";
 import { invitation } from "./invitation.js";
 import { toast } from "./toasts.js";
 
@@ -25,8 +26,22 @@ export async function openPeople() {
   const known = { people: new Map(), addresses: new Map(), journal: new Map() };
   const here = el("tbody");
   const done = el("tbody");
+  const rows = new Map(); // which stay, so that their buttons can be used while texts change
   const show = () => {
-    here.replaceChildren(...[...known.people].map((entry) => personRow(entry, known.addresses, isOwner)));
+    for (const id of rows.keys()) {
+      if (known.people.has(id)) continue;
+      rows.get(id).remove();
+      rows.delete(id);
+    }
+    for (const [id, person] of known.people) {
+      const texts = textsOf(id, person, known.addresses, isOwner);
+      if (!rows.has(id)) {
+        rows.set(id, cells(...texts));
+        if (isOwner) rows.get(id).append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
+        here.append(rows.get(id));
+      }
+      texts.forEach((text, index) => setText(rows.get(id).children[index], text));
+    }
     done.replaceChildren(...(known.journal.get("entries") ?? []).map(entryRow));
   };
   const stores = isOwner ? ["people", "addresses", "journal"] : ["people"];
@@ -34,7 +49,7 @@ export async function openPeople() {
     known[name] = values;
     show();
   }));
-  const columns = ["Name", "Role", ...(isOwner ? ["Address"] : []), "Since", "Latency", "Drives"];
+  const columns = ["Name", "Role", ...(isOwner ? ["Address"] : []), "Since", "Latency", "Drives", ...(isOwner ? [""] : [])];
   await openDialog({
     title: "People",
     className: "wv-people",
@@ -64,14 +79,33 @@ const table = (label, columns, body) =>
 
 const cells = (...texts) => el("tr", {}, texts.map((text) => el("td", {}, text)));
 
-function personRow([id, person], addresses, isOwner) {
-  const isYou = id === String(window.webviz.browser);
-  const name = [person.name || "no link needed", isYou && "(you)"].filter(Boolean).join(" ");
-  return cells(
+const isYou = (id) => id === String(window.webviz.browser);
+
+function textsOf(id, person, addresses, isOwner) {
+  const name = [person.name || "no link needed", isYou(id) && "(you)"].filter(Boolean).join(" ");
+  return [
     name, person.role, ...(isOwner ? [addresses.get(id) ?? ""] : []), timeOf(person.since_s),
     person.latency_ms === null ? "not measured yet" : `${person.latency_ms} ms`,
     person.drives.join(", "),
-  );
+  ];
+}
+
+/** The buttons that end a visit. */
+function endings(id, { name }) {
+  const who = name || "this browser";
+  const button = (label, tip, onclick) =>
+    el("button", { type: "button", class: "wv-button", "data-tip": tip, onclick }, label);
+  const end = async () => {
+    const question = `End this visit of ${who}? They may come back${name ? " with their link" : ""}.`;
+    if (await ask(question, { title: "End visit", confirm: "End", danger: true })) dismiss(id, false);
+  };
+  const revoke = async () => {
+    const question = `Revoke the link of ${name}? All pages that were opened with it are closed.`;
+    if (await ask(question, { title: "Revoke link", confirm: "Revoke", danger: true })) dismiss(id, true);
+  };
+  return el("span", { class: "wv-people-ends" },
+    button("End visit", "Close this page of theirs", end),
+    name ? button("Revoke link", "Close all their pages, for good", revoke) : null);
 }
 
 const entryRow = ({ time_s, name, role, address, text }) =>

@@ -1,5 +1,6 @@
 // The tabs of the side: the panels of webviz, and additional ones, which come and go.
 
+import { needs } from "../access.js";
 import { act } from "../act.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { panels } from "../panels/panels.js";
@@ -17,6 +18,7 @@ export function tabs() {
     type: "button", class: "wv-icon wv-tabs-add", hidden: true,
     "aria-label": "Add a panel", "data-tip": "Add a panel", onclick: chooseType,
   }, icon("plus"));
+  needs("AddPanel", add);
   let types = [];
   let all = panels;
   let shown = null;

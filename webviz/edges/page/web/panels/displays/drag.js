@@ -1,7 +1,9 @@
 // Dragging displays to another place: by mouse, or by a finger that has rested on one.
 
+import { why } from "../../access.js";
 import { el } from "../../dom.js";
 import { plain } from "../../plain.js";
+import { toast } from "../../shell/toasts.js";
 import { move } from "./actions.js";
 import { createMark } from "./drop_mark.js";
 import { isOpen } from "./folding.js";
@@ -49,8 +51,11 @@ export function listenToDrags(canvas, tree) {
       return aim();
     }
     if (Math.hypot(x - press.x, y - press.y) < START[press.kind]) return;
-    if (press.isReady && press.item.id !== GLOBAL) start(x, y);
-    else end(); // the list is scrolled
+    if (!press.isReady || press.item.id === GLOBAL) return end(); // the list is scrolled
+    const reason = why("MoveDisplay");
+    if (!reason) return start(x, y);
+    end();
+    toast(reason, { level: "warn", topic: "access" });
   }
 
   function start(x, y) {

@@ -1,11 +1,12 @@
 // Renaming where the name is read.
 
+import { why } from "../../access.js";
 import { act } from "../../act.js";
 import { el } from "../../dom.js";
 
 /** Turns the name of a row into a text field; Enter or leaving keeps it, Escape does not. */
 export function rename(row, item) {
-  if (row.element.querySelector(".wv-tree-rename")) return;
+  if (why("SetProperty") || row.element.querySelector(".wv-tree-rename")) return;
   const field = el("input", {
     class: "wv-field wv-tree-rename", "aria-label": "Name", maxlength: 10000, spellcheck: "false",
   });

@@ -1,5 +1,6 @@
 // What a display, or the viewer, says about itself: a line each, folded to the worst.
 
+import { needs } from "../../access.js";
 import { el, set, setChildren, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 
@@ -53,7 +54,8 @@ export function statuses({ open, use = null }) {
     if (remedy && use && element.children.length === 2) {
       set(element, { "data-remedy": JSON.stringify(remedy) });
       const run = () => use(remedy);
-      element.append(el("button", { type: "button", class: "wv-link", onclick: run }, "Use it"));
+      const button = el("button", { type: "button", class: "wv-link", onclick: run }, "Use it");
+      element.append(needs("SetProperty", button));
     }
     return element;
   }

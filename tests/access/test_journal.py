@@ -1,0 +1,64 @@
+"""The journal on the disk."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+
+from webviz.api.errors import Error
+from webviz.edges.access import journal_file
+from webviz.edges.access.journal import Journal
+from webviz.edges.access.journal_file import JournalFile
+from webviz.edges.access.roles import Role
+from webviz.edges.access.visitors import Visitor
+
+ADA = Visitor("Ada", Role.OWNER, "192.0.2.1", 0.0)
+
+
+def test_entries_are_lines_of_a_file_that_others_cannot_read(tmp_path: Path) -> None:
+    path = tmp_path / "journal.txt"
+    path.touch(0o644)
+    for text in ("Saved a.yaml.", "Opened \n\x1b[2J.yaml."):
+        kept = JournalFile(path)
+        Journal(kept.write).note(ADA if "Saved" in text else None, text)
+        kept.close()
+    assert path.stat().st_mode & 0o777 == 0o600
+    saved, opened = path.read_text().splitlines()
+    time = r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00"
+    assert re.fullmatch(time + r" Ada \(owner, 192\.0\.2\.1\): Saved a\.yaml\.", saved)
+    assert re.fullmatch(time + r" \(a page that is gone\): Opened \?\?\[2J\.yaml\.", opened)
+
+
+def test_the_files_have_a_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(journal_file, "MAX_BYTES", 1000)
+    path = tmp_path / "journal.txt"
+    kept = JournalFile(path)
+    for number in range(100):
+        kept.write(f"{number:099}")
+    kept.close()
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["journal.txt", "journal.txt.1"]
+    assert [len(file.read_text().splitlines()) for file in sorted(tmp_path.iterdir())] == [10, 10]
+    assert path.read_text().endswith(f"{99:099}\n")
+
+
+def test_what_is_no_file_of_this_user_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "fifo")
+    (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
+    for path in (tmp_path / "fifo", tmp_path / "link", tmp_path, Path("/dev/full")):
+        with pytest.raises(Error, match=r"Cannot write the journal|is not a file of this user"):
+            JournalFile(path)
+    assert not (tmp_path / "elsewhere").exists()
+
+
+def test_a_missing_entry_is_logged(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    path = tmp_path / "folder" / "journal.txt"
+    path.parent.mkdir()
+    kept = JournalFile(path)
+    path.unlink()
+    path.parent.rmdir()
+    kept.write("lost")
+    kept.close()
+    assert "An entry is missing in the journal" in caplog.text
