@@ -39,7 +39,7 @@ def _keep(report: Report) -> None:
             folder.mkdir(parents=True, exist_ok=True)
             path = folder / f"{report.seed}_{breach.number}__{breach.case.name}"
             path.write_bytes(breach.case.data)
-            print(f"kept as {path}")
+            print(f"kept as {path}; say in {CORPUS / 'README.md'} what it broke")
 
 
 if __name__ == "__main__":

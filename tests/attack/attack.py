@@ -13,6 +13,8 @@ class Outcome(enum.Enum):
 
     REFUSED = "refused"
     """The viewer refused it, by a sentence, a status or the end of the connection."""
+    DONE = "done"
+    """The viewer did what it was asked."""
     SURVIVED = "survived"
     """The viewer took or ignored it, and went on."""
 

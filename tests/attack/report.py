@@ -43,7 +43,7 @@ class Report:
         lines = [
             f"seed {self.seed}; slowest answer {self.slowest_s:.2f} s; "
             f"memory {self.memory_mb:.0f} MB",
-            f"{'kind':12}{'tried':>8}{'refused':>9}{'survived':>10}{'broken':>8}",
+            f"{'kind':12}{'tried':>8}{'refused':>9}{'survived':>10}{'done':>7}{'broken':>8}",
         ]
         broken = Counter(breach.kind for breach in self.breaches)
         for kind in sorted({*self.counts, *broken}):
@@ -51,6 +51,6 @@ class Report:
             tried = found.total() + broken[kind]
             lines.append(
                 f"{kind:12}{tried:8}{found[Outcome.REFUSED]:9}{found[Outcome.SURVIVED]:10}"
-                f"{broken[kind]:8}"
+                f"{found[Outcome.DONE]:7}{broken[kind]:8}"
             )
         return "\n".join([*lines, *map(str, self.breaches)])

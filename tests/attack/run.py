@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -22,7 +23,8 @@ from webviz.edges.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
 CORPUS = Path(__file__).parent / "corpus"
-"""Cases that once broke a promise, in a folder per kind: NUMBER__NAME."""
+"""Cases that once broke a promise, in a folder per kind: LABEL__NAME, packed if it ends with .gz.
+Its README says what each of them broke."""
 TURN_S = 2.0
 """How long one kind attacks before the next does."""
 MOST_BREACHES = 20
@@ -59,6 +61,7 @@ def run(
         try:
             target.restore()
             target.wait_until_answered()
+            target.kill_while_saving(random_of(seed, "end", 0).uniform(0.0, 0.3))
         except Violation as violation:
             report.breaches.append(Breach("end", "", str(violation)))
         report.slowest_s, report.memory_mb = target.slowest_s, target.memory_mb
@@ -92,8 +95,15 @@ def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
 
 def _replay(attack: Attack, target: Target, report: Report) -> None:
     for path in sorted((CORPUS / attack.kind.replace(" ", "_")).glob("*__*")):
-        case = Case(path.name.partition("__")[2], path.read_bytes())
-        _strike(attack, case, path.name, target, report)
+        _strike(attack, kept_case(path), path.name, target, report)
+
+
+def kept_case(path: Path) -> Case:
+    """A case of the corpus."""
+    name, data = path.name.partition("__")[2], path.read_bytes()
+    if name.endswith(".gz"):
+        name, data = name.removesuffix(".gz"), gzip.decompress(data)
+    return Case(name, data)
 
 
 def _attack(

@@ -12,6 +12,7 @@ import msgspec
 import viser
 import websockets.exceptions
 
+from tests.attack import commands
 from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
 from tests.attack.target import ANSWER_S, Target
 from tests.attack.visitor import Visitor
@@ -115,20 +116,23 @@ class Sockets(Attack):
             raise Violation(f"{do.command} was done for one who may not")
         if len(answer) > 1000:
             raise Violation(f"an answer of {len(answer)} characters")
-        return Outcome.REFUSED if level == "error" else Outcome.SURVIVED
+        return Outcome.REFUSED if level == "error" else Outcome.DONE
 
     def _channel(self, random: Random) -> bytes:
         fields: dict[str, Any] = {}
         for _ in range(random.randrange(4)):
             fields[random.choice(WORDS)] = random.choice(VALUES)
-        if random.random() < 0.7:
-            command = random.choice(sorted(REQUIRED))
-            number = random.randrange(2**40)
-            said = {"type": "Do", "number": number, "command": command, "arguments": fields}
-        else:
+        if random.random() < 0.3:
             said = {"type": random.choice(FROM_PAGE), **fields}
+        else:
+            command = random.choice(sorted(REQUIRED))
+            arguments = {**commands.arguments(random, command)}
+            if random.random() < 0.25:
+                arguments |= fields
+            number = random.randrange(2**40)
+            said = {"type": "Do", "number": number, "command": command, "arguments": arguments}
         text = msgspec.json.encode(said)
-        return mutated(random, text) if random.random() < 0.3 else text
+        return mutated(random, text) if random.random() < 0.15 else text
 
     def _throw(self, data: bytes) -> Outcome:
         with socket.create_connection(

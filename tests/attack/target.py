@@ -16,8 +16,10 @@ from program import Program
 
 from tests.attack.attack import Violation
 from tests.attack.visitor import Visitor
+from webviz.api.errors import Error
 from webviz.api.registry import display_types
 from webviz.edges.access.roles import LINKS, Role
+from webviz.files.opening import load
 
 ANSWER_S = 20.0
 """In which the viewer must answer whatever else it is sent; a busy machine takes seconds."""
@@ -135,6 +137,28 @@ class Target:
             visitor.close()
         if level == "error":
             raise Violation(f"the viewer does not open its own config: {text}")
+
+    def kill_while_saving(self, delay_s: float) -> None:
+        """Kill the viewer at some moment of saving a config again and again."""
+        self._is_closed.set()
+        self._watch.join()
+        path = self.configs / "killed.yaml"
+        visitor = self.visitor(Role.OWNER)
+        visitor.do("Save", ANSWER_S, path=path.name)
+        for number in range(9):
+            # What has not changed is not written again.
+            arguments = {"hz": 30.0 + number}
+            visitor.send("Do", number=100, command="SetFrameRate", arguments=arguments)
+            visitor.send("Do", number=101, command="Save", arguments={"path": path.name})
+        time.sleep(delay_s)
+        self._program.process.kill()
+        self._program.process.wait()
+        visitor.close()
+        for file in (path, *filter(Path.exists, [path.with_name(f"{path.name}.bak")])):
+            try:
+                load(file)
+            except Error as error:
+                raise Violation(f"a viewer that is killed leaves {file.name}: {error}") from error
 
     def close(self) -> None:
         """End the viewer, which must end by itself."""

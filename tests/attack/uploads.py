@@ -62,7 +62,7 @@ class Uploads(Attack):
                 return Outcome.REFUSED
             visitor.say(case.data.decode())
             level, _ = visitor.answer(1, ANSWER_S)
-            return Outcome.REFUSED if level == "error" else Outcome.SURVIVED
+            return Outcome.REFUSED if level == "error" else Outcome.DONE
         except (websockets.exceptions.WebSocketException, EOFError, ConnectionError):
             return Outcome.REFUSED
         except TimeoutError as error:
@@ -88,4 +88,4 @@ class Uploads(Attack):
         for each in found:
             if isinstance(each, Violation):
                 raise each
-        return Outcome.SURVIVED if Outcome.SURVIVED in found else Outcome.REFUSED
+        return Outcome.DONE if Outcome.DONE in found else Outcome.REFUSED
