@@ -1,6 +1,11 @@
 """What the TF display says."""
 
+import re
+
+import pytest
+
 from webviz_displays.tf import TF
+from webviz_displays.tf.patterns import compiled
 
 
 def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
@@ -13,6 +18,29 @@ def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
     assert len(at.nodes()["axes"].positions) == 1
     at.set("filter_whitelist", "odom")
     assert "Filter (whitelist)" not in at.statuses()
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["(a+)+$", r"(\w+)*!", "(a|aa)*$", ".*.*.*.*x", "((a?)+)+", "(?:a{1,9}){1,9}$", "(?=(a+)+$)"],
+)
+def test_an_expression_that_may_take_forever_is_refused(text: str) -> None:
+    with pytest.raises(re.error, match="could take forever"):
+        compiled(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "map",
+        "^(map|odom)$",
+        ".*laser.*|.*camera.*|.*imu.*",
+        r"arm_[0-9]+_(left|right)",
+        "(robot1/)?.*",
+    ],
+)
+def test_usual_expressions_are_used(text: str) -> None:
+    assert compiled(text).pattern == text
 
 
 def test_without_any_transform_the_topic_to_look_at_is_named(bench) -> None:

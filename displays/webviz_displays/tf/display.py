@@ -30,6 +30,7 @@ from webviz_displays.tf.frame_filter import FrameFilter, parent_indices
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
 from webviz_displays.tf.frame_readout import details, readout
 from webviz_displays.tf.frame_tree import outline
+from webviz_displays.tf.patterns import compiled
 
 SECOND = 1_000_000_000
 
@@ -241,7 +242,7 @@ class TF(Display):
 def _pattern(key: str, text: str, ctx: Context) -> re.Pattern[str] | None:
     """A regular expression, None if it is empty or invalid."""
     try:
-        return re.compile(text) if text else None
+        return compiled(text) if text else None
     except re.error as error:
         ctx.error(key, f"'{text}' is not a valid regular expression ({error}); ignoring it.")
         return None
