@@ -412,3 +412,28 @@ def test_a_page_stays_in_the_folder_of_the_config(
         b.until_done(answer)
         assert "Pages open and save config files in" in str(answer.exception())
     assert [each.name for each in folder.rglob("*")] == ["sub"]
+
+
+def test_a_page_follows_no_link_out_of_the_folder_and_opens_no_device(
+    bench: Callable[..., Any], folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    elsewhere = tmp_path_factory.mktemp("elsewhere") / "secret.yaml"
+    elsewhere.write_text("version: 1\n")
+    (folder / "out.yaml").symlink_to(elsewhere)
+    (folder / "loop.yaml").symlink_to(folder / "loop.yaml")
+    (folder / "inside.yaml").write_text("version: 1\n")
+    (folder / "in.yaml").symlink_to(folder / "inside.yaml")
+    os.mkfifo(folder / "fifo.yaml")
+    b, page = bench(Axes(name="A")), Sender(browser=1)
+
+    def answer(command: Command) -> str:
+        done = b.viewer.enqueue(command, page)
+        b.until_done(done)
+        return str(done.exception() or done.result())
+
+    for make in (Save, Open):
+        assert "out.yaml is a link to another folder." in answer(make("out.yaml"))
+        assert "is not a regular file" in answer(make("fifo.yaml"))
+        assert answer(make("loop.yaml")).endswith(".")
+        assert answer(make("in.yaml")).startswith(("Saved", "Opened"))
+    assert elsewhere.read_text() == "version: 1\n"

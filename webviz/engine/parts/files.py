@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -139,15 +140,25 @@ class FilesPart(Part):
             )
         return self._folder / path
 
+    def _check(self, file: Path, sender: Sender) -> Callable[[], None]:
+        """What refuses, for pages, files that are no files of the folder; it reads the disk."""
+        is_free = sender.browser is None or file == self._path
+        return (lambda: None) if is_free else functools.partial(_refuse_elsewhere, file)
+
     def _open(self, command: Open, sender: Sender) -> Job[Config]:
         wanted = self._in_folder(command.path, sender)
+        check = self._check(wanted, sender)
+
+        def work() -> Config:
+            check()
+            return opening.load(wanted)
 
         def then(config: Config) -> str:
             self._show(config, wanted)
             self._views.open(config.settings.view)
             return f"Opened {wanted.name}."
 
-        return Job(lambda: opening.load(wanted), then)
+        return Job(work, then)
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
         text, name = command.text, command.name
@@ -167,13 +178,18 @@ class FilesPart(Part):
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()
+        check = self._check(target, sender)
+
+        def work() -> None:
+            check()
+            opening.save(config, target)
 
         def then(_: None) -> str:
             self._path = target
             self._saved = {target: config_file.document(config)}
             return f"Saved {target.name}."
 
-        return Job(lambda: opening.save(config, target), then)
+        return Job(work, then)
 
     def _export(self, command: Export, sender: Sender) -> Job[str]:
         config = self.config()
@@ -198,6 +214,20 @@ class FilesPart(Part):
         self._report = config.report
         self._saved = {path: config_file.document(self.config())}
         self._is_changed = False
+
+
+def _refuse_elsewhere(file: Path) -> None:
+    """Refuse a link to another folder, and what is no regular file, such as a device.
+
+    Raises:
+        ConfigError: it is one of these.
+    """
+    if os.path.dirname(os.path.realpath(file)) != os.path.realpath(file.parent):
+        raise ConfigError(
+            f"{file.name} is a link to another folder. Start webviz with this file, or copy it."
+        )
+    if file.exists() and not file.is_file():
+        raise ConfigError(f"{file.name} is not a regular file. Choose another name.")
 
 
 def _config_files(folder: Path) -> tuple[str, ...]:
