@@ -323,14 +323,15 @@ def test_an_expired_token_closes_its_pages(tmp_path: Path) -> None:
 def test_an_owner_ends_a_visit(house: House) -> None:
     owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
     browsers = {role: guest.page["browser"] for role, guest in ((1, watcher), (3, owner))}
-    owner.receive("You"), watcher.receive("You")
+    for guest in (owner, watcher):
+        guest.receive("You")
     watcher.send("Dismiss", number=1, browser=browsers[3], revokes=True)
     assert "this needs an owner" in watcher.receive("Done")["text"]
     owner.send("Dismiss", number=1, browser=browsers[3], revokes=False)
     assert "your own page" in owner.receive("Done")["text"]
     owner.send("Dismiss", number=2, browser=browsers[1], revokes=False)
     assert owner.receive("Done")["text"] == "Ended a visit of some watcher."
-    assert "Reload the page" in watcher.receive("Dismissed")["text"]
+    assert "has ended your visit" in watcher.receive("Dismissed")["text"]
     with pytest.raises(websockets.exceptions.ConnectionClosed):
         watcher.receive("You")
     owner.send("Dismiss", number=3, browser=browsers[1], revokes=True)
@@ -341,7 +342,8 @@ def test_an_owner_ends_a_visit(house: House) -> None:
 
 def test_an_owner_revokes_a_link(house: House) -> None:
     owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
-    owner.receive("You"), watcher.receive("You")
+    for guest in (owner, watcher):
+        guest.receive("You")
     owner.send("Dismiss", number=1, browser=watcher.page["browser"], revokes=True)
     assert owner.receive("Done")["text"] == "Revoked the link of some watcher."
     with pytest.raises(websockets.exceptions.ConnectionClosed):
@@ -379,6 +381,36 @@ def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) 
     assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
     assert b"1 browsers of your address" in house.body
     assert house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 200
+
+
+@pytest.mark.parametrize("role", [Role.WATCHER, Role.OPERATOR])
+def test_a_role_has_a_rate_of_messages(
+    house: House, monkeypatch: pytest.MonkeyPatch, role: Role
+) -> None:
+    slow = {each: dataclasses.replace(LIMITS[each], messages_per_second=2.0) for each in Role}
+    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", {**LIMITS, role: slow[role]})
+    guest, owner = house.enter(role), house.enter(Role.OWNER)
+
+    def seconds(of: Guest) -> float:
+        start = time.monotonic()
+        for _ in range(8):  # a burst of four is free, less the first message
+            assert of.do("Export") == ""
+        return time.monotonic() - start
+
+    assert seconds(guest) > 8 / 2.0 - 2.0
+    house.reached.clear()
+    owner_s = seconds(owner)
+    assert LIMITS[Role.OWNER].messages_per_second == 200.0
+    assert owner_s < 60.0
+
+
+def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:
+    url = f"ws://127.0.0.1:{house.server.get_port()}/webviz/channel"
+    headers = {"Cookie": house.cookie(Role.WATCHER)}
+    with websockets.sync.client.connect(
+        url, compression="deflate", additional_headers=headers, close_timeout=0.1
+    ) as guest:
+        assert guest.protocol.extensions == []
 
 
 def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:

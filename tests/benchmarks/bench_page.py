@@ -96,6 +96,7 @@ class Reader:
         self.logger = logging.getLogger(__name__)
         self.transport = self
         self.latency = 0.0
+        self.is_expelled = False
         self.grant = EVERYBODY
         self.address = ""
         said = (Hello(key), *(Watch(store) for store in sorted(STORES)))

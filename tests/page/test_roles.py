@@ -130,6 +130,30 @@ def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None
     assert [c for c in watcher.loop.commands if isinstance(c, commands.RemoveDisplay)] == []
 
 
+def test_lists_tabs_and_the_tree_are_locked_too(house: House, make_row: Callable[..., Row]) -> None:
+    watcher = house.watcher
+    page = watcher.page
+    watcher.loop.show(make_row("a"), make_row("b"), frames=("map", "odom"))
+    expect(watcher.button("Add a panel")).to_have_attribute("data-why", WHY)
+    a, b = (page.locator(f'[data-id="{id_}"] .wv-tree-name').bounding_box() for id_ in "ab")
+    assert a is not None
+    assert b is not None
+    page.mouse.move(a["x"] + 5, a["y"] + 5)
+    page.mouse.down()
+    page.mouse.move(b["x"] + 5, b["y"] + 15, steps=5)
+    expect(page.locator(".wv-tree-ghost")).to_have_count(0)
+    page.mouse.up()
+    page.locator('[data-id="a"] .wv-tree-name').dblclick()
+    expect(page.locator(".wv-tree-rename")).to_have_count(0)
+    page.keyboard.press("Control+k")
+    entry = page.get_by_role("option", name="Fixed frame: odom")
+    expect(entry).to_have_attribute("data-why", WHY)
+    expect(entry).to_have_attribute("aria-disabled", "true")
+    page.keyboard.press("Escape")
+    watcher.turn()
+    assert watcher.loop.commands == []
+
+
 def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
     house.watcher.page.evaluate(
         "async () => void (await import('/webviz/act.js')).act('ResetView')"
@@ -183,10 +207,30 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
     owner.page.keyboard.press("Escape")
 
 
-def test_a_page_whose_link_is_revoked_says_so(house: House) -> None:
+def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
     """The last test of this module, since the watcher is gone then."""
-    token_file.modify(
-        house.path, lambda tokens: [t for t in tokens if t != house.tokens[Role.WATCHER]]
-    )
-    expect(house.watcher.page.locator("body")).to_contain_text("This viewer asks for a link.")
-    assert house.owner.page.locator("#webviz").count() == 1
+    owner, watcher = house.owner, house.watcher
+    owner.button("Menu").click()
+    owner.page.get_by_role("menuitem", name="People…").click()
+    people = owner.page.locator(".wv-people")
+    row = people.get_by_role("row").filter(has_text="the watcher")
+    owner_row = people.get_by_role("row").filter(has_text="(you)")
+    owner.wait_for(lambda: row.get_by_role("button").count() == 2)
+    expect(owner_row.get_by_role("button")).to_have_count(0)
+
+    def end(button: str, confirm: str) -> None:
+        row.get_by_role("button", name=button).click()
+        owner.page.get_by_role("button", name=confirm, exact=True).click()
+
+    end("End visit", "End")
+    expect(watcher.page.locator("body")).to_contain_text("The owner has ended your visit.")
+    owner.wait_for(lambda: row.count() == 0)
+    watcher.page.goto(house.url)
+    owner.wait_for(lambda: row.count() == 1)
+    end("Revoke link", "Revoke")
+    expect(toasts(owner)).to_contain_text("Revoked the link of the watcher.")
+    expect(watcher.page.locator("body")).to_contain_text("This viewer asks for a link.")
+    names = {token.name for token in token_file.read(house.path)}
+    assert "the watcher" not in names
+    assert "the owner" in names
+    owner.page.keyboard.press("Escape")

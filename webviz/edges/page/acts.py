@@ -119,6 +119,11 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
             raise ValueError(f"Not done: expected at most {MAX_DEPTH} nested levels.")
 
 
+def form_of(name: str) -> type[msgspec.Struct]:
+    """The struct of the fields that a page may fill in, of a command of pages by its name."""
+    return _forms()[name][1]
+
+
 @functools.cache
 def _forms() -> dict[str, tuple[type[Any], Any]]:
     """By name the commands of pages, each with a struct of the fields that a page may fill in."""

@@ -41,6 +41,8 @@ MAX_WAITING_BYTES = 32 << 20
 """Of these messages together; the largest are configs to download."""
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
+FAREWELL_S = 1.0
+"""For a page to close its connection when its visit is ended."""
 HELLO_S = 10.0
 """For a page to say who it is."""
 
@@ -94,7 +96,7 @@ class Channel:
         self.on_lost: Callable[[int], None] = lambda browser: None
         """Called on the event loop with a browser whose channel has ended."""
         self.end_scene: Callable[[int], Awaitable[None]] = _nothing
-        """Ends viser's connection of a browser, which then does not connect again by itself."""
+        """Ends viser's connection of a browser."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._outboxes: dict[int, _Outbox] = {}
@@ -178,6 +180,8 @@ class Channel:
         if known is not None:
             known[1].is_expelled = True
             await self.end_scene(browser)
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(known[1].close(), FAREWELL_S)
             known[1].transport.abort()
 
     def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:

@@ -45,7 +45,7 @@ class Dismissed(ToPage, frozen=True):
     """The last message to a page whose visit the owner has ended.
 
     Args:
-        text: for its user, a sentence.
+        text: for its user, sentences without markup.
     """
 
     text: str

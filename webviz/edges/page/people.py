@@ -96,7 +96,9 @@ class People:
         elif dismiss.revokes:
             self._revoke(browser, dismiss, grant)
         else:
-            text = "The owner has ended your visit. Reload the page to come back."
+            text = (
+                "The owner has ended your visit. Open the address of the viewer again to come back."
+            )
             self._channel.send(Dismissed(text), dismiss.browser)
             task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.browser))
             self._dismissing.add(task)

@@ -18,12 +18,12 @@ export function install() {
     hide();
   }
   channel.on("Beat", hear);
+  // viser's page would connect again, so it has to go.
   channel.on("Dismissed", ({ text }) => {
-    clearInterval(timer);
-    hear();
-    banner.textContent = text;
-    document.body.append(banner);
-    document.body.classList.add("wv-lost");
+    const notice = new Blob([`<!doctype html><meta charset="utf-8"><title>webviz</title><p>${text}`], {
+      type: "text/html",
+    });
+    location.replace(URL.createObjectURL(notice));
   });
   viser.filterMessages((messages) => {
     hear();
@@ -68,6 +68,6 @@ export function install() {
     document.body.classList.add("wv-lost");
   }
 
-  const timer = setInterval(tick, TICK_MS);
+  setInterval(tick, TICK_MS);
   channel.onClose(askAgain);
 }

@@ -44,9 +44,7 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     async def end_for_good(browser: int) -> None:
         if (connection := socket._live_connections.get(ClientId(browser))) is None:
             return
-        connection.is_expelled = True
         with contextlib.suppress(TimeoutError):
-            # With this code viser's page does not connect again.
             await asyncio.wait_for(connection.close(1002, "Ended by the owner"), FAREWELL_S)
         connection.transport.abort()
 
