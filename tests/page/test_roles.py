@@ -213,8 +213,9 @@ def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
     owner.button("Menu").click()
     owner.page.get_by_role("menuitem", name="People…").click()
     people = owner.page.locator(".wv-people")
-    row = people.get_by_role("row").filter(has_text="the watcher")
-    owner_row = people.get_by_role("row").filter(has_text="(you)")
+    connected = people.get_by_role("table", name="Connected")
+    row = connected.get_by_role("row").filter(has_text="the watcher")
+    owner_row = connected.get_by_role("row").filter(has_text="(you)")
     owner.wait_for(lambda: row.get_by_role("button").count() == 2)
     expect(owner_row.get_by_role("button")).to_have_count(0)
 
