@@ -99,6 +99,7 @@ setup(
         "webviz.panels": [
             "Joints = webviz.panels.joints:Joints",
             "Nav2 = webviz.panels.nav2:Nav2",
+            "Plot = webviz.panels.plot:Plot",
         ],
     },
     # What `ros2 run`, `ros2 launch` and RViz look for. RViz finds the demo robot's meshes in the

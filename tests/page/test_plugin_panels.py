@@ -15,7 +15,8 @@ from webviz.api import registry
 from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.edges.page.plugin_panels import MAX_WAITING
-from webviz.edges.page.widgets import MAX_HTML, MAX_LINES, RecordedUi
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.edges.page.widgets import MAX_HTML, MAX_LINES
 from webviz.engine.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.plugins import load
 from webviz.engine.state import PanelTab, State, Traffic

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from remembering_graph import RememberingGraph
 
-from webviz.edges.page.widgets import RecordedUi
+from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Sender
 from webviz.panels import joints as module
 from webviz.panels.joints import Joints

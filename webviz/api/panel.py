@@ -22,6 +22,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
+from webviz.api.chart import Chart, Remove
 from webviz.api.declared import Declared
 
 T = TypeVar("T")
@@ -153,6 +154,10 @@ class Ui(Protocol):
         """
         ...
 
+    def chart(self, remove: Remove) -> Chart:
+        """Add a chart of curves over time; `remove` is called when a browser removes one."""
+        ...
+
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None
     ) -> None:
@@ -203,6 +208,16 @@ class Panel(Declared, kw_only=True, dict=True):
     def uses(self) -> tuple[str, ...]:
         """The services and actions it sends to: they may be written unless the config says no."""
         return ()
+
+    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+        """As `take`, which it calls, for panels that ask when the message came, in ROS time."""
+        self.take(topic, message)
+
+    def refuse(self, topic: str, reason: str) -> None:
+        """A message of one of these topics cannot be decoded; a sentence says why."""
+
+    def start_over(self) -> None:
+        """Discard received data: time has gone back, or somebody asks for it."""
 
     def publications(self) -> Mapping[str, str]:
         """The topics to publish on while the tab is open: message types by full name.

@@ -13,9 +13,11 @@ from typing import Any
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.chart import Chart
 from webviz.edges.page.content.forms import form, values_of
 from webviz.edges.page.messages import Done, Use
-from webviz.edges.page.widgets import RecordedUi, Widget, clean
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.edges.page.widgets import Widget, clean
 from webviz.engine.commands import Command, Sender
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.state import State
@@ -68,13 +70,22 @@ class PluginPanels:
         return {**titles, **broken, "/order": [*self._order, *self._broken], "/types": _types()}
 
     def panel(self, state: State, name: str) -> Mapping[str, Any]:
-        """The widgets of a panel by id, "/order", and "/failure": a sentence or ""."""
+        """The widgets of a panel by id, "/order", and "/failure": a sentence or "".
+
+        The pieces of a chart have its id with a slash and theirs.
+        """
         tab = self._tabs.get(name)
         if tab is None:
             return {"/order": [], "/failure": self._broken.get(name, "")}
         widgets = dict(tab.ui.widgets)
         values = {id_: widget.values for id_, widget in widgets.items()}
-        return {**values, "/order": list(widgets), "/failure": tab.failure}
+        parts = {
+            f"{id_}/{name}": part
+            for id_, widget in widgets.items()
+            if isinstance(widget, Chart)
+            for name, part in widget.parts.items()
+        }
+        return {**values, **parts, "/order": list(widgets), "/failure": tab.failure}
 
     def properties(self, state: State, name: str) -> Mapping[str, Any]:
         """Of a panel, as the store `tool` has them of a tool; nothing if it is gone."""

@@ -6,9 +6,9 @@ import re
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
-from webviz.api.panel import Act, Edit, Modifier, Slide
+from webviz.api.panel import Act, Edit, Slide
 
 MAX_TEXT = 20_000
 """Characters of a text, and of what browsers enter."""
@@ -189,58 +189,6 @@ class Shortcut(Widget):
     def use(self, value: Any, browser: int | None) -> None:
         """Do it."""
         self._act(browser)
-
-
-_W = TypeVar("_W", bound=Widget)
-
-
-class RecordedUi:
-    """Records what a panel is built of; see `webviz.api.panel.Ui`."""
-
-    def __init__(self) -> None:
-        self.widgets: dict[str, Widget] = {}
-        """In the order of the tab, by id."""
-        self.commands: dict[str, Shortcut] = {}
-
-    def find(self, id_: str) -> Widget | None:
-        """A widget or command."""
-        return self.widgets.get(id_) or self.commands.get(id_)
-
-    def area(self) -> Area:
-        """Add a place for text."""
-        return self._add(Area())
-
-    def button(self, label: str, act: Act, hint: str = "", width: float = 1.0) -> Button:
-        """Add a button."""
-        return self._add(Button(label, act, hint, max(0.1, min(1.0, width))))
-
-    def checkbox(self, label: str, value: bool, edit: Edit, hint: str = "") -> Field:
-        """Add a check box."""
-        return self._add(Field("checkbox", label, bool(value), edit, hint))
-
-    def field(self, label: str, value: str, edit: Edit, hint: str = "") -> Field:
-        """Add a line of text."""
-        return self._add(Field("field", label, clean(value), edit, hint))
-
-    def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
-        """Add a list to choose from."""
-        return self._add(Choice(label, clean(value), edit, hint))
-
-    def sliders(self, edit: Callable[[str, float, int | None], object]) -> Sliders:
-        """Add a place for sliders."""
-        return self._add(Sliders(edit))
-
-    def command(
-        self, label: str, act: Act, key: str = "", modifier: Modifier | None = None
-    ) -> None:
-        """Add a command to the list, for every browser."""
-        before = {None: "", "cmd/ctrl": "Ctrl+", "cmd/ctrl+shift": "Ctrl+Shift+"}[modifier]
-        shortcut = Shortcut(label, act, f"{before}{key.lower()}" if key else "")
-        self.commands[f"command-{len(self.commands)}"] = shortcut
-
-    def _add(self, widget: _W) -> _W:
-        self.widgets[str(len(self.widgets))] = widget
-        return widget
 
 
 def clean(text: str, length: int = MAX_TEXT) -> str:

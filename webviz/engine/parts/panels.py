@@ -71,6 +71,11 @@ class PanelsPart(Part):
                     for raw in batches[topic]:
                         self.core.guard(f"The panel {panel.name}", _pass, panel, topic, type_, raw)
 
+    def reset(self) -> None:
+        """Let the open panels start over."""
+        for panel in self._attended():
+            self.core.guard(f"The panel {panel.name}", panel.start_over)
+
     def outlets(self) -> Collection[Outlet]:
         """Where the open panels publish."""
         topics = [
@@ -160,6 +165,7 @@ class PanelsPart(Part):
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
     try:
         message = decode(type_, raw.cdr)
-    except MessageError:
-        return  # the panel Topics tells what is wrong with them
-    panel.take(topic, message)
+    except MessageError as error:
+        panel.refuse(topic, str(error))
+    else:
+        panel.receive(topic, message, raw.received_ns)

@@ -12,7 +12,7 @@ const OLD_S = 1; // until then, an age says nothing that the rate does not say
 /** Fills `place` with the readout of a display: `{take(header, data), facts(), close()}`. */
 export function makeReadout(place, id) {
   const about = el("div", { class: "wv-readout-about wv-quiet wv-ellipsis" });
-  const rows = messageRows({ label: "Message" });
+  const rows = messageRows({ label: "Message", topic: () => last.topic });
   place.append(el("div", { class: "wv-readout" }, about, rows.element));
   let last = null;
   let rate = "";

@@ -26,6 +26,8 @@ export function followPlugins(offer, types) {
   })));
 }
 
+const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change has its own locks
+
 function open(element, name) {
   const failure = el("div", { class: "wv-plugin-failure", role: "alert", hidden: true, "data-level": "error" });
   const place = el("div", { class: "wv-plugin-widgets" });
@@ -39,10 +41,11 @@ function open(element, name) {
       const widget = values.get(id);
       // A panel that was loaded again may have another widget under the same id.
       if (drawn.get(id)?.kind !== widget.kind) {
+        drawn.get(id)?.close?.();
         drawn.set(id, makeWidget(widget, (value) => use(name, id, value)));
-        drawn.get(id).update(widget);
-        if (widget.kind !== "area") needs("Use", drawn.get(id).element);
-      } else if (changed.has(id)) drawn.get(id).update(widget);
+        drawn.get(id).update(widget, values, id);
+        if (!LOOKED_AT.has(widget.kind)) needs("Use", drawn.get(id).element);
+      } else if (changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`))) drawn.get(id).update(widget, values, id);
     }
     setChildren(place, order.map((id) => drawn.get(id).element));
     const sentence = values.get("/failure") ?? "";
@@ -52,6 +55,7 @@ function open(element, name) {
   return () => {
     end();
     endProperties();
+    for (const widget of drawn.values()) widget.close?.();
   };
 }
 

@@ -1,5 +1,6 @@
 // The widgets of plug-ins' panels, by their kind: each `{kind, element, update(values)}`.
 
+import { chart } from "../charts/chart.js";
 import { combobox } from "../controls/combobox.js";
 import { slider } from "../controls/slider.js";
 import { sync } from "../controls/sync.js";
@@ -7,7 +8,7 @@ import { el, set, setChildren, setText } from "../dom.js";
 
 const TYPING_MS = 600;
 
-const MAKERS = { area, button, checkbox, field, choice, sliders };
+const MAKERS = { area, button, checkbox, chart, field, choice, sliders };
 
 /** A widget of these values; `send(value)` reports its use to the panel. */
 export function makeWidget(values, send) {

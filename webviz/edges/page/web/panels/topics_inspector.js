@@ -32,7 +32,7 @@ export function inspector(place, name, dismiss) {
   const why = el("div", { class: "wv-topic-why wv-quiet", hidden: true });
   const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
   const problem = el("div", { class: "wv-empty", role: "status", hidden: true });
-  const tree = messageRows({ label: `Last message on ${name}` });
+  const tree = messageRows({ label: `Last message on ${name}`, topic: () => name });
   place.replaceChildren(el("section", { class: "wv-inspected", "aria-label": name },
     el("header", {},
       el("h3", { class: "wv-ellipsis", title: name }, name),
@@ -46,8 +46,8 @@ export function inspector(place, name, dismiss) {
   }
 
   async function add() {
-    const one = async ([type, input]) => {
-      const { level } = await act("AddDisplay", { type, values: { [input]: name } });
+    const one = async ([type, values]) => {
+      const { level } = await act("AddDisplay", { type, values });
       if (level === "ok") toast(`Added ${type} for ${name}.`);
     };
     if (fits.length === 1) return one(fits[0]);

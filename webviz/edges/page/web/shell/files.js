@@ -6,6 +6,7 @@ import { el, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { watch } from "../stores.js";
 import { ask, openDialog } from "./dialog.js";
+import { download } from "./download.js";
 import { toast } from "./toasts.js";
 
 const SUFFIXES = [".yaml", ".yml", ".rviz"];
@@ -188,10 +189,4 @@ async function replace(name, command, fields) {
   const question = `Open ${name} and discard unsaved changes? Everyone on this page loses them.`;
   const options = { title: "Unsaved changes", confirm: "Discard", danger: true };
   if (!file.is_changed || (await ask(question, options))) act(command, fields);
-}
-
-function download(name, text) {
-  const link = el("a", { download: name, href: URL.createObjectURL(new Blob([text])) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

@@ -1,0 +1,229 @@
+"""The panel Plot: what it reads and keeps, without a browser."""
+
+from __future__ import annotations
+
+import math
+import tracemalloc
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from webviz.data.messages import Header, JointState, String, Time
+from webviz.edges.page.chart import Chart
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.engine.commands import AddPanel, OpenPanels, Reset, SetPanelProperty
+from webviz.engine.sources import Offer, Publisher
+from webviz.engine.state import Clock, PanelTab, State
+from webviz.panels.plot import Plot
+from webviz.panels.plot.history import MAX_POINTS, History
+
+JOINTS = "sensor_msgs/msg/JointState"
+TWIST = "geometry_msgs/msg/Twist"
+SECOND = 10**9
+
+
+class Bench:
+    """A panel with curves, and what its pages see."""
+
+    def __init__(self, *curves: str, **values: Any) -> None:
+        self.panel = Plot(curves=list(curves), **values)
+        self.ui = RecordedUi()
+        self.sent: list[Any] = []
+        self.panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
+        publisher = Publisher("/robot", JOINTS, "reliable", "volatile")
+        clock = Clock(ros_ns=100 * SECOND)
+        tabs = (PanelTab("id", "Plot", self.panel),)
+        self.state = State(offers={"/joints": Offer((publisher,))}, clock=clock, panels=tabs)
+        self.show()
+
+    def show(self, **changes: Any) -> None:
+        self.state = replace(self.state, **changes)
+        self.panel.show(self.state)
+
+    def send(self, value: float, at_s: float, stamp_s: float = 0.0) -> None:
+        header = Header(Time(int(stamp_s), round(stamp_s % 1 * SECOND)))
+        message = JointState(header, ["left"], np.array([value]))
+        self.panel.receive("/joints", message, round(at_s * SECOND))
+
+    @property
+    def chart(self) -> Chart:
+        return next(each for each in self.ui.widgets.values() if isinstance(each, Chart))
+
+    def curve(self, index: int = 0) -> dict[str, Any]:
+        self.show()
+        return self.chart.values["curves"][index]
+
+    def points(self) -> list[tuple[float, float | None]]:
+        """Of the first curve, as a page puts it together."""
+        first, end = self.curve()["chunks"]
+        parts = [self.chart.parts[f"0.{number}"] for number in range(first, end)]
+        return [
+            (part["start"] + time, value)
+            for part in parts
+            for time, value in zip(part["times"], part["values"], strict=True)
+        ]
+
+
+def test_a_number_of_each_message_is_a_point_of_its_curve() -> None:
+    bench = Bench("/joints.position[left]", "/joints.position[0]")
+    assert bench.panel.subscriptions() == {"/joints": JOINTS}
+    for i in range(3):
+        bench.send(0.1 * i, 99.0 + 0.02 * i)
+    assert bench.points() == pytest.approx(np.array([(99.0, 0.0), (99.02, 0.1), (99.04, 0.2)]))
+    assert [curve["name"] for curve in bench.chart.values["curves"]] == bench.panel.curves
+    assert (bench.chart.values["window"], bench.chart.values["now"]) == (30.0, 100.0)
+
+
+def test_times_may_be_those_of_the_headers() -> None:
+    bench = Bench("/joints.position[0]", time="Header Stamp")
+    bench.send(1.0, 99.0, stamp_s=50.25)
+    assert bench.points() == [(50.25, 1.0)]
+    assert bench.chart.values["now"] == 50.25
+    bench.panel.time = "Received"
+    assert bench.points() == [], "times of another kind cannot be mixed"
+
+
+@pytest.mark.parametrize(
+    ("curve", "message", "reason"),
+    [
+        ("/nobody.data", None, "No publisher on /nobody."),
+        ("joints.position[0]", None, "`joints.position[0]` has no topic: begin with /."),
+        ("/joints", None, "`` is not the path of a field"),
+        ("/joints.position[0]", None, "No message yet."),
+        ("/joints.position[7]", JointState(), "No element 7 for `position[7]`; there are 0."),
+        ("/joints.data", String("text"), "`data` is not a number."),
+    ],
+)
+def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) -> None:
+    bench = Bench(curve)
+    if message is not None:
+        bench.panel.receive("/joints", message, SECOND)
+    assert bench.curve()["problem"].startswith(reason)
+    assert bench.points() == []
+
+
+def test_bytes_that_do_not_decode_are_named() -> None:
+    bench = Bench("/joints.position[0]")
+    bench.panel.refuse("/joints", "Not a JointState.")
+    assert bench.curve()["problem"] == "Not a JointState."
+    bench.send(1.0, 99.0)
+    assert bench.curve()["problem"] == ""
+
+
+def test_values_that_are_not_finite_end_a_line_and_large_ones_do_not() -> None:
+    bench = Bench("/joints.position[0]")
+    values = [math.nan, 1.0, math.nan, math.inf, 1e308, -1e308]
+    for i, value in enumerate(values):
+        bench.send(value, 99.0 + 0.1 * i)
+    assert [value for _, value in bench.points()] == [1.0, None, 1e308, -1e308]
+
+
+def test_time_that_goes_back_starts_over_and_a_little_is_left_out() -> None:
+    bench = Bench("/joints.position[0]")
+    for at_s in (98.0, 99.0, 98.95):
+        bench.send(1.0, at_s)
+    assert len(bench.points()) == 2
+    assert bench.curve()["problem"] == "1 values were left out: their times go back."
+    bench.send(2.0, 50.0)
+    assert bench.points() == [(50.0, 2.0)]
+    bench.panel.start_over()
+    assert bench.points() == []
+
+
+def test_a_fast_topic_keeps_the_extremes_of_each_interval_and_no_more_than_promised() -> None:
+    history = History(window_s=4.0)
+    times = np.arange(0.0, 10.0, 1e-4)  # 10 kHz
+    values = np.sin(40 * times)
+    values[87_654] = 99.0
+    tracemalloc.start()
+    for time, value in zip(times.tolist(), values.tolist(), strict=True):
+        history.add(time, value)
+    size, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    kept = np.array(history.points())
+    assert len(kept) <= MAX_POINTS
+    assert size < 2_000_000
+    assert kept[0, 0] == pytest.approx(6.0, abs=0.2)
+    assert (np.diff(kept[:, 0]) >= 0).all()
+    window = values[times >= kept[0, 0]]
+    assert (kept[:, 1].min(), kept[:, 1].max()) == (window.min(), 99.0)
+
+
+def test_values_and_gaps_in_turns_are_no_way_around_the_bound() -> None:
+    history = History(window_s=1.0)
+    for i in range(100_000):
+        history.add(i * 1e-5 * 5, math.nan if i % 2 else 1.0)
+    assert len(history.points()) <= MAX_POINTS
+
+
+def test_only_what_is_new_is_made_anew() -> None:
+    bench = Bench("/joints.position[0]", window=4.0)
+    for i in range(200):
+        bench.send(1.0, 90.0 + 0.02 * i)
+    bench.show()
+    before = dict(bench.chart.parts)
+    bench.send(1.0, 94.01)
+    bench.show()
+    again = [key for key, part in bench.chart.parts.items() if before.get(key) is not part]
+    assert len(before) > 30
+    assert len(again) <= 2
+
+
+def test_another_window_keeps_the_values_and_a_pause_of_the_panel_is_a_gap(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    bench = Bench("/joints.position[0]")
+    bench.send(1.0, 98.0)
+    bench.panel.window = 60.0
+    assert bench.points() == [(98.0, 1.0)]
+    monkeypatch.setattr("webviz.panels.plot.panel.CLOSED_S", -1.0)
+    bench.show()
+    bench.send(2.0, 99.0)
+    assert [value for _, value in bench.points()][:3] == [1.0, None, 2.0]
+
+
+def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None:
+    bench = Bench("/joints.position[0]")
+    topic, field = (bench.ui.widgets[id_] for id_ in ("1", "2"))
+    assert topic.values["options"] == ["", "/joints"]
+    topic.use("/joints", 7)
+    bench.panel.receive("/joints", JointState(name=["left"], position=np.array([0.5])), SECOND)
+    bench.show()
+    assert field.values["options"] == ["", "header.stamp", "position[left]"]
+    field.use("position[left]", 7)
+    curves = ["/joints.position[0]", "/joints.position[left]"]
+    assert bench.sent.pop() == SetPanelProperty("id", "curves", curves)
+    bench.chart.use("/joints.position[0]", 7)
+    assert bench.sent.pop() == SetPanelProperty("id", "curves", [])
+    with pytest.raises(ValueError, match="removed already"):
+        bench.chart.use("/other.x", 7)
+
+
+def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench()
+    b.do(AddPanel("Plot", {"curves": ["/cmd_vel.linear.x"]}))
+    (tab,) = b.viewer.state().panels
+    plot = tab.panel
+    plot.build(RecordedUi(), lambda *_: None)
+    publisher = Publisher("/driver", TWIST, "reliable", "volatile")
+    b.source.known["/cmd_vel"] = Offer((publisher,))
+    b.do(OpenPanels(frozenset({"Plot"})))
+    plot.show(b.viewer.state())
+    b.turn()
+    assert b.source.wanted["/cmd_vel"].type == TWIST
+    for speed in (0.5, 0.7):
+        b.publish("/cmd_vel", TWIST, {"linear": {"x": speed}})
+    b.source.put("/cmd_vel", TWIST, b"\0\1\0\0")
+    b.turn()
+    (series,) = plot.series.values()
+    assert [value for _, value in series.history.points()] == [0.5, 0.7]
+    assert "Not a geometry_msgs/msg/Twist" in series.problem
+    b.do(Reset())
+    assert series.history.points() == []
+    b.do(OpenPanels(frozenset()))
+    assert "/cmd_vel" not in b.source.wanted

@@ -1,0 +1,216 @@
+// A chart of a plug-in's panel: curves over time, with a legend that reads them out.
+//
+// All pages have the same values; each pauses, zooms and pans for itself.
+
+import { needs } from "../access.js";
+import { el, set, setChildren, setText } from "../dom.js";
+import { icon } from "../icons.js";
+import { download } from "../shell/download.js";
+import { timeOfDay } from "../shell/time_text.js";
+import { csv, curvesOf, extent, valueAt } from "./curves.js";
+import { draw, inside } from "./draw.js";
+import { at, changed, numberText, roomy } from "./scale.js";
+
+const WHEEL = 1.2;
+const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
+const KEYS = {
+  ArrowLeft: { move: -0.1 }, ArrowRight: { move: 0.1 }, "+": { by: 1 / WHEEL }, "-": { by: WHEEL },
+};
+
+const color = (key) => `hsl(${HUES[key % HUES.length]} 75% 55%)`;
+
+/** See `plugin_widgets.js`; `send(name)` removes a curve. */
+export function chart(_, send) {
+  const known = new WeakMap();
+  let live = []; // the curves as they are
+  let held = null; // and as they were when this page paused
+  let facts = { window: 1, now: 0 };
+  let end = 0; // of the window, stands still while paused
+  let zoomed = null; // {times, values}; values null for those that fit
+  let cursor = null;
+  let drag = null;
+  let frame = 0;
+
+  const canvas = el("canvas", {
+    class: "wv-chart-canvas", role: "img", tabindex: 0, "aria-label": "Chart",
+    onwheel: wheel, onpointerdown: press, onpointermove: move, onpointerup: release,
+    onpointerleave: () => point(null), ondblclick: reset, onkeydown: key,
+  });
+  const box = el("div", { class: "wv-chart-box", hidden: true });
+  const button = (label, name, onclick) =>
+    el("button", { type: "button", class: "wv-icon", "aria-label": label, "data-tip": label, onclick }, icon(name));
+  const pause = button("Pause", "pause", togglePause);
+  const back = button("Reset zoom (double click)", "reset", reset);
+  const save = button("Download as CSV", "download", () => download("plot.csv", csv(shown())));
+  const when = el("span", { class: "wv-quiet wv-number" });
+  const legend = el("ul", { class: "wv-chart-legend" });
+  const entries = new Map();
+  const element = el("div", { class: "wv-chart" },
+    el("div", { class: "wv-chart-tools" }, pause, back, save, when),
+    el("div", { class: "wv-chart-place" }, canvas, box), legend);
+  const observer = new ResizeObserver(later);
+  observer.observe(canvas);
+
+  const shown = () => held ?? live;
+  const times = () => zoomed?.times ?? [end - facts.window, end];
+  const values = () => zoomed?.values ?? roomy(...extent(shown(), times()));
+
+  function later() {
+    frame ||= requestAnimationFrame(() => {
+      frame = 0;
+      if (!element.isConnected) return;
+      draw(canvas, { curves: shown(), colors: color, times: times(), values: values(), cursor });
+      readOut();
+    });
+  }
+
+  function togglePause() {
+    held = held ? null : live;
+    end = facts.now;
+    mark();
+  }
+
+  function reset() {
+    zoomed = null;
+    mark();
+  }
+
+  function mark() {
+    set(pause, { "aria-pressed": String(held !== null) });
+    const label = held ? "Resume" : "Pause";
+    set(pause, { "aria-label": label, "data-tip": label });
+    pause.replaceChildren(icon(held ? "play" : "pause"));
+    set(back, { disabled: !zoomed });
+    later();
+  }
+
+  const area = () => inside(canvas.clientWidth, canvas.clientHeight);
+
+  // Where in the area of the curves a pointer is, from 0 to 1 each, y upwards.
+  function shares({ clientX, clientY }) {
+    const { left, top, width, height } = area();
+    const from = canvas.getBoundingClientRect();
+    return [(clientX - from.left - left) / width, 1 - (clientY - from.top - top) / height];
+  }
+
+  function zoom(change, isValues = false) {
+    zoomed = isValues
+      ? { times: times(), values: changed(values(), change) }
+      : { times: changed(times(), change), values: zoomed?.values ?? null };
+    const [from, to] = zoomed.times;
+    if (!(to - from > 1e-6) || to - from > 1e6) zoomed = null;
+    mark();
+  }
+
+  function wheel(event) {
+    event.preventDefault();
+    const [x, y] = shares(event);
+    const isValues = event.shiftKey || x < 0;
+    // Browsers turn the wheel sideways with Shift.
+    const by = WHEEL ** Math.sign(event.deltaY || event.deltaX);
+    zoom({ around: isValues ? y : x, by }, isValues);
+  }
+
+  function press(event) {
+    if (event.button !== 0) return;
+    canvas.setPointerCapture(event.pointerId);
+    drag = { from: shares(event), times: times(), values: values(), isBox: event.shiftKey, isFar: false };
+  }
+
+  function move(event) {
+    const place = shares(event);
+    if (!drag) return point(place[0] >= 0 && place[0] <= 1 ? at(place[0], times()) : null);
+    const [dx, dy] = [place[0] - drag.from[0], place[1] - drag.from[1]];
+    const { width, height } = area();
+    drag.isFar ||= Math.hypot(dx * width, dy * height) > 3;
+    if (!drag.isFar) return;
+    if (drag.isBox) return showBox(drag.from, place);
+    const isUp = zoomed?.values || Math.abs(dy * height) > 20;
+    zoomed = {
+      times: changed(drag.times, { move: -dx }),
+      values: isUp ? changed(drag.values, { move: -dy }) : null,
+    };
+    mark();
+  }
+
+  function release(event) {
+    const [a, b] = [drag?.from, shares(event)];
+    if (drag?.isBox && drag.isFar && Math.abs(a[0] - b[0]) > 0.005 && Math.abs(a[1] - b[1]) > 0.005) {
+      const part = (i, range) => [Math.min(a[i], b[i]), Math.max(a[i], b[i])].map((each) => at(each, range));
+      zoomed = { times: part(0, drag.times), values: part(1, drag.values) };
+    }
+    drag = null;
+    box.hidden = true;
+    mark();
+  }
+
+  function showBox(a, b) {
+    const { left, top, width, height } = area();
+    const [x, y] = [left + Math.min(a[0], b[0]) * width, top + (1 - Math.max(a[1], b[1])) * height];
+    Object.assign(box.style, {
+      left: `${x}px`, top: `${y}px`,
+      width: `${Math.abs(a[0] - b[0]) * width}px`, height: `${Math.abs(a[1] - b[1]) * height}px`,
+    });
+    box.hidden = false;
+  }
+
+  function key(event) {
+    if (KEYS[event.key]) zoom(KEYS[event.key]);
+    else if (event.key === "Escape" && zoomed) reset();
+    else if (event.key === " ") togglePause();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  function point(time) {
+    if (time === cursor) return;
+    cursor = time;
+    later();
+  }
+
+  function readOut() {
+    const time = cursor ?? Infinity;
+    setText(when, cursor === null ? "" : timeOfDay(cursor, true));
+    for (const curve of shown()) {
+      const found = valueAt(curve, time);
+      const text = !found ? "" : Number.isNaN(found.value) ? "no value" : numberText(found.value, 0.001);
+      setText(entries.get(curve.key).value, text);
+    }
+  }
+
+  function showLegend() {
+    for (const { key: id, name, problem } of live) {
+      if (!entries.has(id)) entries.set(id, entry(id, name));
+      setText(entries.get(id).problem, problem);
+    }
+    for (const id of entries.keys()) if (!live.some((curve) => curve.key === id)) entries.delete(id);
+    setChildren(legend, live.map((curve) => entries.get(curve.key).element));
+  }
+
+  function entry(id, name) {
+    const value = el("span", { class: "wv-number wv-chart-value" });
+    const problem = el("div", { class: "wv-chart-problem" });
+    const swatch = el("span", { class: "wv-chart-swatch" });
+    swatch.style.background = color(id);
+    const remove = el("button", {
+      type: "button", class: "wv-icon", "aria-label": `Remove ${name}`, "data-tip": "Remove", onclick: () => send(name),
+    }, icon("close", 12));
+    const label = el("span", { class: "wv-chart-name" }, name);
+    const line = el("div", { class: "wv-chart-entry" }, swatch, label, value, needs("Use", remove));
+    return { element: el("li", {}, line, problem), value, problem };
+  }
+
+  function update(next, store, id) {
+    facts = next;
+    live = curvesOf(facts.curves, store, id, known);
+    held &&= held.filter(({ key: one }) => live.some((curve) => curve.key === one));
+    if (!held) end = facts.now;
+    showLegend();
+    set(element, { "data-empty": live.length ? null : "" });
+    later();
+  }
+
+  mark();
+  return { element, update, close: () => observer.disconnect() };
+}

@@ -1,0 +1,86 @@
+// The values of curves, as the server sends them in pieces, and what is drawn of them.
+
+/** Of each curve `{key, name, problem, pieces}`; a piece is `{times, values}`, in ROS seconds. */
+export function curvesOf(facts, values, id, known) {
+  return facts.map(({ key, name, problem, chunks: [first, end] }) => {
+    const pieces = [];
+    for (let number = first; number < end; number++) {
+      const part = values.get(`${id}/${key}.${number}`);
+      if (part) pieces.push(pieceOf(part, known));
+    }
+    return { key, name, problem, pieces };
+  });
+}
+
+// A piece that has not changed is the same object in the store.
+function pieceOf(part, known) {
+  if (!known.has(part)) {
+    const times = Float64Array.from(part.times, (time) => part.start + time);
+    known.set(part, { times, values: Float64Array.from(part.values, (value) => value ?? NaN) });
+  }
+  return known.get(part);
+}
+
+/** Calls `take(time, value)` for the values of a curve in a range of time, and the one at each side. */
+export function visit({ pieces }, [from, to], take) {
+  let before = null;
+  for (const { times, values } of pieces) {
+    if (!times.length) continue;
+    if (times[times.length - 1] < from) {
+      before = [times[times.length - 1], values[values.length - 1]];
+      continue;
+    }
+    for (let i = 0; i < times.length; i++) {
+      if (times[i] < from) {
+        before = [times[i], values[i]];
+        continue;
+      }
+      if (before) take(...before);
+      before = null;
+      take(times[i], values[i]);
+      if (times[i] > to) return;
+    }
+  }
+  if (before) take(...before);
+}
+
+/** The lowest and highest value of all curves in a range of time. */
+export function extent(curves, range) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const curve of curves) {
+    visit(curve, range, (time, value) => {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    });
+  }
+  return [low, high];
+}
+
+/** The newest value up to a time, null if there is none. */
+export function valueAt({ pieces }, time) {
+  for (const { times, values } of pieces.toReversed()) {
+    if (!times.length || times[0] > time) continue;
+    let [low, high] = [0, times.length - 1];
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (times[middle] <= time) low = middle;
+      else high = middle - 1;
+    }
+    return { time: times[low], value: values[low] };
+  }
+  return null;
+}
+
+/** All values as CSV: a line for each, with curve, time and value. */
+export function csv(curves) {
+  const lines = ["curve,time (s),value"];
+  for (const { name, pieces } of curves) {
+    const quoted = `"${name.replaceAll('"', '""')}"`;
+    for (const { times, values } of pieces) {
+      times.forEach((time, i) => {
+        if (Number.isFinite(values[i])) lines.push(`${quoted},${time.toFixed(6)},${values[i]}`);
+      });
+    }
+  }
+  return `${lines.join("\n")}\n`;
+}

@@ -1,0 +1,39 @@
+// Ranges of values and of time, and the round numbers at their axes.
+
+/** Round numbers within a range, about `count` of them. */
+export function ticks(low, high, count) {
+  const span = high / count - low / count; // of 1e308 and -1e308, too
+  if (!(span > 0)) return [];
+  const power = 10 ** Math.floor(Math.log10(span));
+  const step = power * ([1, 2, 5].find((each) => each * power >= span * 0.999) ?? 10);
+  const found = [];
+  for (let i = Math.ceil(low / step); i * step <= high && found.length < 50; i++) found.push(i * step);
+  return found;
+}
+
+/** The range of values with some room around it; one that is not empty. */
+export function roomy(low, high) {
+  if (!(low <= high)) return [-1, 1];
+  const margin = (high / 2 - low / 2) * 0.1 || Math.abs(low) * 0.05 || 1;
+  const most = Number.MAX_VALUE;
+  return [Math.max(-most, low - margin), Math.min(most, high + margin)];
+}
+
+/** Where between 0 and 1 a value is in a range. */
+export const share = (value, [low, high]) => (value / 2 - low / 2) / (high / 2 - low / 2);
+
+/** The value at a share of a range. */
+export const at = (share_, [low, high]) => low * (1 - share_) + high * share_;
+
+/** A range that is scaled around the place at a share of it, and moved by a share. */
+export function changed(range, { around = 0.5, by = 1, move = 0 }) {
+  return [at(around - around * by + move, range), at(around + (1 - around) * by + move, range)];
+}
+
+/** A number with as many digits as the span of its axis needs. */
+export function numberText(value, span) {
+  const size = Math.abs(value);
+  if (size && (size >= 1e6 || size < 1e-4)) return value.toPrecision(4).replace(/\.?0+e/, "e");
+  const digits = span > 0 ? Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(span)))) : 3;
+  return value.toFixed(digits).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+}

@@ -1,0 +1,143 @@
+"""The panel Plot: its properties, what it reads, and what it says of each curve."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from webviz.api.chart import Curve
+from webviz.api.declared import Prop
+from webviz.api.panel import Panel, Send, Ui
+from webviz.data.messages.paths import numeric_paths
+from webviz.engine.commands import SetPanelProperty
+from webviz.panels.plot.series import Series
+
+MAX_CURVES = 16
+MAX_FIELDS = 300
+"""Fields of a message that are offered."""
+CLOSED_S = 1.5
+"""Without messages and calls of `show` for this long, nobody looked."""
+NOTHING = ""
+
+
+class Plot(Panel):
+    """Numbers of any messages over time, read while the panel is open."""
+
+    on_request = True
+
+    curves: Annotated[
+        list[str],
+        Prop(
+            help="Topics with the path of a number, such as /odom.twist.twist.linear.x, "
+            "/joint_states.position[0] or /joint_states.position[left_wheel]."
+        ),
+    ] = msgspec.field(default_factory=list)
+    window: Annotated[float, Prop(gt=0, le=3600, unit="s", help="Time that is shown.")] = 30.0
+    time: Annotated[
+        Literal["Received", "Header Stamp"],
+        Prop(help="Time of a value; messages without a header have only that of their arrival."),
+    ] = "Received"
+
+    def __post_init__(self) -> None:
+        """Without values."""
+        self.id = ""
+        self.series: dict[str, Series] = {}
+        self.types: Mapping[str, str] = {}
+        self.topic = NOTHING
+        self.example: Any = None
+        self.active_s = 0.0
+
+    def build(self, ui: Ui, send: Send) -> None:
+        """The chart, and two lists that add a curve."""
+        self.send = send
+        self.chart = ui.chart(self._remove)
+        self.topics = ui.choice("Topic", NOTHING, self._choose, "To add a curve of.")
+        self.fields = ui.choice("Add field", NOTHING, self._add, "Numbers of the newest message.")
+        self.note = ui.area()
+
+    def subscriptions(self) -> Mapping[str, str]:
+        """The topics of the curves, and the one whose fields are offered."""
+        wanted = {each.topic for each in self.series.values()} | {self.topic}
+        return {topic: self.types[topic] for topic in wanted if topic in self.types}
+
+    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+        """Add a value to each curve of a topic."""
+        self.active_s = time.monotonic()
+        if topic == self.topic:
+            self.example = message
+        for each in self.series.values():
+            if each.topic == topic:
+                each.add(message, received_ns, by_stamp=self.time == "Header Stamp")
+
+    def refuse(self, topic: str, reason: str) -> None:
+        """Note why a curve has no values."""
+        for each in self.series.values():
+            if each.topic == topic:
+                each.problem = reason
+
+    def start_over(self) -> None:
+        """Forget all values."""
+        for each in self.series.values():
+            each.clear()
+
+    def show(self, state: Any) -> None:
+        """Show the curves, and what can be added."""
+        now = time.monotonic()
+        if now - self.active_s > CLOSED_S:
+            for each in self.series.values():
+                each.history.gap()
+        self.active_s = now
+        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
+        self.types = {
+            topic: offer.type or offer.publishers[0].type
+            for topic, offer in state.offers.items()
+            if offer.publishers
+        }
+        self._follow()
+        self._offer()
+        ends = [each.history.newest[0] for each in self.series.values() if each.history.newest]
+        now_s = state.clock.ros_ns / 1e9
+        if self.time == "Header Stamp" or not now_s:
+            now_s = max(ends, default=now_s)
+        shown = [
+            Curve(name, each.history.chunks(), each.explanation(self.types))
+            for name, each in self.series.items()
+        ]
+        self.chart.show(shown, self.window, now_s)
+        if not self.curves:
+            self.note.text("Choose a topic and one of its fields.")
+        else:
+            more = len(self.curves) - MAX_CURVES
+            self.note.text(f"Only the first {MAX_CURVES} curves are shown." if more > 0 else "")
+
+    def _follow(self) -> None:
+        """Have the curves that the properties name, with the values of those that stay."""
+        how = self.window, self.time
+        self.series = {
+            text: known
+            if (known := self.series.get(text)) and known.how == how
+            else Series(text, how, known)
+            for text in list(dict.fromkeys(self.curves))[:MAX_CURVES]
+        }
+
+    def _offer(self) -> None:
+        self.topics.offer([NOTHING, *sorted(self.types)], self.topic)
+        fields = [] if self.example is None else numeric_paths(self.example, MAX_FIELDS)
+        self.fields.offer([NOTHING, *fields], NOTHING)
+
+    def _choose(self, topic: str, browser: int | None) -> None:
+        self.topic, self.example = topic, None
+
+    def _add(self, field: str, browser: int | None) -> None:
+        text = f"{self.topic}.{field}"
+        if field and text not in self.curves:
+            self._set([*self.curves, text], browser)
+
+    def _remove(self, name: str, browser: int | None) -> None:
+        self._set([each for each in self.curves if each != name], browser)
+
+    def _set(self, curves: list[str], browser: int | None) -> None:
+        self.send(SetPanelProperty(self.id, "curves", curves), browser)

@@ -1,0 +1,82 @@
+"""One curve of the panel Plot: a number of the messages of a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.data.messages.geometry import Header
+from webviz.data.messages.paths import FieldPath, PathError
+from webviz.panels.plot.history import History
+
+How = tuple[float, str]
+"""Window in seconds, and which time is used."""
+
+
+class Series:
+    """The values of one curve.
+
+    Args:
+        text: topic, a dot, and the path of a number.
+        how: see `How`.
+        before: the same curve with another window, whose values it takes over if their times are
+            of the same kind.
+    """
+
+    def __init__(self, text: str, how: How, before: Series | None = None) -> None:
+        self.how = how
+        self.topic, _, path = text.partition(".")
+        self.problem = ""
+        """Why the newest message has no value."""
+        self.has_stamp = True
+        self._path: FieldPath | None = None
+        self._invalid = ""
+        self.history = History(how[0])
+        try:
+            self._path = FieldPath(path)
+        except PathError as error:
+            self._invalid = str(error)
+        if not self.topic.startswith("/"):
+            self._invalid = f"`{text[:80]}` has no topic: begin with /."
+        if before is not None and before.how[1] == how[1]:
+            for point in before.history.points():
+                self.history.add(*point)
+
+    def add(self, message: Any, received_ns: int, *, by_stamp: bool) -> None:
+        """Add the value of a message."""
+        if self._path is None:
+            return
+        try:
+            value = self._path.number(message)
+        except PathError as error:
+            self.problem = str(error)
+            self.history.gap()
+            return
+        self.problem = ""
+        header = getattr(message, "header", None)
+        self.has_stamp = isinstance(header, Header)
+        time_ns = received_ns
+        if by_stamp and isinstance(header, Header):
+            time_ns = header.stamp_ns
+        self.history.add(time_ns / 1e9, value)
+
+    def clear(self) -> None:
+        """Forget all values."""
+        self.history = History(self.how[0])
+        self.problem = ""
+
+    def explanation(self, types: Mapping[str, str]) -> str:
+        """Why the curve has no new values, or what to know of them; a sentence or ""."""
+        if self._invalid:
+            return self._invalid
+        if self.topic not in types:
+            return f"No publisher on {self.topic}. Start the node that publishes it."
+        if self.problem:
+            return self.problem
+        if self.history.newest is None:
+            return "No message yet."
+        if not self.has_stamp and self.how[1] != "Received":
+            return "The messages have no header: the times are those of their arrival."
+        if self.history.late:
+            return f"{self.history.late} values were left out: their times go back."
+        return ""
