@@ -12,8 +12,14 @@ import pytest
 
 from webviz import Topic
 from webviz.api.declared import make
+from webviz.api.group import DisplayGroup
 from webviz.data.images import values as values_of
+from webviz.edges.page.content.visibility import hidden_in, names
+from webviz.engine.state import Row
+from webviz.files.rviz import switch_tree
+from webviz.files.rviz.values import Unfit
 from webviz.shell.testing.source import SECOND
+from webviz_displays.axes import Axes
 from webviz_displays.camera import Camera
 
 Benches = Callable[..., Any]
@@ -152,3 +158,39 @@ def test_an_image_that_is_decompressed_keeps_the_pose_of_its_stamp(bench: Benche
             seen.add((value, pane.sight.position[0]))
     assert seen <= {(1, 1.0), (2, 2.0)}
     assert (2, 2.0) in seen
+
+
+def test_displays_and_groups_are_left_out_by_their_names() -> None:
+    camera = Camera(visibility={"Robot": False, "Map > Axes": False, "Gone": False})
+    group, axes = DisplayGroup(name="Group"), Axes(name="Axes")
+    rows = (
+        Row("0", "Camera", camera, "Camera", {}),
+        Row("1", "Group", group, "Robot", {}),
+        Row("2", "Group", group, "Arm", {}, depth=1),
+        Row("3", "Axes", axes, "Axes", {}, depth=2),
+        Row("4", "Group", group, "Map", {}),
+        Row("5", "Axes", axes, "Axes", {}, depth=1),
+        Row("6", "Axes", axes, "Axes", {}),
+    )
+    assert hidden_in(rows, rows) == {"0": ["1", "2", "3", "5"]}
+    assert list(names(rows, rows[0])) == [
+        *("Robot", "Robot > Arm", "Robot > Arm > Axes", "Map", "Map > Axes", "Axes"),
+    ]
+
+
+def test_rviz_nests_the_switches_of_displays() -> None:
+    tree = {"Grid": True, "Robot": {"Arm": {"Axes": False, "Value": True}, "Value": False}}
+    switches = switch_tree.read({**tree, "Value": True})
+    assert switches == {
+        "Grid": True,
+        "Robot": False,
+        "Robot > Arm": True,
+        "Robot > Arm > Axes": False,
+    }
+    assert switch_tree.write(switches) == {**tree, "Value": True}
+    deep: dict[str, Any] = {}
+    for _ in range(70):
+        deep = {"Group": deep}
+    for wrong in (deep, "text", {"Grid": "perhaps"}, {"Robot": {"Arm": [1]}}):
+        with pytest.raises(Unfit):
+            switch_tree.read(wrong)
