@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
+import photos
 import PIL.Image
 import PIL.ImageSequence
 import psutil
@@ -87,6 +88,30 @@ def test_a_picture_of_a_bag(run, tmp_path):
     assert pixels.shape == (240, 320, 3)
     assert (pixels == (255, 0, 255)).all(axis=2).sum() > 20
     assert os.listdir(tmp_path) == ["a.png"]
+
+
+def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    bag = Bag()
+    bag.add("/camera/image_raw", photos.RAW)
+    for second in (0, 1, 2):
+        pixels = np.full((24, 36, 3), (80 * second, 10, 20), np.uint8)
+        bag.put(second, "/camera/image_raw", photos.raw(pixels, "rgb8"))
+    bag.add("/depth/compressedDepth", photos.COMPRESSED)
+    depths = np.full((24, 36), 1500, np.uint16)
+    depths[:, :18] = 500
+    bag.put(0, "/depth/compressedDepth", photos.compressed_depth(depths))
+    bag.write(tmp_path / "run")
+    arguments = ["screenshot", "--bag", "run", "-o", "a.png", "--image"]
+    assert cli([*arguments, "/camera/image_raw", "--at", "1"]) == 0
+    assert "1 picture of 36 x 24 pixels" in capsys.readouterr().out
+    with PIL.Image.open("a.png") as image:
+        assert np.abs(np.asarray(image, np.int16) - (80, 10, 20)).max() == 0
+    assert cli([*arguments, "/depth/compressedDepth"]) == 0
+    with PIL.Image.open("a.png") as image:
+        assert np.asarray(image)[0, [0, 35], 0].tolist() == [0, 255]
+    assert cli([*arguments, "/nothing"]) == 1
+    assert "No image to write." in capsys.readouterr().err
 
 
 def test_several_times_and_views_are_files_of_their_own(run, tmp_path, screenshot):
@@ -178,6 +203,7 @@ def test_a_mistake_is_one_sentence_and_status_1(
         (["-o", "a.png", "--bag", "x", "--to", "3"], "need --every"),
         (["-o", "a.png", "--bag", "x", "--fps", "3"], "--fps needs an animation"),
         (["-o", "a.png", "--timeout", "-1"], "Must be > 0."),
+        (["-o", "a.png", "--image", "/a", "-d", "x.yaml"], "--display-config has no effect with"),
         (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "`c` is not a number"),
     ],
 )

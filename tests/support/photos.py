@@ -34,6 +34,12 @@ def png16(pixels: NDArray[np.uint16]) -> dict[str, Any]:
     return {"format": "16UC1; png compressed ", "data": np.frombuffer(file.getvalue(), np.uint8)}
 
 
+def compressed_depth(millimetres: NDArray[np.uint16]) -> dict[str, Any]:
+    """A sensor_msgs/CompressedImage of depths by the transport compressedDepth."""
+    data = np.concatenate((np.zeros(12, np.uint8), png16(millimetres)["data"]))
+    return {"format": "16UC1; compressedDepth png", "data": data}
+
+
 def room(width: int = 160, height: int = 120) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """Colours, and depths in metres: floor, wall, and a red box."""
     rows, columns = np.mgrid[:height, :width].astype(np.float32)

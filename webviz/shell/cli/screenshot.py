@@ -54,7 +54,7 @@ def screenshot(*, options: ScreenshotOptions, ros: RosArgs) -> int:
 def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
     from webviz.engine.sources.bag import BagSource
     from webviz.engine.sources.bag_extras import map_of_file, static_transform
-    from webviz.shell.pictures.capture import SIZE, Order, opened
+    from webviz.shell.pictures.capture import SIZE, Order, image_alone, opened
 
     output: Path = options.output
     is_animation = options.is_animation
@@ -62,7 +62,7 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
     options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
-    config = options.read(options.display_config)
+    config = image_alone(options.image) if options.image else options.read(options.display_config)
     if options.fixed_frame:
         config.set_fixed_frame(options.fixed_frame)
     extras = [map_of_file(each) for each in options.map]
@@ -82,6 +82,7 @@ def _make(options: ScreenshotOptions, ros: Sequence[str]) -> int:
             transparent=options.transparent,
             wait_for=options.wait_for or None,
             timeout=options.timeout,
+            is_image=bool(options.image),
         )
         status = _write(options, order)
         if isinstance(source, BagSource):
@@ -128,7 +129,7 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
                 name = picture_files.numbered(path, picture.view, index, times)
                 picture_files.save(_image(picture), name)
                 written.append(name)
-    width, height = order.size
+    width, height = report.size
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
     number = "1 picture" if report.count == 1 else f"{report.count} pictures"
     print(f"webviz: wrote {names}, {number} of {width} x {height} pixels.")
@@ -140,6 +141,7 @@ class _Report:
 
     def __init__(self) -> None:
         self.count = 0
+        self.size = 0, 0
         self._bad = 0
         self._first: Picture | None = None
 
@@ -147,6 +149,8 @@ class _Report:
         """Pass pictures through and note those that are not OK."""
         for picture in pictures:
             self.count += 1
+            height, width = picture.pixels.shape[:2]
+            self.size = width, height
             if not picture.shown.is_ok:
                 self._bad += 1
                 self._first = self._first or picture

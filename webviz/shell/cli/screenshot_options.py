@@ -19,6 +19,7 @@ Examples:
   webviz screenshot -d lab.yaml --bag run.mcap --at 12.3 -o lab.png
   webviz screenshot -d lab.yaml --bag run --every 5 --contact-sheet -o run.png
   webviz screenshot -d lab.yaml --bag run --every 0.2 -o run.webp    animated
+  webviz screenshot --image /camera/image_raw --bag run --at 5 -o frame.png
   webviz screenshot -d a.rviz --bag run --map map.yaml --wait-for Map -o a.png
 
 Exit status:
@@ -75,6 +76,8 @@ class ScreenshotOptions(ConfigOptions):
     """Saved view of the config (repeatable; default: its start view)."""
     focus: Annotated[str, Parameter(metavar="FRAME", show_default=False)] = ""
     """Look at this frame, from the direction and distance of the view."""
+    image: Annotated[str, Parameter(metavar="TOPIC", show_default=False)] = ""
+    """Write the image of this topic alone, at its own size, instead of a config."""
     transparent: Flag = False
     """Make the background transparent (.png, .webp)."""
     contact_sheet: Flag = False
@@ -128,6 +131,18 @@ def check(options: ScreenshotOptions, **_: Any) -> None:
         ):
             if value not in (None, ()):
                 raise ValueError(f"--{flag} needs --bag.")
+    if options.image:
+        for flag, value in (
+            ("display-config", options.display_config),
+            ("view", options.view),
+            ("focus", options.focus),
+            ("size", options.size),
+            ("transparent", options.transparent),
+            ("contact-sheet", options.contact_sheet),
+            ("wait-for", options.wait_for),
+        ):
+            if value not in (None, (), "", False):
+                raise ValueError(f"--{flag} has no effect with --image. Leave one of them out.")
     if options.every is None and (options.first, options.last) != (None, None):
         raise ValueError("--from and --to need --every.")
     if options.fps is not None and not options.is_animation:

@@ -10,14 +10,17 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from webviz.api.declared import make
+from webviz.api.display import Display
 from webviz.api.errors import Error
+from webviz.api.registry import plugin_types
 from webviz.api.status import Status
 from webviz.api.views import View
 from webviz.engine import plugins
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
 from webviz.engine.sources.bag_extras import Extra
-from webviz.files.config import Config, nearest
+from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
 from webviz.shell.pictures.browser import Pixels, check_size, launched
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
@@ -76,7 +79,11 @@ class Capture:
 
 @dataclass(frozen=True)
 class Order:
-    """The pictures to make; see `capture`."""
+    """The pictures to make; see `capture`.
+
+    Args:
+        is_image: make pictures of the pane of the config's only display, at the size of its image.
+    """
 
     config: Config
     source: Source
@@ -88,6 +95,7 @@ class Order:
     transparent: bool = False
     wait_for: Sequence[str] | None = None
     timeout: float = TIMEOUT_S
+    is_image: bool = False
 
     def positions(self) -> Sequence[int | None]:
         """Times of recording in ns, sorted; None for now.
@@ -222,8 +230,19 @@ def pictures(order: Order, studio: Studio | None = None) -> Generator[Picture]:
             shown = viewer.wait(awaited, deadline)
             for name, view in looks:
                 studio.look(viewer.focused(view, order.focus) if order.focus else view)
-                pixels = studio.capture(order.transparent, viewer.hidden())
+                pixels = studio.image() if order.is_image else None
+                if pixels is None:
+                    if order.is_image:
+                        reasons = [status.text for status in shown.statuses.values()]
+                        raise Error(f"No image to write. {' '.join(reasons)}")
+                    pixels = studio.capture(order.transparent, viewer.hidden())
                 yield Picture(pixels, name, at_s, shown)
+
+
+def image_alone(topic: str) -> Config:
+    """A config that shows the images of a topic."""
+    display = make(plugin_types(Display)["Image"], {"name": topic, "topic": topic})
+    return Config(Settings(), [display])
 
 
 @contextlib.contextmanager

@@ -116,8 +116,10 @@ class OfflineViewer:
             self._viewer.turn()
             state = self._viewer.state()
             shown = Readiness(self._statuses(state), state.statuses, tuple(names))
+            is_bag = isinstance(self._source, BagSource)
             is_loading = any(LOADING in row.statuses for row in state.rows)
-            is_final = shown.is_ok or isinstance(self._source, BagSource)
+            is_loading |= is_bag and self._viewer.is_busy()  # such as with compressed depths
+            is_final = shown.is_ok or is_bag
             if (is_final and not is_loading) or time.monotonic() > deadline:
                 return shown
             self._source.inbox.arrived.wait(LOOK_S)

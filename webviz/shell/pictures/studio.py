@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+import numpy as np
 from PIL import Image
 
 from webviz.api import pictures
@@ -90,6 +91,13 @@ class Studio:
         """
         self.scene.acknowledge(PATIENCE_S)
         self.page.settle(PATIENCE_S)
+
+    def image(self) -> Pixels | None:
+        """The picture of a pane at its own size, uint8 (H, W, 3); None without a still one."""
+        for pane in self.scene.link.pictures.panes().values():
+            if isinstance(pane.picture, pictures.Pixels | pictures.Encoded):
+                return np.asarray(opened(pane.picture).convert("RGB"))
+        return None
 
     def capture(
         self, transparent: bool = False, hidden: Mapping[str, Sequence[str]] = MappingProxyType({})
