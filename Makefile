@@ -76,8 +76,8 @@ browser:
 	sudo=$$([ "$$(id -u)" = 0 ] || echo "sudo -n"); \
 	echo "Installing Chromium for the tests ..."; \
 	{ $$sudo apt-get update -qq && { \
-		$$sudo apt-get install -y -q --no-install-recommends chromium-headless-shell 2>/dev/null || \
-		$$sudo apt-get install -y -q chromium; }; } || { \
+		$$sudo apt-get install -y -q --no-install-recommends chromium-headless-shell fonts-liberation \
+			2>/dev/null || $$sudo apt-get install -y -q chromium fonts-liberation; }; } || { \
 		echo "The tests need Chromium or Chrome: apt install chromium." >&2; exit 1; }
 
 $(VENV)/ready: pyproject.toml setup.py

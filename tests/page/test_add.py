@@ -15,7 +15,7 @@ from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
 
-SCAN, IMU = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Imu"
+SCAN, BATTERY = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/BatteryState"
 MAP = "nav_msgs/msg/OccupancyGrid"
 
 
@@ -23,7 +23,12 @@ def offer(type_: str) -> Offer:
     return Offer((Publisher("/driver", type_, "reliable", "volatile"),))
 
 
-OFFERS = {"/back": offer(SCAN), "/front": offer(SCAN), "/imu": offer(IMU), "/map": offer(MAP)}
+OFFERS = {
+    "/back": offer(SCAN),
+    "/front": offer(SCAN),
+    "/map": offer(MAP),
+    "/battery": offer(BATTERY),
+}
 
 
 def commands(loop: Loop) -> list[tuple[str, object]]:
@@ -56,7 +61,7 @@ def test_enter_adds_the_best_match_and_closes(tab: Tab, dialog: playwright.Locat
 
 
 def test_each_type_has_a_line_of_help(dialog: playwright.Locator) -> None:
-    grid = dialog.get_by_role("option").filter(has_text="Grid").first
+    grid = dialog.get_by_role("option").filter(has_text="A grid of lines")
     playwright.expect(grid).to_contain_text("A grid of lines for judging distances.")
     assert grid.locator("img").evaluate("image => image.decode().then(() => image.naturalWidth)")
     dialog.press("Escape")
@@ -68,9 +73,9 @@ def test_topics_are_shown_with_rate_and_as_text_if_by_nothing_else(
     dialog.get_by_role("tab", name="By topic").click()
     front = dialog.get_by_role("option").filter(has_text="/front")
     playwright.expect(front).to_contain_text("40 Hz · 1 publisher")
-    imu = dialog.get_by_role("option").filter(has_text="/imu")
-    playwright.expect(imu).to_contain_text(f"Text · {IMU}")
-    playwright.expect(imu).to_be_enabled()
+    battery = dialog.get_by_role("option").filter(has_text="/battery")
+    playwright.expect(battery).to_contain_text(f"Text · {BATTERY}")
+    playwright.expect(battery).to_be_enabled()
     dialog.press("Escape")
 
 
@@ -80,7 +85,7 @@ def test_topics_that_are_shown_already_come_after_those_that_are_not(
     tab.loop.show(make_row("a", topic=Topic("back")))
     dialog.get_by_role("tab", name="By topic").click()
     titles = dialog.locator(".wv-pick-title")
-    tab.wait_for(lambda: titles.all_inner_texts() == ["/front", "/map", "/back", "/imu"])
+    tab.wait_for(lambda: titles.all_inner_texts() == ["/front", "/map", "/back", "/battery"])
     assert [text for text in dialog.get_by_role("option").all_inner_texts() if "shown" in text] == [
         dialog.get_by_role("option").filter(has_text="/back").inner_text()
     ]

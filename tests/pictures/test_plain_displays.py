@@ -213,7 +213,7 @@ CASES = [
     ),
     Case("occupancy_map", OccupancyMap(), (binary(room()),)),
     Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
-    Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (21, 21), 0.1, (5, 9)),)),
+    Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
     Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
     Case("costmap", Costmap(), (inflated(),)),
     Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),

@@ -212,6 +212,7 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
         "menus/feedback",
         # Displays and panels that pages may add.
         "/*/feedback",
+        "/joint_states",
         *(f"/arm/{name}" for name in panel),
         *(f"/{name}" for name in panel),
     }
