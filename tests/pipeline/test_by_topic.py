@@ -24,6 +24,10 @@ class Outline(Display):
     source: Annotated[Topic, Input(GRID)] = Topic()
 
 
+class Robot(Display):
+    urdf: Annotated[Topic, Input("std_msgs/msg/String", offered_for="description")] = Topic()
+
+
 class Handles(Display):
     of: str = ""
     offered_for = Namespace("of", "a/msg/Update", "/update")
@@ -56,6 +60,15 @@ def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
     assert [(pick.topic, pick.display) for pick in found if pick.display == "Text"] == [
         ("/chatter", "Text"),
         ("/map_updates", "Text"),
+    ]
+
+
+def test_a_display_of_topics_of_one_name_leaves_the_others_to_those_of_any_type() -> None:
+    topics = dict.fromkeys(("/arm/robot_description", "/chatter"), ("std_msgs/msg/String",))
+    found = picks(topics, {"Robot": Robot, "Text": Text})
+    assert [(pick.topic, pick.display, pick.input) for pick in found] == [
+        ("/arm/robot_description", "Robot", "urdf"),
+        ("/chatter", "Text", "topic"),
     ]
 
 

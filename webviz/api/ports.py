@@ -29,6 +29,8 @@ class Input:
             `Sample.type` names the type.
         is_plain: .rviz files have the name only, without QoS.
         is_offered: whether the display can be added for a topic of this type.
+        offered_for: ending of the names of the topics that it can be added for, such as
+            "robot_description"; "" for all.
     """
 
     type: str
@@ -41,6 +43,7 @@ class Input:
     also: tuple[str, ...] = ()
     is_plain: bool = False
     is_offered: bool = True
+    offered_for: str = ""
 
     @property
     def follows(self) -> bool:

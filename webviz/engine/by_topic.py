@@ -49,7 +49,7 @@ def picks(
         topics: message types by topic.
         displays: display classes by name.
     """
-    takers: dict[str, list[tuple[str, str]]] = {}
+    takers: dict[str, list[tuple[str, str, str]]] = {}
     endings: dict[str, list[tuple[str, Namespace]]] = {}
     for name, cls in displays.items():
         if (known := cls.offered_for) is not None:
@@ -58,16 +58,23 @@ def picks(
             # What comes beside another topic, such as updates of a map, is not shown by itself.
             if spec.is_offered and not spec.follows:
                 for type_ in spec.types:
-                    takers.setdefault(type_, []).append((name, input))
+                    takers.setdefault(type_, []).append((name, input, spec.offered_for))
+
+    def from_inputs(topic: str, message: str, type_: str) -> list[Pick]:
+        return [
+            Pick(topic, name, input, message)
+            for name, input, ending in takers.get(type_, ())
+            if topic.endswith(ending)
+        ]
 
     def fitting(topic: str, message: str) -> list[Pick]:
-        of_type = [Pick(topic, *taker, message) for taker in takers.get(message, ())]
+        of_type = from_inputs(topic, message, message)
         of_name = [
             Pick(topic, name, known.input, message, topic.removesuffix(known.ending))
             for name, known in endings.get(message, ())
             if topic.endswith(known.ending) and topic != known.ending
         ]
-        return of_type + of_name or [Pick(topic, *taker, message) for taker in takers.get(ANY, ())]
+        return of_type + of_name or from_inputs(topic, message, ANY)
 
     live = ((topic, message) for topic, messages in topics.items() for message in messages)
     return sorted(pick for topic, message in live for pick in fitting(topic, message))
