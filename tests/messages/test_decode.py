@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.data.messages import decode, message_class, peek_header
+from webviz.data.messages import decode, encode, message_class, peek_header
 from webviz.data.messages.classes import WRITTEN, attribute
 from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.typestore import constants, fields
@@ -34,6 +34,7 @@ BUSY_TYPES = [
     "sensor_msgs/msg/PointCloud2",
     "std_msgs/msg/String",
     "tf2_msgs/msg/TFMessage",
+    "trajectory_msgs/msg/JointTrajectory",
     "visualization_msgs/msg/MarkerArray",
 ]
 SEEDS = st.integers(0, 2**32 - 1)
@@ -155,6 +156,43 @@ def test_poses_of_different_frames_keep_theirs(frame_ids, rosbags_store, plain):
     poses = decode("nav_msgs/msg/Path", cdr).poses
     assert poses.frame_ids == frame_ids
     assert plain(poses) == plain(path.poses)
+
+
+@pytest.mark.parametrize("little_endian", [True, False], ids=["little", "big"])
+@pytest.mark.parametrize("names", [[], ["a"], ["a", "bcdefgh"]])
+@pytest.mark.parametrize(
+    "lengths",
+    [
+        [(0, 0, 0, 0)] * 3,
+        [(2, 0, 0, 0)] * 3,
+        [(0, 1, 0, 3)] * 3,
+        [(2, 2, 2, 2)] * 1000,
+        [(2, 0, 0, 0), *[(2, 2, 2, 0)] * 3],
+        [*[(2, 2, 2, 0)] * 3, (2, 0, 0, 0)],
+    ],
+)
+def test_points_of_a_trajectory_are_decoded_as_rosbags_decodes_them(
+    lengths, names, little_endian, rosbags_store, plain
+):
+    kinds = {name.rpartition("/")[2]: kind for name, kind in rosbags_store.types.items()}
+    points = [
+        kinds["JointTrajectoryPoint"](
+            *(number + np.arange(length) / 8 for length in each),
+            kinds["Duration"](number - 1, 10**9 - 1),
+        )
+        for number, each in enumerate(lengths)
+    ]
+    name = "trajectory_msgs/msg/JointTrajectory"
+    header = kinds["Header"](kinds["Time"](1, 2), "map")
+    trajectory = kinds["JointTrajectory"](header, names, points)
+    cdr = bytes(rosbags_store.serialize_cdr(trajectory, name, little_endian=little_endian))
+    decoded = decode(name, cdr).points
+    assert plain(decoded) == plain(points)
+    assert not decoded.numbers.flags.writeable
+    numbers, rows = decoded.positions(2, 2)
+    assert numbers.tolist() == [index for index in range(2) if lengths[index][0] == 2]
+    assert rows.tolist() == [points[index].positions.tolist() for index in numbers]
+    assert encode(name, decode(name, cdr)) == bytes(rosbags_store.serialize_cdr(trajectory, name))
 
 
 def _path(store, frame_ids):

@@ -24,6 +24,7 @@ TYPES = [
     "sensor_msgs/msg/PointCloud2",
     "std_msgs/msg/String",
     "tf2_msgs/msg/TFMessage",
+    "trajectory_msgs/msg/JointTrajectory",
     "visualization_msgs/msg/MarkerArray",
 ]
 SEEDS = st.integers(0, 2**32 - 1)
@@ -88,6 +89,7 @@ def test_padding_behind_a_message_is_ignored(type_name, rosbags_store, random_me
         ("sensor_msgs/msg/LaserScan", 44),
         ("std_msgs/msg/String", 0),
         ("tf2_msgs/msg/TFMessage", 0),
+        ("trajectory_msgs/msg/JointTrajectory", 20),
         ("visualization_msgs/msg/MarkerArray", 0),
     ],
 )

@@ -64,7 +64,8 @@ def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
 
 
 def test_a_display_of_topics_of_one_name_leaves_the_others_to_those_of_any_type() -> None:
-    topics = dict.fromkeys(("/arm/robot_description", "/chatter"), ("std_msgs/msg/String",))
+    text = ("std_msgs/msg/String",)
+    topics = {"/arm/robot_description": text, "/chatter": text}
     found = picks(topics, {"Robot": Robot, "Text": Text})
     assert [(pick.topic, pick.display, pick.input) for pick in found] == [
         ("/arm/robot_description", "Robot", "urdf"),

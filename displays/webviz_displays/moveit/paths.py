@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Pose
+from webviz.data.messages import JointTrajectoryPointSequence
 from webviz.data.words import counted
 from webviz_displays.moveit.joints import Joints, Poser, joints_of, poses_of
 from webviz_displays.moveit.scene import Attached, Scene, updated_state
@@ -106,11 +107,12 @@ class _Builder:
         begin = self.times[-1] if self.times else 0.0
         before = begin if self.times else None
         rows = self._rows(single.points, len(columns))
+        times = single.points.times_ns[:MOST_POINTS].tolist()
         for index in range(count):
             if len(self.times) >= MOST_POINTS:
                 self.faults.append(f"Only the first {MOST_POINTS} points are kept.")
                 return
-            row = rows[index] if index < len(rows) else None
+            row = rows.get(index)
             if row is not None and known:
                 self._values = self._values.copy()
                 self._values[targets] = row[known]
@@ -119,20 +121,21 @@ class _Builder:
                 poses, fault = poses_of(several.joint_names, transforms)
                 self._poses = {**self._poses, **poses}
                 self.faults += [fault] if fault else []
-            points = single.points if index < len(single.points) else several.points
-            time_s = begin + points[index].time_from_start.ns / 1e9
+            is_single = index < len(times)
+            time_ns = times[index] if is_single else several.points[index].time_from_start.ns
+            time_s = begin + time_ns / 1e9
             before = time_s if before is None else max(before, time_s)
             self.times.append(before)
             self.values.append(self._values)
             self.poses.append(self._poses)
 
-    def _rows(self, points: Sequence[Any], width: int) -> list[F64 | None]:
-        """The positions of each point, None if they are invalid."""
-        rows = [point.positions for point in points[:MOST_POINTS]]
-        valid = [len(row) == width and bool((np.abs(row) < FARTHEST).all()) for row in rows]
-        if wrong := valid.count(False):
+    def _rows(self, points: JointTrajectoryPointSequence, width: int) -> dict[int, F64]:
+        """The positions of each point that has valid ones."""
+        numbers, rows = points.positions(width, MOST_POINTS)
+        valid = (np.abs(rows) < FARTHEST).all(axis=1)
+        if wrong := min(len(points), MOST_POINTS) - int(valid.sum()):
             self.faults.append(
                 f"{counted(wrong, 'point')} without a valid position for each joint. "
                 "Fix the publisher."
             )
-        return [row if is_valid else None for row, is_valid in zip(rows, valid, strict=True)]
+        return dict(zip(numbers[valid].tolist(), rows[valid], strict=True))

@@ -53,9 +53,7 @@ class RobotModel(Display):
 
     description_topic: Annotated[
         Topic,
-        Input(
-            "std_msgs/msg/String", latched=True, optional=True, offered_for="robot_description"
-        ),
+        Input("std_msgs/msg/String", latched=True, optional=True, offered_for="robot_description"),
         Prop(when=("description_source", "Topic"), help="Topic of the robot's URDF."),
     ] = Topic("/robot_description")
     description_source: Annotated[

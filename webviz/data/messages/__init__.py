@@ -45,6 +45,7 @@ from webviz.data.messages.markers import (
     MarkerSequence,
     MeshFile,
 )
+from webviz.data.messages.trajectories import JointTrajectoryPoint, JointTrajectoryPointSequence
 from webviz.data.messages.tree import to_tree
 from webviz.data.messages.types import (
     Clock,
@@ -72,6 +73,8 @@ __all__ = [
     "FrameTransform",
     "Header",
     "JointState",
+    "JointTrajectoryPoint",
+    "JointTrajectoryPointSequence",
     "LaserScan",
     "MapMetaData",
     "Marker",

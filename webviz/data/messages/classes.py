@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from webviz.data.messages import geometry, markers, types
+from webviz.data.messages import geometry, markers, trajectories, types
 from webviz.data.messages.geometry import zeros
 from webviz.data.messages.typestore import Field, constants, fields, full_name
 
@@ -54,6 +54,7 @@ WRITTEN: dict[str, type] = {
         (types, "std_msgs", "String"),
         (markers, "sensor_msgs", "CompressedImage"),
         (markers, "std_msgs", "ColorRGBA"),
+        (trajectories, "trajectory_msgs", "JointTrajectoryPoint"),
         (markers, "visualization_msgs", "Marker MarkerArray MeshFile"),
     )
     for name in names.split()
@@ -76,6 +77,7 @@ VECTORS = {
 SEQUENCES: dict[str, Callable[[], Any]] = {
     "geometry_msgs/msg/Pose": geometry.PoseSequence,
     "geometry_msgs/msg/PoseStamped": geometry.PoseStampedSequence,
+    "trajectory_msgs/msg/JointTrajectoryPoint": trajectories.JointTrajectoryPointSequence,
     "visualization_msgs/msg/Marker": lambda: markers.MarkerSequence.of(()),
 }
 """Messages whose sequences have a class of their own."""

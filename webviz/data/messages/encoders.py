@@ -18,12 +18,20 @@ from webviz.data.messages.geometry import (
     PoseSequence,
     PoseStampedSequence,
 )
+from webviz.data.messages.trajectories import JointTrajectoryPointSequence
 from webviz.data.messages.typestore import Field, fields, full_name
 
 Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
 
 _ABSENT = object()
+_SEQUENCES = (
+    Sequence,
+    np.ndarray,
+    PoseSequence,
+    PoseStampedSequence,
+    JointTrajectoryPointSequence,
+)
 _COUNT = Struct("<I").pack
 
 
@@ -188,7 +196,7 @@ def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
         if isinstance(value, np.ndarray) and many:
             many(out, value)
             return
-        is_several = isinstance(value, Sequence | np.ndarray | PoseSequence | PoseStampedSequence)
+        is_several = isinstance(value, _SEQUENCES)
         if not is_several or isinstance(value, str | bytes):
             raise _expected(f"a sequence of {field.base}", value)
         _count(out, field, len(value))

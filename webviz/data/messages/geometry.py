@@ -7,6 +7,7 @@ Sequences that ROS users iterate slowly are arrays here:
 
 - `Pose[]` is a `PoseSequence`, `PoseStamped[]` a `PoseStampedSequence`; both can be indexed and
   iterated like a list, and hold their numbers as (N, 3) positions and (N, 4) orientations;
+- `trajectory_msgs/JointTrajectoryPoint[]` is a `JointTrajectoryPointSequence` of the same kind;
 - `TransformStamped[]` is a list of `FrameTransform`, as a transform buffer takes;
 - `Point[]`, `Point32[]` and `Vector3[]` are (N, 3), `Quaternion[]` and `ColorRGBA[]` (N, 4) arrays;
 - `nav2_msgs/Particle[]` is an (N, 8) array: position, orientation, weight.

@@ -1,4 +1,7 @@
-"""Decoders of the sequences that dominate a robot's traffic: transforms, poses and markers."""
+"""Decoders of the sequences that dominate a robot's traffic: transforms and poses.
+
+Those of markers and trajectories have modules of their own.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +18,7 @@ from webviz.data.messages.geometry import (
     PoseStampedSequence,
 )
 from webviz.data.messages.marker_reader import read_markers
+from webviz.data.messages.trajectories import read_trajectory_points
 
 _FLOAT64 = np.dtype(np.float64)
 _POSE_SIZE = 7 * 8
@@ -147,6 +151,7 @@ SEQUENCE_READERS: dict[str, Callable[[Reader], object]] = {
     "geometry_msgs/msg/TransformStamped": read_transforms,
     "geometry_msgs/msg/Pose": read_poses,
     "geometry_msgs/msg/PoseStamped": read_stamped_poses,
+    "trajectory_msgs/msg/JointTrajectoryPoint": read_trajectory_points,
     "visualization_msgs/msg/Marker": read_markers,
 }
 """By the type of their elements."""
