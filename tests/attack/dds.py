@@ -44,7 +44,7 @@ def topics() -> dict[str, str]:
         for name, input_ in inputs_of(class_).items():
             topic = getattr(getattr(display, name, None), "name", "")
             if topic and input_.type:
-                found[topic] = input_.type
+                found[f"/{topic.lstrip('/')}"] = input_.type
     return found
 
 

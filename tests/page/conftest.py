@@ -217,6 +217,7 @@ def tidy(lasting: Tab) -> Tab:
     """The tab as it was at first, whatever another module has done to it."""
     page = lasting.page
     page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    page.mouse.up()
     page.mouse.move(WIDTH - 1, HEIGHT - 1)
     page.keyboard.press("Escape")
     lasting.show_tab("Displays")

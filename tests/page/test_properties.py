@@ -427,7 +427,7 @@ def options(tab: Tab) -> Iterator[Pane]:
       window.ended = (await {module}).globalOptions(bench);
     }}""")
     pane = Pane(tab)
-    tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate"])
+    tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate", "Robots"])
     yield pane
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 

@@ -139,6 +139,14 @@ def server() -> Iterator[Server]:
     server.stop()
 
 
+@pytest.fixture(scope="module")
+def lasting(server: Server, browser: playwright.Browser) -> Iterator[Tab]:
+    """A tab of that server."""
+    tab = Tab(open_page(browser), server, Loop(server))
+    yield tab
+    tab.page.context.close()
+
+
 @pytest.fixture
 def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
     """Opens tabs in which no time passes."""
