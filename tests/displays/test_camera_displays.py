@@ -78,7 +78,7 @@ def test_a_camera_that_cannot_be_right_is_named(
 
 
 def cloud(bench: Benches, **values: Any) -> Any:
-    at = bench(DepthCloud(topic=Topic(DEPTH), **values))
+    at = bench(DepthCloud(topic=Topic(DEPTH), **{"auto_size": False, **values}))
     at.transform("map", "camera", (1.0, 0.0, 0.0), FACING_X)
     return at
 
@@ -162,3 +162,70 @@ def test_what_is_no_depth_image_is_named(
     at.turn()
     at.settle()
     assert told in at.statuses()["Points"][1]
+
+
+def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
+    at = cloud(bench, auto_size=True, auto_size_factor=2.0)
+    depths = np.full((12, 16), 1.0, np.float32)
+    depths[0, 0] = 8.0
+    send_info(at, INFO)
+    send_depth(at, depths)
+    at.turn()
+    at.settle()
+    # The focal length is 16 px, hence 2/16 m at 1 m.
+    near, far = sorted(at.nodes().values(), key=lambda node: node.size)
+    assert (len(near.xyz), len(far.xyz)) == (191, 1)
+    assert 2 / 16 <= near.size <= 1.3 * 2 / 16
+    # Beyond six steps of 1.3 all have the size of the last.
+    assert far.size == pytest.approx(near.size * 1.3**6)
+    at.set("style", "Boxes")
+    np.testing.assert_allclose(at.nodes()["solids"].scales[:2, 0], (8 * 2 / 16, 2 / 16))
+
+
+def hiding(bench: Benches, **values: Any) -> Any:
+    """A wall 4 m ahead, then something 2 m ahead of one of its pixels."""
+    at = cloud(bench, occlusion_compensation=True, color_topic=Topic(COLOR), **values)
+    send_info(at, INFO)
+    depths = np.full((12, 16), 4.0, np.float32)
+    for value in (200, 100):
+        colors = np.full_like(COLORS, value)
+        at.send(photos.RAW, photos.raw(colors, "rgb8"), frame="camera", topic=COLOR)
+        send_depth(at, depths)
+        depths[3, 10], depths[0, 0] = 2.0, 4.005
+        at.turn(1.0)
+        at.settle()
+    return at
+
+
+def test_points_hidden_by_nearer_ones_stay_at_half_their_brightness(bench: Benches) -> None:
+    at = hiding(bench)
+    points = at.nodes()["points"]
+    assert at.statuses()["Points"] == ("OK", "192 points of 192 pixels, and 1 hidden behind them.")
+    assert at.xyz("points")[-1] == pytest.approx((5.0, -0.625, 0.625))
+    assert points.colors[-1].tolist() == [100, 100, 100]
+    assert (points.colors[:-1] == 100).all()
+    assert points.ids[-1] == points.ids[3 * 16 + 10] == 3 * 16 + 10
+    # A pixel without a depth hides what was there as well.
+    at.send(photos.RAW, photos.raw(COLORS, "rgb8"), frame="camera", topic=COLOR)
+    send_depth(at, np.full((12, 16), np.nan, np.float32))
+    at.turn(1.0)
+    at.settle()
+    assert len(at.xyz("points")) == 192
+
+
+@pytest.mark.parametrize(("moved", "left"), [(0.009, 193), (0.011, 192)])
+def test_hidden_points_go_when_the_camera_moves(bench: Benches, moved: float, left: int) -> None:
+    at = hiding(bench)
+    at.transform("map", "camera", (1.0 + moved, 0.0, 0.0), FACING_X)
+    near = np.full((12, 16), 4.0, np.float32)
+    near[3, 10] = 1.0
+    at.send(photos.RAW, photos.raw(COLORS, "rgb8"), frame="camera", topic=COLOR)
+    send_depth(at, near)
+    at.turn(0.1)
+    at.settle()
+    assert len(at.xyz("points")) == left
+
+
+def test_hidden_points_go_after_the_time_out(bench: Benches) -> None:
+    at = hiding(bench, occlusion_time_out=0.5)
+    assert len(at.xyz("points")) == 192

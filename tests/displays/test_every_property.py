@@ -137,7 +137,7 @@ def depth_clouds(bench: Any) -> None:
     colors, depths = photos.room(16, 12)
     for topic in ("/camera/depth/camera_info", "/info"):
         bench.send(photos.INFO, photos.info(16, 12), frame="camera", topic=topic)
-    for scale in (0.5, 1.0):
+    for scale in (2.0, 1.0):  # the second hides the first
         values, topic = photos.raw(scale * depths, "32FC1"), "/camera/depth/image_rect_raw"
         bench.send(photos.RAW, values, frame="camera", topic=topic)
         bench.send(photos.RAW, photos.raw(colors, "rgb8"), frame="camera", topic="/color")
@@ -270,6 +270,7 @@ ANIMATED = ("interrupt_display", "loop_animation", "state_display_time", "use_si
 # What these say, as decay_time and history_length do, shows with what comes next, not with what is
 # drawn already.
 OF_THE_FUTURE = {
+    ("DepthCloud", "occlusion_compensation"),
     ("Camera", "median_window"),
     ("Image", "median_window"),
     ("OccupancyMap", "max_octree_depth"),
@@ -289,7 +290,10 @@ OF_THE_FUTURE = {
 
 # What the page does with the scene that a display draws (tests/page/test_images.py), and a choice
 # that depends on the name of the topic (tests/displays/test_camera.py).
-ELSEWHERE = {("Camera", "visibility"), ("Camera", "undistort")}
+ELSEWHERE = {
+    *(("Camera", "visibility"), ("Camera", "undistort")),
+    ("DepthCloud", "occlusion_time_out"),
+}
 
 # Entries of properties that hold settings by name: each differs from none in one setting.
 ENTRIES: dict[type, list[Any]] = {

@@ -519,3 +519,15 @@ def test_the_displays_of_maps_have_rvizs_names_and_report_nothing() -> None:
         "box_properties": {"x_scale": 2.0},
     }
     assert values["Compass"] == {"topic": "", "is_2d": False, "scale": 2.0}
+
+
+def test_switches_of_a_depth_cloud_have_their_values_below_them() -> None:
+    cloud = one(
+        """
+        Auto Size: {Auto Size Factor: 2.5, Value: true}
+        Occlusion Compensation: {Occlusion Time-Out: 12, Value: true}
+        """,
+        "DepthCloud",
+    )
+    assert (cloud.auto_size, cloud.auto_size_factor) == (True, 2.5)
+    assert (cloud.occlusion_compensation, cloud.occlusion_time_out) == (True, 12.0)

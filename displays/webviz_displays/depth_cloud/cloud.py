@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,9 +12,14 @@ from numpy.typing import NDArray
 from webviz.api.pictures import Encoded
 from webviz.api.stills import opened
 from webviz.data.images import CameraModel, ImageError, RawImage, Tone, to_rgb, values
+from webviz_displays.depth_cloud.hidden import Background
 from webviz_displays.image.transports import Job
 
 NEAREST_M, FARTHEST_M = 1e-6, 1e6
+
+U8 = NDArray[np.uint8]
+Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], Background]
+"""What an image hides, of its depths, which of them are valid, and its colours."""
 
 
 class DepthPoints(NamedTuple):
@@ -24,14 +30,16 @@ class DepthPoints(NamedTuple):
         colors: uint8 (N, 3), None without a colour image.
         ids: (N,), index of the pixel of each in its image.
         pixels: number of pixels of the depth image.
-        spacing: distance of neighbouring points at the median depth, metres.
+        hidden: number of the last points, which others hide from the camera.
+        spacing: distance of neighbouring points 1 m ahead, metres.
         remark: why colours or sizes do not fit, "" if they do.
     """
 
     xyz: NDArray[np.float32]
-    colors: NDArray[np.uint8] | None
+    colors: U8 | None
     ids: NDArray[np.intp]
     pixels: int
+    hidden: int
     spacing: float
     remark: str
 
@@ -41,8 +49,11 @@ def depth_points(
     color: RawImage | Encoded | Job | None,
     model: CameraModel,
     most: int,
+    behind: Behind | None = None,
 ) -> DepthPoints:
     """The points of a depth image, evenly thinned out to `most` at most; 0 is all.
+
+    With `behind` the points that they hide follow, up to as many again.
 
     Raises:
         ImageError: it is not a depth image, or of another size than the camera info.
@@ -64,21 +75,32 @@ def depth_points(
         depths *= np.float32(0.001)
     with np.errstate(invalid="ignore"):
         is_valid = (depths > NEAREST_M) & (depths < FARTHEST_M)
-    xyz = model.points(depths, step)[is_valid]
-    rows, columns = np.nonzero(is_valid)
-    ids = rows * step * image.width + columns * step
-    middle = float(np.median(depths[is_valid])) if len(xyz) else 0.0
-    colors, remark = _colors(color, image, step, is_valid)
-    return DepthPoints(xyz, colors, ids, count, step * middle / model.fx, remark)
+    grid, remark = _colors(color, image, step)
+    layers = [(depths, is_valid, grid)]
+    if behind is not None:
+        hidden = behind(depths, is_valid, grid)
+        layers.append((hidden.depths, hidden.is_hidden, hidden.colors))
+    xyz = np.concatenate([model.points(z, step)[chosen] for z, chosen, _ in layers])
+    colors = [each[chosen] for _, chosen, each in layers if each is not None]
+    ids = [np.flatnonzero(chosen) for _, chosen, _ in layers]
+    rows, columns = np.divmod(np.concatenate(ids), depths.shape[1])
+    return DepthPoints(
+        xyz,
+        np.concatenate(colors) if colors else None,
+        rows * step * image.width + columns * step,
+        count,
+        len(xyz) - len(ids[0]),
+        step / model.fx,
+        remark,
+    )
 
 
 def _colors(
     color: RawImage | Encoded | Job | None,
     depth: RawImage,
     step: int,
-    is_valid: NDArray[np.bool_],
-) -> tuple[NDArray[np.uint8] | None, str]:
-    """Colours of the valid pixels, and why there are none."""
+) -> tuple[U8 | None, str]:
+    """Colours (H, W, 3) of every `step`-th pixel, and why there are none."""
     if color is None:
         return None, ""
     try:
@@ -98,4 +120,4 @@ def _colors(
     thinned = pixels[::step, ::step]
     if thinned.ndim == 2:
         thinned = np.repeat(thinned[..., None], 3, axis=2)
-    return np.ascontiguousarray(thinned[is_valid]), ""
+    return thinned, ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
@@ -13,6 +14,7 @@ from webviz import Context, Group, Input, Pose, Prop, Rgb, Sample, Sync, Topic
 from webviz.data.images import CameraModel, ImageError, optical_problem
 from webviz.data.words import counted
 from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
+from webviz_displays.depth_cloud.hidden import Hidden
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
 from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
@@ -26,11 +28,13 @@ class _State:
 
     Args:
         newest: computes the points of images.
+        hidden: what the points of earlier images hide; only used by the work for `newest`.
         clouds: points by the number of their image.
         poses: of these images in the fixed frame, as far as they were known last.
     """
 
     newest: Newest[tuple[int, DepthPoints]] = field(default_factory=Newest[tuple[int, DepthPoints]])
+    hidden: Hidden = field(default_factory=Hidden)
     clouds: dict[int, DepthPoints] = field(default_factory=dict)
     poses: dict[int, Pose] = field(default_factory=dict)
 
@@ -68,7 +72,7 @@ class DepthCloud(PointsDisplay):
         Prop(when=BY_INTENSITY, help="Coordinate in the optical frame; z is the depth."),
     ] = "z"
     auto_size: Annotated[
-        bool, Prop(help="Make points as large as the distance of neighbours, at the median depth.")
+        bool, Prop(help="Make each point as large as the distance of neighbours at its depth.")
     ] = True
     size: Annotated[
         float,
@@ -81,8 +85,31 @@ class DepthCloud(PointsDisplay):
         ),
     ] = 0.01
     auto_size_factor: Annotated[
-        float, Prop(gt=0, when=("auto_size", True), help="Times that distance.")
+        float,
+        Prop(
+            gt=0,
+            rviz="Auto Size/Auto Size Factor",
+            when=("auto_size", True),
+            help="Times that distance.",
+        ),
     ] = 1.0
+    occlusion_compensation: Annotated[
+        bool,
+        Prop(
+            help="Keep points that something nearer hides from the camera, at half their "
+            "brightness, until the camera moves by 1 cm or turns by half a degree."
+        ),
+    ] = False
+    occlusion_time_out: Annotated[
+        float,
+        Prop(
+            ge=0,
+            unit="s",
+            rviz="Occlusion Compensation/Occlusion Time-Out",
+            when=("occlusion_compensation", True),
+            help="How long to keep them.",
+        ),
+    ] = 30.0
     max_points: Annotated[
         int,
         Prop(ge=0, help="Limit of points shown, evenly sampled; 0 shows all."),
@@ -140,9 +167,20 @@ class DepthCloud(PointsDisplay):
         number, most = sample.number, self.max_points
         depth = transports.read(sample)
         color = transports.read(colored) if colored else None
+        behind, time_out = None, self.occlusion_time_out
+        if self.occlusion_compensation:
+            behind = partial(
+                ctx.state.hidden.behind,
+                model=model,
+                pose=sample.pose,
+                now_ns=sample.received_ns,
+                time_out=time_out,
+            )
+        else:
+            ctx.state.hidden = Hidden()
         return ctx.state.newest.of(
-            (number, most, model, colored and colored.number),
-            lambda: (number, depth_points(depth, color, model, most)),
+            (number, most, model, colored and colored.number, behind and time_out),
+            lambda: (number, depth_points(depth, color, model, most, behind)),
             ctx,
         )
 
@@ -163,9 +201,12 @@ class DepthCloud(PointsDisplay):
         if self.alpha == 0:
             return
         colors = self._colors(points, pose, ctx)
-        size = self.size
-        if self.auto_size and points.spacing > 0:
-            size = self.auto_size_factor * points.spacing
+        if points.hidden:
+            colors = np.array(np.broadcast_to(np.asarray(colors, np.uint8), points.xyz.shape))
+            colors[-points.hidden :] //= 2
+        size = None
+        if self.auto_size:
+            size = self.auto_size_factor * points.spacing * points.xyz[:, 2]
         self.draw_points(points.xyz, colors, group, ctx, ids=points.ids, size=size)
 
     def _colors(self, points: DepthPoints, pose: Pose, ctx: Context) -> U8 | Rgb:
@@ -182,12 +223,13 @@ class DepthCloud(PointsDisplay):
     def _report(self, points: DepthPoints, frame: str, ctx: Context) -> None:
         if self.alpha == 0:
             ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.")
-        elif not len(points.xyz):
+        elif len(points.xyz) == points.hidden:
             ctx.warn("Points", "No pixel has a depth. Check the camera.")
         elif points.remark:
             ctx.warn("Points", points.remark)
         elif problem := optical_problem(frame):
             ctx.warn("Points", problem)
         else:
-            count = counted(len(points.xyz), "point")
-            ctx.ok("Points", f"{count} of {points.pixels} pixels.")
+            count = counted(len(points.xyz) - points.hidden, "point")
+            behind = f", and {points.hidden} hidden behind them" if points.hidden else ""
+            ctx.ok("Points", f"{count} of {points.pixels} pixels{behind}.")

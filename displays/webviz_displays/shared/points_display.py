@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
 from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, ramp
 from webviz_displays.shared.geometry import coordinate
+from webviz_displays.shared.point_sizes import by_size
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
@@ -93,7 +94,7 @@ class PointStyle(Display):
         ctx: Context,
         box_wxyz: ArrayLike | None = None,
         ids: NDArray[Any] | None = None,
-        size: float | None = None,
+        size: float | NDArray[np.floating] | None = None,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -105,7 +106,8 @@ class PointStyle(Display):
             box_wxyz: quaternion (4,) that turns boxes in the coordinates of the group; None leaves
                 their sides along its axes.
             ids: (N,), index of each in the message; None if all are drawn.
-            size: edge or diameter in metres; None is the property.
+            size: edge or diameter in metres, of all or (N,); None is the property. Flat styles of
+                many points get it roughly.
         """
         size = self.size if size is None else size
         too_many = len(xyz) > SOLIDS_LIMIT
@@ -114,7 +116,8 @@ class PointStyle(Display):
             shape = _SOLIDS[self.style]
             # As in RViz the sides of boxes differ, and spheres are little darker at the rim.
             is_data = shape == "sphere"
-            group.instances("solids", shape, xyz, size, colors, wxyzs, self.alpha, is_data, ids)
+            scales = size[:, None] if isinstance(size, np.ndarray) else size
+            group.instances("solids", shape, xyz, scales, colors, wxyzs, self.alpha, is_data, ids)
             return
         if isinstance(colors, tuple):
             colors = faded_color(colors, self.alpha)
@@ -135,7 +138,13 @@ class PointStyle(Display):
             )
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
-        group.points("points", xyz, colors, size, outline, ids)
+        if not isinstance(size, np.ndarray):
+            group.points("points", xyz, colors, size, outline, ids)
+            return
+        for name, rows, one in by_size(size):
+            chosen = colors if isinstance(colors, tuple) else colors[rows]
+            own = rows if ids is None else ids[rows]
+            group.points(f"points {name}", xyz[rows], chosen, one, outline, own)
 
 
 InvertRainbow = Annotated[
