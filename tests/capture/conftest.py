@@ -83,7 +83,8 @@ def screenshot(
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
 
     def screenshot(*arguments: str) -> Ended:
-        status = cli(["screenshot", "-d", str(CONFIG), *arguments])
+        config = () if "--image" in arguments else ("-d", str(CONFIG))
+        status = cli(["screenshot", *config, *arguments])
         printed = capfd.readouterr()
         return Ended(status, printed.out, printed.err)
 

@@ -90,8 +90,7 @@ def test_a_picture_of_a_bag(run, tmp_path):
     assert os.listdir(tmp_path) == ["a.png"]
 
 
-def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, screenshot):
     bag = Bag()
     bag.add("/camera/image_raw", photos.RAW)
     for second in (0, 1, 2):
@@ -102,16 +101,18 @@ def test_an_image_of_a_bag_is_written_as_it_is(tmp_path, monkeypatch, capsys):
     depths[:, :18] = 500
     bag.put(0, "/depth/compressedDepth", photos.compressed_depth(depths))
     bag.write(tmp_path / "run")
-    arguments = ["screenshot", "--bag", "run", "-o", "a.png", "--image"]
-    assert cli([*arguments, "/camera/image_raw", "--at", "1"]) == 0
-    assert "1 picture of 36 x 24 pixels" in capsys.readouterr().out
+    arguments = ["--bag", "run", "-o", "a.png", "--image"]
+    result = screenshot(*arguments, "/camera/image_raw", "--at", "1")
+    assert result.status == 0
+    assert "1 picture of 36 x 24 pixels" in result.output
     with PIL.Image.open("a.png") as image:
         assert np.abs(np.asarray(image, np.int16) - (80, 10, 20)).max() == 0
-    assert cli([*arguments, "/depth/compressedDepth"]) == 0
+    assert screenshot(*arguments, "/depth/compressedDepth").status == 0
     with PIL.Image.open("a.png") as image:
         assert np.asarray(image)[0, [0, 35], 0].tolist() == [0, 255]
-    assert cli([*arguments, "/nothing"]) == 1
-    assert "No image to write." in capsys.readouterr().err
+    result = screenshot(*arguments, "/nothing")
+    assert result.status == 1
+    assert "No image to write." in result.errors
 
 
 def test_several_times_and_views_are_files_of_their_own(run, tmp_path, screenshot):
