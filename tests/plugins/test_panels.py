@@ -90,7 +90,9 @@ def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
 
     assert do(SetPanelProperty("Notes", "most", 5)) == [("Jobs", None), ("Notes", 5)]
     assert "most: expected >= 1, got 0" in b.refused(SetPanelProperty("Notes", "most", 0))
+    changed = b.viewer.state().panels[1].panel
     assert do(Undo()) == [("Jobs", None), ("Notes", 3)]
+    assert b.viewer.state().panels[1].panel is changed, "it keeps what it has read"
     do(SetPanelProperty("Notes", "most", 6))
     tab = b.viewer.state().panels[1]
     file.write_text(CODE.replace("class Jobs", "class Tasks"))

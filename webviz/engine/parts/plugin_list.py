@@ -113,12 +113,23 @@ class PluginList(Generic[P]):
         return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
 
     def restore(self, wanted: Mapping[str, Snapshot]) -> None:
-        """Have those that were kept."""
+        """Have those that were kept; those still there go on, with what they know."""
         now = self.kept({})
         self._items = {
-            id: self._items[id] if now.get(id) == each else cast(P | Unreadable, made_anew(each))
+            id: self._set_back(self._items[id], now[id], each)
+            if id in now and now[id].class_ is each.class_
+            else cast(P | Unreadable, made_anew(each))
             for id, each in wanted.items()
         }
+
+    def _set_back(self, item: P | Unreadable, now: Snapshot, wanted: Snapshot) -> P | Unreadable:
+        """An item with its old properties."""
+        if isinstance(item, Unreadable):
+            return cast(Unreadable, wanted.content)
+        for name, value in wanted.values.items():
+            if now.values[name] != value:
+                set_property(item, name, value)
+        return item
 
     def statuses(self) -> Mapping[str, Status]:
         """Which of them cannot be used."""

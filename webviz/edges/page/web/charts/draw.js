@@ -56,7 +56,9 @@ function grid(context, area, { times, values, x, y }, style) {
   context.textAlign = "center";
   for (const time of ticks(...times, Math.max(2, area.width / PER_TICK[0]))) {
     stroke(context, x(time), area.top, x(time), area.top + area.height);
-    context.fillText(tickText(time, times[1] - times[0]), x(time), area.top + area.height + 4);
+    const text = tickText(time, times[1] - times[0]);
+    const last = area.left + area.width + RIGHT - context.measureText(text).width / 2;
+    context.fillText(text, Math.min(x(time), last), area.top + area.height + 4);
   }
 }
 
