@@ -187,6 +187,23 @@ def test_the_panel_shows_nav2_starts_and_stops_it_and_cancels_the_goals_of_all(p
     page.wait_for(lambda: button(page, "Cancel all goals").count() == 0, "no panel")
 
 
+def test_numbers_of_the_robot_are_plotted_and_read(page: Page, viewer: webviz.Viewer) -> None:
+    button(page, "Add a panel").click()
+    page.tab.get_by_role("menuitem", name="Plot").click()
+    page.tab.get_by_role("tab", name="Plot").click()
+    for list_, choice in (("Topic", "/odom"), ("Add field", "twist.twist.linear.z")):
+        field = page.tab.get_by_role("combobox", name=list_)
+        page.wait_for(lambda field=field: field.is_enabled(), list_)
+        field.fill(choice)
+        page.tab.get_by_role("option", name=choice, exact=True).click()
+    value = page.tab.locator(".wv-chart-value")
+    page.wait_for(lambda: value.all_inner_texts() == ["0"], "the value of the curve")
+    viewer.add("Text", topic="/odom", fields=["child_frame_id"])
+    pane = page.tab.get_by_label("Text Text", exact=True)
+    page.wait_for(lambda: pane.count() and "'base_link'" in pane.inner_text(), "the text")
+    page.tab.get_by_text("Remove panel").click()
+
+
 def test_a_server_that_ends_during_a_goal_and_one_that_is_not_there_are_named(
     page: Page, pages: list[Page], robot: Program, viewer: webviz.Viewer
 ) -> None:
