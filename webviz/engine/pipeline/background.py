@@ -80,7 +80,7 @@ class Tasks:
         *args: Any,
         stop: Callable[[], None] | None = None,
     ) -> Any:
-        """The result of `fn(*args)`, None until it is ready.
+        """The result of `fn(*args)`, None until it is ready; the same for all calls of a drawing.
 
         Args:
             key: identifies the work and its arguments.
@@ -91,11 +91,13 @@ class Tasks:
         Raises:
             Exception: raised by `fn`.
         """
+        is_known_to_wait = key in self._requested & self._pending
         self._requested.add(key)
         if key not in self._futures:
             self._futures[key] = self._workers.submit(fn, *args, stop=stop)
         future = self._futures[key]
-        if not future.done():
+        # Who asked first in a drawing must not miss what became ready before the next one asked.
+        if is_known_to_wait or not future.done():
             self._pending.add(key)
             return None
         self._pending.discard(key)
