@@ -143,6 +143,17 @@ def test_an_rvl_stream_that_lies_about_its_size_is_named(claim: tuple[int, int])
         decode_depth("16UC1; compressedDepth rvl", data)
 
 
+def test_an_rvl_stream_of_empty_runs_is_refused_at_once() -> None:
+    data = depth_message(struct.pack("<II", 640, 480) + bytes(100_000))
+    with pytest.raises(ImageError, match="a run without a pixel"):
+        decode_depth("16UC1; compressedDepth rvl", data)
+
+
+def test_a_depth_png_that_claims_too_many_pixels_is_not_decompressed() -> None:
+    with pytest.raises(ImageError, match="million pixels"):
+        decode_depth("16UC1; compressedDepth png", depth_message(bomb(65535)))
+
+
 def test_no_bytes_break_the_decoders() -> None:
     rng = np.random.default_rng(5)
     good = {

@@ -59,6 +59,9 @@ def _pixels(numbers: NDArray[np.int64], count: int) -> NDArray[np.uint16]:
             raise ImageError("The RVL image is incomplete.")
         pixel += int(numbers[at])
         length = int(numbers[at + 1])
+        if at and not numbers[at] and not length:
+            # Millions of these would take minutes.
+            raise ImageError("The RVL image is broken: it holds a run without a pixel.")
         at += 2
         if pixel + length > count or at + length > len(numbers):
             raise ImageError("The RVL image is broken: it has more pixels than its size says.")
