@@ -11,8 +11,9 @@ from ruamel.yaml import YAML
 from webviz.api.declared import set_property, to_values
 from webviz.api.tool import Tool
 from webviz.files import rviz
-from webviz.files.config import Config, dump
+from webviz.files.config import Config, all_panels, dump
 from webviz.files.opening import parse
+from webviz.panels.nav2 import Nav2
 from webviz.tools.goal_pose import GoalPose
 from webviz.tools.nav2_goal import Nav2Goal
 from webviz.tools.pose_estimate import PoseEstimate
@@ -181,3 +182,18 @@ def test_a_fault_of_a_tool_is_reported_with_its_line() -> None:
         "2D Goal Pose (line 2): Topic/Depth: expected a number, got `deep`.",
         "2D Goal Pose: Glow: unsupported; kept for export.",
     ]
+
+
+def test_a_panel_of_rviz_that_is_a_plug_in_here_is_opened_once() -> None:
+    text = """\
+Panels:
+  - {Class: rviz_common/Displays}
+  - {Class: nav2_rviz_plugins/Navigation 2}
+  - {Class: nav2_rviz_plugins/Navigation 2}
+  - {Class: acme/Other}
+Visualization Manager: {}
+"""
+    config, report = rviz.read(text, "x.rviz")
+    every = [type(panel) for panel in all_panels()]
+    assert [type(panel) for panel in config.panels] == [*every, Nav2]
+    assert (report.carried["panels"], report.total["panels"]) == (3, 4)

@@ -14,7 +14,7 @@ from webviz.files.config.reading import refuse_too_many
 from webviz.files.rviz import values, views
 from webviz.files.rviz.displays import Kept, read_items, write_items
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.rest import note_rest
+from webviz.files.rviz.rest import note_rest, read_panels
 from webviz.files.rviz.tools import NEW_TOOLS, read_tools, write_tools
 from webviz.files.rviz.tree import MANAGER, Tree, child, difference, parse, restored
 from webviz.files.rviz.tree import write as write_tree
@@ -75,7 +75,8 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
-    return Config(settings, items, tools, report=report.sentences()), report
+    panels = read_panels(document.get("Panels"))
+    return Config(settings, items, tools, panels, report=report.sentences()), report
 
 
 def write(config: Config) -> tuple[str, Report]:

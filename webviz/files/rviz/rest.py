@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.api.declared import make
+from webviz.api.panel import Panel
 from webviz.api.tool import Tool
+from webviz.files.config import PanelItem, all_panels
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.report import Report
@@ -46,8 +49,19 @@ def note_rest(document: Tree, report: Report) -> None:
         report.note("Transformation", values.text(transformer), f"unsupported, using tf2; {KEPT}")
 
 
+def read_panels(entries: Any) -> list[PanelItem]:
+    """The panels that every config has, and those in RViz's list that are plug-ins here."""
+    names = (
+        values.text(entry.get("Class"))
+        for entry in (entries if isinstance(entries, list) else [])
+        if isinstance(entry, Mapping)
+    )
+    found = dict.fromkeys(cls for name in names if (cls := counterpart(Panel, name)))
+    return [*all_panels(), *(make(cls, {}) for cls in found if cls.on_request)]
+
+
 def is_supported(kind: str, cls: str) -> bool:
     """Whether a class of "Panels" or "Tools" is supported, also by its name in ROS 1."""
-    if kind == "Tools" and counterpart(Tool, cls):
+    if counterpart(Tool if kind == "Tools" else Panel, cls):
         return True
     return any(cls in (name, f"rviz/{name.partition('/')[2]}") for name in SUPPORTED[kind])
