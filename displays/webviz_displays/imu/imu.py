@@ -207,10 +207,15 @@ class Imu(Display):
             shaft = scale * (matrices(wxyz) @ vector if look.derotate_acceleration else vector)
             length = float(np.linalg.norm(shaft))
         if not length < FARTHEST:
-            ctx.error("Acceleration", "It is not finite or too large. Fix the publisher.")
+            ctx.error(
+                "Acceleration", "The acceleration is not finite or too large. Fix the publisher."
+            )
             return False
         if length == 0.0:
-            ctx.warn("Acceleration", "It is zero, so there is no arrow. Check the sensor.")
+            ctx.warn(
+                "Acceleration",
+                "The acceleration is zero, so it has no arrow. Check that the sensor is running.",
+            )
             return False
         tip = shaft * (1.0 + HEAD_LENGTH * scale / length)
         segments = np.array([[(0.0, 0.0, 0.0), tip]])
