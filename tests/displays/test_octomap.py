@@ -35,6 +35,7 @@ def shown(bench: Benches) -> Callable[..., Any]:
         made.transform("map", "odom", (10.0, 0.0, 0.0), QUARTER)
         made.send(OCTOMAP, values, frame="odom")
         made.turn()
+        made.settle()
         return made
 
     return make
@@ -249,3 +250,17 @@ def test_any_bytes_are_a_tree_or_a_fault() -> None:
             voxels = voxels_of(tree, 16)
             assert np.isfinite(voxels.centers).all()
             is_exposed(tree, voxels)
+
+
+@pytest.mark.parametrize("kind", [OccupancyGrid, OccupancyMap])
+def test_a_dense_tree_is_read_beside_the_frame_loop(bench: Benches, kind: Any) -> None:
+    rng = np.random.default_rng(0)
+    keys: list[Key] = [(x, y, z) for x, y, z in rng.integers(-40, 40, (20_000, 3)).tolist()]
+    at = bench(kind())
+    at.transform("map", "odom")
+    at.send(OCTOMAP, binary(octree(keys), 0.1), frame="odom")
+    at.turn()
+    assert at.nodes() == {}
+    assert at.runner.is_busy()
+    at.settle()
+    assert at.nodes()

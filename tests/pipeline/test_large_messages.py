@@ -13,7 +13,6 @@ import pytest
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.data.messages import encode
 from webviz.engine.commands import SetFixedFrame, SetProperty
-from webviz.engine.pipeline.background import SLOW_BYTES
 from webviz.engine.pipeline.folding import MAX_BYTES
 from webviz.shell.testing.messages import header
 
@@ -38,7 +37,7 @@ class Drawing(Display):
     height: float = 0.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
-        if len(sample.message.data) >= SLOW_BYTES:
+        if len(sample.message.data) >= Display.slow_bytes:
             wait_at_gate()
         if sample.message.info.width == 13:
             raise ValueError("thirteen")
@@ -52,7 +51,7 @@ class Folding(Display):
     topic: Annotated[Topic, Input(GRID)] = Topic("/map")
 
     def fold(self, name: str, sample: Sample, state: tuple[int, ...] | None) -> tuple[int, ...]:
-        if len(sample.message.data) >= SLOW_BYTES:
+        if len(sample.message.data) >= Display.slow_bytes:
             wait_at_gate()
         return (*(state or ()), sample.message.info.width)
 
@@ -68,7 +67,7 @@ def all_gates_are_open_at_the_end(bench: Any) -> Iterator[None]:
         gate.set()
 
 
-def send(at: Any, number: int, size: int = SLOW_BYTES, frame: str = "map") -> None:
+def send(at: Any, number: int, size: int = Display.slow_bytes, frame: str = "map") -> None:
     """Publish a map that says which it is by its width."""
     values = {"header": header(frame, T), "info": {"width": number}, "data": np.zeros(size, "i1")}
     at.source.put("/map", GRID, encode(GRID, values))
@@ -192,7 +191,7 @@ def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) ->
 def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Any) -> None:
     at = bench(Folding())
     for number in range(1, 5):
-        send(at, number, size=SLOW_BYTES if number == 1 else MAX_BYTES // 2 - 1000)
+        send(at, number, size=Display.slow_bytes if number == 1 else MAX_BYTES // 2 - 1000)
     assert "1 message dropped" in at.statuses()["Message"][1]
     for number in range(3):
         open_gate(at, number)

@@ -92,6 +92,8 @@ class Display(Declared, kw_only=True):
     `ctx.frames` nor `ctx.background`. The previous result stays until the new one is there, and
     `draw` skips messages for newer ones.
     """
+    slow_bytes: ClassVar[int] = 8_000_000
+    """From which size on a message is large: it takes longer than the way to a thread and back."""
     has_pane: ClassVar[bool] = False
     """Whether it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
     sync: ClassVar[Sync | None] = None

@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
-from webviz_displays.octomap.octree import LEVELS, Octree, OctreeFault, read_octree
+from webviz_displays.octomap.octree import (
+    LEVELS,
+    SLOW_BYTES,
+    Octree,
+    OctreeFault,
+    read_octree,
+)
 from webviz_displays.octomap.seen import (
     MOST_VOXELS,
     Choice,
@@ -59,6 +65,7 @@ class OctreeDisplay(Display):
     """Base of RViz's displays of octrees, which differ in the type of tree that they accept."""
 
     is_threaded = True
+    slow_bytes = SLOW_BYTES
 
     topic: Annotated[Topic, Input(OCTOMAP), Prop(help="Topic of the octrees.")] = Topic(
         "/octomap_full"

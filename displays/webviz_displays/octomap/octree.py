@@ -28,6 +28,9 @@ LEVELS = 16
 MOST_NODES = 3_000_000
 """Per tree; they take about 500 MB while they are read and drawn."""
 
+SLOW_BYTES = 20_000
+"""A byte is up to four voxels: to read this many, and find what can be seen, takes 20 ms."""
+
 _LOG_ODDS = np.array((np.nan, -2.0, 3.5, -np.inf), np.float32)
 """By the bits of a child in a binary tree: OctoMap's clamping thresholds, 0.1192 and 0.971. A child
 with a record has the largest value below it; without any it counts as free."""

@@ -13,7 +13,7 @@ from webviz.data import messages
 from webviz_displays.map.display import MapDisplay
 from webviz_displays.map.tiles import GridFault
 from webviz_displays.octomap.display import OCTOMAP
-from webviz_displays.octomap.octree import LEVELS, Octree, OctreeFault, read_octree
+from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
 from webviz_displays.octomap.voxels import voxels_of
 
 I64 = NDArray[np.int64]
@@ -80,6 +80,8 @@ def _covered(lows: I64, edges: I64, shape: tuple[int, int]) -> NDArray[np.bool_]
 
 class ProjectedOctree(MapDisplay):
     """Base of RViz's displays of octrees from above."""
+
+    slow_bytes = SLOW_BYTES
 
     topic: Annotated[Topic, Input(OCTOMAP), Prop(help="Topic of the octrees.")] = Topic(
         "/octomap_binary"

@@ -8,13 +8,10 @@ from typing import Any
 
 from webviz.api.display import Display
 
-SLOW_BYTES = 8_000_000
-"""Messages of this size take long enough to be worth the way to a thread and back."""
-
 
 def is_slow(display: Display, size: int) -> bool:
     """Whether messages of `size` bytes are folded and drawn in a worker."""
-    return display.is_threaded and size >= SLOW_BYTES
+    return display.is_threaded and size >= display.slow_bytes
 
 
 class Workers:
