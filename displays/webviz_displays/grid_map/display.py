@@ -29,6 +29,7 @@ from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_la
 from webviz_displays.grid_map.surface import faces_of, lines_of, places
 from webviz_displays.shared.colors import RAINBOW, bounds, faded_color, ramp
 from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.points_display import MaxColor, MaxIntensity, MinColor, MinIntensity
 
 U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
@@ -110,28 +111,14 @@ class GridMap(Display):
     invert_rainbow: Annotated[
         bool, Prop(when=("use_rainbow", True), help="Colour from red (low) to magenta (high).")
     ] = False
-    min_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")
-    ] = (0, 0, 0)
-    max_color: Annotated[
-        Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")
-    ] = (255, 255, 255)
+    min_color: MinColor = (0, 0, 0)
+    max_color: MaxColor = (255, 255, 255)
     autocompute_intensity_bounds: Annotated[
         bool,
         Prop(when=_BY_INTENSITY, help="Compute the lowest and highest value from each message."),
     ] = True
-    min_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."
-        ),
-    ] = 0.0
-    max_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."
-        ),
-    ] = 10.0
+    min_intensity: MinIntensity = 0.0
+    max_intensity: MaxIntensity = 10.0
 
     def history(self) -> Keep:
         """The newest maps."""

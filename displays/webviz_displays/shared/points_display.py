@@ -152,6 +152,14 @@ InvertRainbow = Annotated[
 ]
 MinColor = Annotated[Color, Prop(when=("use_rainbow", False), help="Colour of the lowest value.")]
 MaxColor = Annotated[Color, Prop(when=("use_rainbow", False), help="Colour of the highest value.")]
+MinIntensity = Annotated[
+    float,
+    Prop(when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."),
+]
+MaxIntensity = Annotated[
+    float,
+    Prop(when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."),
+]
 
 
 class PointsDisplay(PointStyle):
@@ -175,18 +183,8 @@ class PointsDisplay(PointStyle):
         bool,
         Prop(when=BY_INTENSITY, help="Compute the lowest and highest value from each message."),
     ] = True
-    min_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the minimum colour."
-        ),
-    ] = 0.0
-    max_intensity: Annotated[
-        float,
-        Prop(
-            when=("autocompute_intensity_bounds", False), help="Value that gets the maximum colour."
-        ),
-    ] = 4096.0
+    min_intensity: MinIntensity = 0.0
+    max_intensity: MaxIntensity = 4096.0
     color: Annotated[
         Color, Prop(when=("color_transformer", "FlatColor"), help="Colour of all points.")
     ] = (255, 255, 255)
