@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
@@ -26,11 +25,16 @@ from webviz import (
 from webviz.data.transforms import distinct
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
-from webviz_displays.tf.frame_filter import FrameFilter, parent_indices
+from webviz_displays.tf.frame_filter import (
+    FrameFilter,
+    Pattern,
+    PatternFault,
+    compiled,
+    parent_indices,
+)
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
 from webviz_displays.tf.frame_readout import details, readout
 from webviz_displays.tf.frame_tree import outline
-from webviz_displays.tf.patterns import compiled
 
 SECOND = 1_000_000_000
 
@@ -239,10 +243,10 @@ class TF(Display):
                 ctx.ok(name, text)
 
 
-def _pattern(key: str, text: str, ctx: Context) -> re.Pattern[str] | None:
+def _pattern(key: str, text: str, ctx: Context) -> Pattern | None:
     """A regular expression, None if it is empty or invalid."""
     try:
         return compiled(text) if text else None
-    except re.error as error:
+    except PatternFault as error:
         ctx.error(key, f"'{text}' is not a valid regular expression ({error}); ignoring it.")
         return None
