@@ -165,7 +165,7 @@ def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) ->
     ask = """async () => {
       const channel = await import('/webviz/channel.js');
       window.answers = [];
-      channel.on('Done', (done) => window.answers.push(done.text));
+      channel.on('Done', ({number, text}) => number === 9999 && window.answers.push(text));
       channel.send({type: 'Do', number: 9999, command: 'Undo', arguments: {}});
     }"""
     house.watcher.page.evaluate(ask)

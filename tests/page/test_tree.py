@@ -459,9 +459,15 @@ def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
     # A page that is back before the change would see that displays have other names.
     page.evaluate("""() => {
       window.KeptWebSocket = WebSocket;
-      window.WebSocket = class { static OPEN = 1; readyState = 0; close() {} };
+      window.WebSocket = class {
+        static OPEN = 1;
+        readyState = 0;
+        constructor() { window.isKeptOut = true; }
+        close() {}
+      };
     }""")
     cut_off(tree.tab, server)
+    tree.tab.wait_for(lambda: page.evaluate("window.isKeptOut"))
     rows = (make_row("b", name="new"), group("g"), replace(make_row("x", name="a"), depth=1))
     loop.show(*rows, make_row("a", name="b"))
     page.evaluate("() => { window.WebSocket = window.KeptWebSocket; }")
