@@ -23,7 +23,7 @@ class Place(StrEnum):
     LAST_POSE = "z of the last arrow of a trail"
     FRAME = "x of a frame at z = -7"
     LINK = "x of a robot's link at z = -8"
-    PICTURE = "a strip of cells in a map"
+    PICTURE = "a strip in a map or an image"
 
 
 FRAME_Z, LINK_Z = -7.0, -8.0
@@ -35,10 +35,12 @@ class Lane:
 
     number: int
     place: Place
+    cycle: int = CYCLE
+    """Publications after which numbers come again."""
 
     def encode(self, publication: int) -> float:
         """The coordinate of a publication, in metres."""
-        return self.number * LANE_M + 1 + publication % CYCLE / PER_METRE
+        return self.number * LANE_M + 1 + publication % self.cycle / PER_METRE
 
     def decode(self, coordinate: float) -> int | None:
         """The publication modulo CYCLE, None if the coordinate is no mark of this lane."""

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import webviz_urdf
-from side_by_side import content, marker_content
+from side_by_side import content, image_content, marker_content
 from side_by_side.marks import Lane, Place
 from side_by_side.streams import Stream
 
@@ -228,6 +228,30 @@ SCENES = {
             "200 cubes added and 200 deleted a second, 20 Hz",
             _markers(marker_content.churn, 20, Place.FRAME),
             ARRAY,
+        ),
+        Scene(
+            "image",
+            "images of 640 x 480, rgb8, 30 Hz",
+            lambda: image_content.raw(640, 480),
+            "- {type: Image, topic: /image}\n",
+        ),
+        Scene(
+            "image-hd",
+            "images of 1920 x 1080, rgb8, 30 Hz",
+            lambda: image_content.raw(1920, 1080),
+            "- {type: Image, topic: /image}\n",
+        ),
+        Scene(
+            "jpeg",
+            "JPEG of 1920 x 1080, 30 Hz",
+            lambda: image_content.jpeg(1920, 1080),
+            "- {type: Image, topic: /image/compressed}\n",
+        ),
+        Scene(
+            "depth",
+            "depths of 640 x 480, 16UC1, 30 Hz, as a cloud",
+            lambda: image_content.depths(640, 480),
+            "- {type: DepthCloud, topic: /depth/image, max_points: 0}\n",
         ),
         Scene("idle", "nothing moves", _still, "- {type: Map}\n"),
     )

@@ -1,4 +1,4 @@
-"""Marks in maps: a row of black and white blocks that survives any palette and any tiling.
+"""Marks in maps and images: black and white blocks that survive palettes, tiles and JPEG.
 
 Sixteen blocks by which the strip is found, three for the lane, thirteen for the publication. A
 block is 4 x 4 cells on a grid of 4 cells, so that one cell of four is looked at.
@@ -18,6 +18,8 @@ LANE_BITS, NUMBER_BITS = 3, 13
 LENGTH = len(SYNC) + LANE_BITS + NUMBER_BITS
 CYCLE = 1 << NUMBER_BITS
 FREE, OCCUPIED = 0, 100
+GAP = 77
+"""Fills the place of a strip in a message."""
 
 
 def cells(lane: int, publication: int) -> NDArray[np.int8]:
@@ -28,10 +30,20 @@ def cells(lane: int, publication: int) -> NDArray[np.int8]:
     return np.tile(np.repeat(row, BLOCK), (BLOCK, 1))
 
 
+def pixels(lane: int, publication: int) -> NDArray[np.uint8]:
+    """The strip in an image: uint8 (4, 128, 3)."""
+    bright = np.where(cells(lane, publication) == OCCUPIED, 255, 0).astype(np.uint8)
+    return np.repeat(bright[..., None], 3, axis=2)
+
+
 def read(picture: bytes) -> list[tuple[int, int]]:
     """Lane and publication (modulo CYCLE) of every strip in a PNG or JPEG."""
-    red = np.asarray(PIL.Image.open(io.BytesIO(picture)).convert("RGBA"))[:, :, 0]
-    is_set = red[BLOCK // 2 :: BLOCK, BLOCK // 2 :: BLOCK] < 128
+    opened = PIL.Image.open(io.BytesIO(picture))
+    width, height = opened.size
+    opened.draft(None, (width // BLOCK, height // BLOCK))  # a JPEG with a pixel for each block
+    red = np.asarray(opened.convert("RGBA"))[:, :, 0]
+    step = BLOCK if opened.width == width else 1
+    is_set = red[step // 2 :: step, step // 2 :: step] < 128
     last = is_set.shape[1] - LENGTH + 1
     if last < 1:
         return []

@@ -16,7 +16,7 @@ import zstandard
 
 from side_by_side import strip
 from side_by_side.log import Sighting
-from side_by_side.marks import CYCLE, FRAME_Z, LINK_Z, Lane, Place
+from side_by_side.marks import FRAME_Z, LINK_Z, Lane, Place
 
 _zstd = zstandard.ZstdDecompressor()
 EXACT_M = 1e-4
@@ -61,17 +61,19 @@ def sightings(
 ) -> list[Sighting]:
     """The marked publications in the messages of a window."""
     found = []
+    cycles = {lane.number: min(lane.cycle, strip.CYCLE) for lane in lanes}
     for message in window:
         for place, value in _candidates(message):
             if place == Place.PICTURE:
                 found += [
-                    Sighting(now_ns, lane, number, strip.CYCLE)
+                    Sighting(now_ns, lane, number, cycles[lane])
                     for lane, number in strip.read(value)
+                    if lane in cycles
                 ]
                 continue
             for lane in lanes:
                 if lane.place == place and (number := lane.decode(value)) is not None:
-                    found.append(Sighting(now_ns, lane.number, number, CYCLE))
+                    found.append(Sighting(now_ns, lane.number, number, lane.cycle))
     return found
 
 
@@ -84,6 +86,8 @@ def _candidates(message: dict[str, Any]) -> Iterable[tuple[Place, Any]]:
         elif abs(z - LINK_Z) < EXACT_M:
             yield Place.LINK, x
         return
+    if isinstance(message.get("rgb_data"), bytes):  # behind the scene
+        yield Place.PICTURE, message["rgb_data"]
     props = message.get("updates") or message.get("props") or {}
     positions = props.get("batched_positions")
     if isinstance(positions, np.ndarray):

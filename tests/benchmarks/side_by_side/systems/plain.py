@@ -20,6 +20,7 @@ import viser
 import yourdfpy
 from rclpy.node import Node
 
+from side_by_side.systems import plain_images
 from side_by_side.systems.arguments import LATCHED, parsed
 from side_by_side.systems.shades import picture, rainbow
 from side_by_side.systems.typed import subscribe
@@ -37,6 +38,7 @@ class PlainViewer:
         self.handles: dict[str, Any] = {}
         self.grids: dict[str, np.ndarray] = {}
         self.trail: list[np.ndarray] = []
+        self.info: Any = None
 
     def path(self, frame: str) -> str:
         """The name of a frame's node: its ancestors, then itself."""
@@ -160,6 +162,22 @@ class PlainViewer:
             return self.scene.add_label(name, marker.text)
         return self.scene.add_box(name, color, (size.x, size.y, size.z))
 
+    def on_image(self, topic: str, message: Any) -> None:
+        """Behind the scene; depths as points."""
+        if message.encoding != "16UC1":
+            plain_images.on_image(self.scene, message)
+        elif self.info is not None:
+            points, colors = plain_images.depth_points(message, self.info)
+            self.set_points(topic, message.header.frame_id, points, colors)
+
+    def on_compressed(self, topic: str, message: Any) -> None:
+        """Behind the scene."""
+        plain_images.on_compressed(self.scene, message)
+
+    def on_info(self, topic: str, message: Any) -> None:
+        """Needed for depths."""
+        self.info = message
+
     def on_description(self, topic: str, message: Any) -> None:
         """A mesh for each box, cylinder and sphere of a robot, below the frame of its link."""
         robot = yourdfpy.URDF.load(
@@ -196,6 +214,9 @@ def main(*topics: str) -> None:
         "nav_msgs/msg/Path": viewer.on_path,
         "nav_msgs/msg/Odometry": viewer.on_odometry,
         "visualization_msgs/msg/MarkerArray": viewer.on_markers,
+        "sensor_msgs/msg/Image": viewer.on_image,
+        "sensor_msgs/msg/CompressedImage": viewer.on_compressed,
+        "sensor_msgs/msg/CameraInfo": viewer.on_info,
         "std_msgs/msg/String": viewer.on_description,
     }
     rclpy.init()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from side_by_side.picture_watcher import PictureWatcher
 from side_by_side.scenes import Scene
 from side_by_side.watchers import FileWatcher, FoxgloveWatcher, ViserWatcher, Watcher
 
@@ -58,6 +59,11 @@ def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> 
     return ViserWatcher(port, scene, stalls)
 
 
+def _watch_webviz(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
+    has_panes = "type: Image" in (folder / "scene.yaml").read_text()
+    return (PictureWatcher if has_panes else ViserWatcher)(port, scene, stalls)
+
+
 def _watch_foxglove(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
     return FoxgloveWatcher(port, scene, stalls)
 
@@ -76,7 +82,7 @@ SYSTEMS = {
     system.name: system
     for system in (
         System("floor", "rclpy alone", _floor, _watch_floor, ("rclpy",), is_served=False),
-        System("webviz", "webviz", _webviz, _watch_viser, ("webviz", "viser")),
+        System("webviz", "webviz", _webviz, _watch_webviz, ("webviz", "viser")),
         System("plain", "plain viser", _module("plain"), _watch_viser, ("viser",)),
         System("foxglove", "foxglove-sdk", _module("foxglove"), _watch_foxglove, ("foxglove-sdk",)),
         System("rerun", "rerun-sdk", _module("rerun"), _watch_rerun, ("rerun-sdk",)),
