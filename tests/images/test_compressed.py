@@ -143,6 +143,17 @@ def test_an_rvl_stream_that_lies_about_its_size_is_named(claim: tuple[int, int])
         decode_depth("16UC1; compressedDepth rvl", data)
 
 
+def test_a_long_rvl_stream_of_single_pixels() -> None:
+    runs = 240_000
+    nibbles = np.tile(np.array([1, 1, 2], np.uint32), runs)  # a zero; one pixel, 1 more than before
+    words = (nibbles.reshape(-1, 8) << np.arange(28, -1, -4).astype(np.uint32)).sum(1, dtype="<u4")
+    data = depth_message(struct.pack("<II", 2 * runs, 1) + words.tobytes())
+    _, depths = decode_depth("16UC1; compressedDepth rvl", data)
+    expected = np.zeros((1, 2 * runs), np.uint16)
+    expected[0, 1::2] = np.arange(1, runs + 1)
+    np.testing.assert_array_equal(depths, expected)
+
+
 def test_an_rvl_stream_of_empty_runs_is_refused_at_once() -> None:
     data = depth_message(struct.pack("<II", 640, 480) + bytes(100_000))
     with pytest.raises(ImageError, match="a run without a pixel"):
