@@ -149,10 +149,15 @@ class Peer:
             }
         )
 
-    def receive(self, timeout: float = 60.0) -> list[dict[str, Any]]:
-        """The messages of the next websocket frame."""
+    def frame(self, timeout: float = 60.0) -> bytes:
+        """The next websocket frame."""
         data = self._socket.recv(timeout)
         assert isinstance(data, bytes)
+        return data
+
+    def receive(self, timeout: float = 60.0) -> list[dict[str, Any]]:
+        """The messages of the next websocket frame."""
+        data = self.frame(timeout)
         size = int.from_bytes(data[8:16], "little")
         packed = zstandard.ZstdDecompressor().decompress(
             data[16 : 16 + size], max_output_size=int.from_bytes(data[:8], "little")

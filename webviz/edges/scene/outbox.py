@@ -24,6 +24,9 @@ class Message(Protocol):
 
 M = TypeVar("M", bound=Message)
 
+Progress = tuple[int, tuple[tuple[object, int], ...]]
+"""How far a browser is; those with the same need the same messages next."""
+
 
 class Outbox:
     """Chooses the messages of the next websocket frame of a browser.
@@ -42,6 +45,15 @@ class Outbox:
         self.cursor = -1
         """Number of the last message that was sent or put in the line."""
         self._line: dict[object, int] = {}
+
+    @property
+    def progress(self) -> Progress:
+        """How far the browser is."""
+        return self.cursor, tuple(self._line.items())
+
+    @progress.setter
+    def progress(self, progress: Progress) -> None:
+        self.cursor, self._line = progress[0], dict(progress[1])
 
     def is_waiting(self) -> bool:
         """Whether messages are in the line."""

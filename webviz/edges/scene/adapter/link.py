@@ -22,7 +22,7 @@ from webviz.edges.scene.adapter.poses import (
     Wxyz,
     queue_moves,
 )
-from webviz.edges.scene.adapter.replay import replay_live_messages_only
+from webviz.edges.scene.adapter.sender import Sender
 from webviz.edges.scene.late import Late
 from webviz.edges.scene.quiet_server import Server
 
@@ -52,7 +52,7 @@ class Adapter:
         self._queue = self._socket.queue_message
         self._acknowledgements = Acknowledgements(server, self.late)
         self._removed = 0
-        replay_live_messages_only(self._buffer, last=Marker)
+        Sender(self._buffer, self._socket._live_connections, last=Marker)
         evaluate_hints_once()
 
     def set_position(self, name: str, position: Position) -> None:

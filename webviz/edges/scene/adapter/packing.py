@@ -1,0 +1,53 @@
+"""Packs messages as viser's page reads them, into whole websocket frames."""
+
+from __future__ import annotations
+
+import struct
+import time
+from collections.abc import Sequence
+
+import msgspec
+import zstandard
+from viser.infra._infra import _append_aligned_buffers
+from viser.infra._messages import Message
+
+_BINARY = 0x82
+"""First byte of a frame that is a whole binary message (RFC 6455, section 5.2)."""
+_packer = msgspec.msgpack.Encoder()
+
+
+class Packer:
+    """Packs messages; one thread may use it at a time."""
+
+    def __init__(self) -> None:
+        self._zstd = zstandard.ZstdCompressor(level=1)
+
+    def frame(self, messages: Sequence[Message]) -> bytes:
+        """A websocket frame without mask, which is the same for all browsers.
+
+        It contains the size of the msgpack before and after compression, the msgpack, and the
+        arrays, each aligned to 8 bytes.
+        """
+        arrays: list[memoryview] = []
+        packed = _packer.encode(
+            {
+                "messages": [message.as_serializable_dict(arrays) for message in messages],
+                "timestampSec": time.perf_counter(),
+                "binaryBufferLengths": [array.nbytes for array in arrays],
+            }
+        )
+        compressed = self._zstd.compress(packed)
+        sizes = struct.pack("<QQ", len(packed), len(compressed))
+        parts: list[bytes | memoryview] = [b"", sizes, compressed]
+        _append_aligned_buffers(parts, arrays, len(sizes) + len(compressed))
+        parts[0] = header(sum(memoryview(part).nbytes for part in parts))
+        return b"".join(parts)
+
+
+def header(size: int) -> bytes:
+    """The header of a websocket frame with a binary message of a size in bytes."""
+    if size < 126:
+        return struct.pack("!BB", _BINARY, size)
+    if size < 1 << 16:
+        return struct.pack("!BBH", _BINARY, 126, size)
+    return struct.pack("!BBQ", _BINARY, 127, size)
