@@ -10,6 +10,7 @@ import signal
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,8 @@ from side_by_side.figures import rows
 from side_by_side.scenes import SCENES
 from side_by_side.systems.registry import SYSTEMS
 
-LOADS = {str(load): load for load in (Load(0), Load(1), Load(4), Load(1, 1))}
+USUAL = (Load(0), Load(1), Load(4), Load(1, 1))
+LOADS = {str(load): load for load in (*USUAL, Load(10), Load(30), Load(100))}
 THE_CALLBACK = [Load(1)]
 """The floor has no clients but itself."""
 
@@ -77,13 +79,13 @@ def _facts(options: argparse.Namespace) -> Report:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="side_by_side", description=__doc__)
 
-    def names(known: dict) -> dict:
-        choices = ", ".join(known)
-        return {"nargs": "+", "default": list(known), "choices": list(known), "help": choices}
+    def names(known: dict[str, Any], usual: Sequence[object] = ()) -> dict[str, Any]:
+        default, choices = [str(name) for name in usual or known], ", ".join(known)
+        return {"nargs": "+", "default": default, "choices": list(known), "help": choices}
 
     parser.add_argument("--scenes", **names(SCENES))
     parser.add_argument("--systems", **names(SYSTEMS))
-    parser.add_argument("--clients", **names(LOADS))
+    parser.add_argument("--clients", **names(LOADS, USUAL))
     parser.add_argument("--seconds", type=float, default=8.0, help="of each load (default: 8)")
     parser.add_argument("--rounds", type=int, default=3, help="interleaved (default: 3)")
     parser.add_argument(

@@ -69,6 +69,7 @@ def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
         "published_per_s": published,
         "shown_per_s": shown if is_watched else None,
         "left_out_per_s": published - shown if is_watched else None,
+        "least_shown_per_s": result.least_shown,
         "cpu_percent": 100 * result.cpu,
         "megabytes_per_s": result.bytes / 1e6 if is_watched else None,
         "resident_mb": result.rss,

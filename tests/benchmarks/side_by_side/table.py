@@ -20,6 +20,7 @@ COLUMNS = {
     "p99_ms": "p99 ms",
     "shown_per_s": "shown /s",
     "left_out_per_s": "left out /s",
+    "least_shown_per_s": "shown to the last /s",
     "cpu_percent": "CPU %",
     "megabytes_per_s": "MB/s",
     "resident_mb": "RSS MB",

@@ -18,7 +18,6 @@ from side_by_side import strip
 from side_by_side.log import Sighting
 from side_by_side.marks import FRAME_Z, LINK_Z, Lane, Place
 
-_zstd = zstandard.ZstdDecompressor()
 EXACT_M = 1e-4
 """What composing transforms may add to a mark."""
 _SIZES = struct.Struct("<QQ")
@@ -27,7 +26,8 @@ _SIZES = struct.Struct("<QQ")
 def messages(data: memoryview) -> list[dict[str, Any]]:
     """The messages of a window, arrays in place of their placeholders."""
     raw_size, size = _SIZES.unpack_from(data)
-    packed = _zstd.decompress(data[16 : 16 + size], max_output_size=raw_size)
+    zstd = zstandard.ZstdDecompressor()  # threads must not share one
+    packed = zstd.decompress(data[16 : 16 + size], max_output_size=raw_size)
     window = msgspec.msgpack.decode(packed)
     arrays, at = [], 16 + size
     for length in window["binaryBufferLengths"]:
