@@ -108,6 +108,8 @@ def test_raw_images_are_undistorted_and_rectified_ones_are_not(bench: Benches) -
         ("camera", {"p": [float("nan")] * 12}, "ERROR", "invalid"),
         ("camera", {"width": 32}, "WARN", "16 x 12 pixels, the camera info 32 x 12"),
         ("camera", {"d": [1.0], "distortion_model": "other"}, "WARN", "Unsupported distortion"),
+        ("camera", {"k": [0.0] * 9}, "WARN", "K of the camera info is invalid"),
+        ("camera", {"d": [1e308] * 5, "distortion_model": "plumb_bob"}, "WARN", "sees nothing"),
         ("camera_link", {}, "WARN", "'camera_optical_frame'"),
         ("camera", {"width": 0, "height": 0}, "OK", "16 x 12"),
     ],

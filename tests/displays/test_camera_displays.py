@@ -62,8 +62,9 @@ def test_the_image_lies_at_the_far_end(bench: Benches) -> None:
     ("frame", "changes", "level", "told"),
     [
         ("camera", {"p": [0.0] * 12, "k": [0.0] * 9}, "ERROR", "not calibrated"),
+        ("camera", {"k": [float("nan")] * 9}, "WARN", "K of the camera info is invalid"),
         ("camera_link", {}, "WARN", "'camera_optical_frame'"),
-        ("camera", {"p": [1e-300, *[0.0] * 4, 1e-300, *[0.0] * 6]}, "ERROR", "wider than"),
+        ("camera", {"p": [1e-300, *[0.0] * 4, 1e-300, *[0.0] * 6]}, "ERROR", "do not fit"),
     ],
 )
 def test_a_camera_that_cannot_be_right_is_named(

@@ -57,9 +57,11 @@ def test_what_a_polynomial_folds_back_is_not_seen() -> None:
     [
         ({"distortion_model": "kannala"}, "Unsupported distortion model 'kannala'"),
         ({"d": [0.1] * 14}, "'plumb_bob' with 14 coefficients"),
-        ({"d": [float("nan")] * 5}, "invalid"),
+        ({"d": [float("nan")] * 5}, "D of the camera info is invalid"),
+        ({"d": [0.1] * 3}, "'plumb_bob' with 3 coefficients"),
+        ({"r": [5.0] * 9}, "not a rotation"),
         ({"k": [0.0] * 9}, "invalid"),
-        ({"d": [1e308] * 5}, ""),
+        ({"d": [1e308] * 5}, "sees nothing"),
         ({"d": [0.1] * 4}, ""),
     ],
 )
@@ -67,6 +69,6 @@ def test_invalid_lenses_are_refused(changes: dict[str, Any], told: str) -> None:
     camera = info("plumb_bob", **changes)
     if told:
         with pytest.raises(ImageError, match=told):
-            Lens.of(camera)
+            Lens.of(camera).grid(CameraModel.whole(camera))
     else:
         Lens.of(camera).grid(CameraModel.whole(camera))

@@ -162,11 +162,11 @@ class Camera(ImageDisplay):
             return None, "rectified according to its topic"
         try:
             lens = Lens.of(info, size)
+            if state.warp is None or state.warp[0] != (lens, whole):
+                grid = lens.grid(whole)
+                state.warp = (lens, whole), None if grid is None else Warp(grid)
         except ImageError as error:
             return None, str(error)
-        if state.warp is None or state.warp[0] != (lens, whole):
-            grid = lens.grid(whole)
-            state.warp = (lens, whole), None if grid is None else Warp(grid)
         found = state.warp[1]
         return found, f"undistorted by {lens.model}" if found else ""
 

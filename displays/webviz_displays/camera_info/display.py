@@ -18,6 +18,7 @@ from webviz.data.images import (
     ImageError,
     RawImage,
     Tone,
+    calibration_problem,
     optical_problem,
     value_range,
     values,
@@ -138,7 +139,7 @@ class CameraInfo(Display):
         size = f"{model.width} x {model.height}, focal length {model.fx:.4g} px"
         if self.alpha == 0:
             ctx.warn("Camera Info", f"{size}, invisible: alpha is 0. Increase it.")
-        elif problem := optical_problem(info.frame):
+        elif problem := calibration_problem(info.message) or optical_problem(info.frame):
             ctx.warn("Camera Info", problem)
         else:
             ctx.ok("Camera Info", f"{size}.")

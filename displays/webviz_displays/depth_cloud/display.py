@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Group, Input, Pose, Prop, Rgb, Sample, Sync, Topic
-from webviz.data.images import CameraModel, ImageError, optical_problem
+from webviz.data.images import CameraModel, ImageError, calibration_problem, optical_problem
 from webviz.data.words import counted
 from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
 from webviz_displays.depth_cloud.hidden import Hidden
@@ -157,7 +157,8 @@ class DepthCloud(PointsDisplay):
         for number, points in ctx.state.clouds.items():
             pose = ctx.state.poses[number]
             self._draw_points(points, pose, ctx.follow(None, offset=pose, key=str(number)), ctx)
-        self._report(newest[1], images[-1].frame, ctx)
+        doubt = calibration_problem(infos[-1].message) or optical_problem(images[-1].frame)
+        self._report(newest[1], doubt, ctx)
 
     def _points(
         self, sample: Sample, model: CameraModel, ctx: Context
@@ -220,15 +221,15 @@ class DepthCloud(PointsDisplay):
             return self.intensity_colors(points.xyz[:, "xyz".index(self.channel_name)], ctx)
         return self.color if self.color_transformer == "FlatColor" else (255, 255, 255)
 
-    def _report(self, points: DepthPoints, frame: str, ctx: Context) -> None:
+    def _report(self, points: DepthPoints, doubt: str, ctx: Context) -> None:
         if self.alpha == 0:
             ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.")
         elif len(points.xyz) == points.hidden:
             ctx.warn("Points", "No pixel has a depth. Check the camera.")
         elif points.remark:
             ctx.warn("Points", points.remark)
-        elif problem := optical_problem(frame):
-            ctx.warn("Points", problem)
+        elif doubt:
+            ctx.warn("Points", doubt)
         else:
             count = counted(len(points.xyz) - points.hidden, "point")
             behind = f", and {points.hidden} hidden behind them" if points.hidden else ""

@@ -1,6 +1,6 @@
 """Images: every encoding of sensor_msgs to pixels, and values to colours."""
 
-from webviz.data.images.camera_model import CameraModel, optical_problem
+from webviz.data.images.camera_model import CameraModel, calibration_problem, optical_problem
 from webviz.data.images.color_maps import COLOR_MAPS
 from webviz.data.images.compressed import CompressedInfo, inspect_compressed, read_png16
 from webviz.data.images.compressed_depth import decode_depth
@@ -21,6 +21,7 @@ __all__ = [
     "Lens",
     "RawImage",
     "Tone",
+    "calibration_problem",
     "decode_depth",
     "inspect_compressed",
     "jpeg",

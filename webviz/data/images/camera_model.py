@@ -13,6 +13,9 @@ from webviz.data.images.errors import ImageError
 
 F64 = NDArray[np.float64]
 
+NARROWEST, WIDEST = 1e-6, 1e4
+"""Metres that an image may span 1 m ahead of its camera, and be beside its axis."""
+
 
 @dataclass(frozen=True)
 class CameraModel:
@@ -49,14 +52,16 @@ class CameraModel:
         width, height = int(roi.width) or whole.width, int(roi.height) or whole.height
         bx, by = binning(info)
         left, top = int(roi.x_offset), int(roi.y_offset)
-        return CameraModel(
-            max(width // bx, 1),
-            max(height // by, 1),
-            whole.fx / bx,
-            whole.fy / by,
-            (whole.cx - left) / bx,
-            (whole.cy - top) / by,
-            whole.center,
+        return _checked(
+            CameraModel(
+                max(width // bx, 1),
+                max(height // by, 1),
+                whole.fx / bx,
+                whole.fy / by,
+                (whole.cx - left) / bx,
+                (whole.cy - top) / by,
+                whole.center,
+            )
         )
 
     @staticmethod
@@ -77,7 +82,8 @@ class CameraModel:
             )
         if not all(map(math.isfinite, (fx, fy, cx, cy, tx, ty))) or not (fx > 0 and fy > 0):
             raise ImageError(
-                f"The focal lengths {fx:g} and {fy:g} px of P are invalid. Calibrate the camera."
+                f"The focal lengths {fx:g} and {fy:g} px or the principal point {cx:g}, {cy:g} of "
+                f"{'P' if any(p) else 'K'} are invalid. Calibrate the camera."
             )
         width, height = int(info.width) or otherwise[0], int(info.height) or otherwise[1]
         if not width or not height:
@@ -88,7 +94,7 @@ class CameraModel:
         center = -tx / fx, -ty / fy
         if not max(map(abs, center)) < 1e6:
             raise ImageError("The last column of P puts the camera farther away than 1000 km.")
-        return CameraModel(width, height, fx, fy, cx, cy, center)
+        return _checked(CameraModel(width, height, fx, fy, cx, cy, center))
 
     def rays(self, columns: F64, rows: F64) -> F64:
         """Directions (..., 3) of places in the image, 1 m ahead; (0, 0) is the corner of a pixel.
@@ -122,6 +128,40 @@ class CameraModel:
         points[..., 2] = z
         points[..., :2] += np.asarray(self.center, np.float32)
         return points
+
+
+def _checked(model: CameraModel) -> CameraModel:
+    """A model whose image is somewhere in front of the camera, and not a point."""
+    corners = np.abs(model.corners(1.0) - (*model.center, 0.0))[:, :2]
+    spans = model.width / model.fx, model.height / model.fy
+    if not (corners.max() < WIDEST and min(spans) > NARROWEST):
+        raise ImageError(
+            f"Focal lengths of {model.fx:.4g} and {model.fy:.4g} px and a principal point at "
+            f"{model.cx:.4g}, {model.cy:.4g} do not fit an image of {model.width} x {model.height} "
+            "pixels. Calibrate the camera."
+        )
+    return model
+
+
+def calibration_problem(info: Any) -> str:
+    """Why the numbers of a camera info other than P are invalid, "" if they are valid.
+
+    Args:
+        info: a sensor_msgs/CameraInfo.
+    """
+    invalid = [
+        name
+        for name, values in (("K", info.k), ("D", info.d), ("R", info.r))
+        if not np.isfinite(np.asarray(values, np.float64)).all()
+    ]
+    if not invalid and not (info.k[0] > 0 and info.k[4] > 0):
+        invalid = ["K"]
+    if not invalid:
+        return ""
+    return (
+        f"{' and '.join(invalid)} of the camera info {'are' if invalid[1:] else 'is'} invalid "
+        "and ignored. Calibrate the camera."
+    )
 
 
 def binning(info: Any) -> tuple[int, int]:

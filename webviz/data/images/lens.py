@@ -6,14 +6,13 @@ description of `projectPoints`, equidistant is `fisheye::projectPoints`.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.images.camera_model import F64, CameraModel
+from webviz.data.images.camera_model import F64, CameraModel, calibration_problem
 from webviz.data.images.errors import ImageError
 
 MODELS = ("plumb_bob", "rational_polynomial", "equidistant")
@@ -23,6 +22,12 @@ NEGLIGIBLE_PX = 0.25
 _SAMPLES = 1024
 _MOST = {"plumb_bob": 5, "rational_polynomial": 12, "equidistant": 4}
 """Coefficients; those behind, which tilt the sensor, have to be zero."""
+_LENGTHS = (4, 5, 8, 12, 14)
+"""Of D, as OpenCV takes it."""
+_SEEN = 0.01
+"""Share of the rectified image that a lens sees at least."""
+_TURNED = 0.01
+"""By how much the columns of a rotation may differ from perpendicular unit vectors."""
 
 
 @dataclass(frozen=True)
@@ -56,16 +61,22 @@ class Lens:
         Raises:
             ImageError: its model is unsupported, or its numbers are invalid.
         """
-        d, k, r = (tuple(float(each) for each in values) for values in (info.d, info.k, info.r))
+        if problem := calibration_problem(info):
+            raise ImageError(problem)
+        few = info.d[: _LENGTHS[-1] + 1]
+        d, k, r = (tuple(float(each) for each in values) for values in (few, info.k, info.r))
         model = str(info.distortion_model) if any(d) else "plumb_bob"
-        if model not in MODELS or any(d[_MOST[model] :]):
-            more = f" with {len(d)} coefficients" if model in MODELS else ""
+        is_known = model in MODELS and not any(d[_MOST[model] :])
+        if not is_known or (any(d) and len(d) not in _LENGTHS):
+            more = f" with {len(info.d)} coefficients" if model in MODELS else ""
             raise ImageError(
                 f"Unsupported distortion model {model[:40]!a}{more}; expected one of "
                 f"{', '.join(MODELS)}. The scene fits rectified images only."
             )
-        if not all(map(math.isfinite, (*d, *k, *r))) or not (k[0] > 0 and k[4] > 0):
-            raise ImageError("K, D or R of the camera info are invalid. Calibrate the camera.")
+        turn = np.reshape(r, (3, 3)) if any(r) else np.eye(3)
+        with np.errstate(all="ignore"):
+            if not np.abs(turn @ turn.T - np.eye(3)).max() < _TURNED:
+                raise ImageError("R of the camera info is not a rotation. Calibrate the camera.")
         roi = info.roi
         width, height = int(info.width) or otherwise[0], int(info.height) or otherwise[1]
         size = int(roi.width) or width, int(roi.height) or height
@@ -74,7 +85,7 @@ class Lens:
             (*d, *[0.0] * 12)[:12],
             (k[0], k[4]),
             (k[2], k[5]),
-            r if any(r) else (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            tuple(turn.ravel().tolist()),
             (int(roi.x_offset), int(roi.y_offset), *size),
         )
 
@@ -101,6 +112,9 @@ class Lens:
             float32 (R, C, 2), of evenly spaced places from corner to corner: column and row as
             shares of the image's width and height; NaN outside of what the lens sees. None if the
             image is rectified as it is.
+
+        Raises:
+            ImageError: the lens sees nothing of it.
         """
         columns = np.linspace(0.0, model.width, CELLS[0] + 1)
         rows = np.linspace(0.0, model.height, CELLS[1] + 1)
@@ -110,7 +124,12 @@ class Lens:
         with np.errstate(all="ignore"):
             if (np.abs(pixels - places) < NEGLIGIBLE_PX).all():
                 return None
-            return ((pixels - (left, top)) / (width, height)).astype(np.float32)
+            shares = ((pixels - (left, top)) / (width, height)).astype(np.float32)
+            if (np.abs(shares - 0.5) < 1.0).all(axis=-1).mean() < _SEEN:
+                raise ImageError(
+                    "By K, D and R the camera sees nothing of what P shows. Calibrate the camera."
+                )
+            return shares
 
     def _bent(self, rays: F64) -> F64:
         """Where rays meet a plane 1 m ahead of the camera, behind the lens."""
