@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
@@ -21,6 +22,7 @@ from webviz import (
     Sample,
     Topic,
 )
+from webviz.api.evidence import Way
 from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
@@ -125,6 +127,16 @@ class Path(Display):
             group.strip("line", xyz, color, width, unit, None if rows is None else rows[:-1])
         if self.pose_style != "None":
             self._draw_poses(xyz, orientations, rows, group, ctx)
+
+    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Way | None:
+        """The newest path."""
+        if not samples:
+            return None
+        sample = samples[-1]
+        xyz = sample.message.poses.positions
+        if len(xyz) < 2 or not is_drawable(xyz).all():
+            return None
+        return Way(sample.frame, sample.received_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A pose, or the one that a piece of the line begins at."""

@@ -54,6 +54,7 @@ def robot(seen: Stage, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
 def look_around(seen: Stage) -> None:
     """A scan from where the robot really is."""
     measured = building.scan(START)
+    seen.clock += 1.0
     seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
     seen.turn()
 
@@ -67,6 +68,9 @@ def test_a_robot_misplaced_by_a_static_transform(webviz_stage: Stages) -> None:
         "In 'map' (static): position (0.000, -2.000, 0.000) m, "
         "roll, pitch and yaw (0.0, 0.0, 0.0) degrees.",
     )
+    told = seen.statuses("LaserScan")["Map"]
+    assert told.level is Level.WARN
+    assert "shifted by (-2.0, 2.0) m" in told.text
     seen.transform("map", "odom", (START.x, START.y, 0.0))
     look_around(seen)
     seen.check_picture("stories/in_place")
@@ -80,6 +84,9 @@ def test_a_laser_turned_on_the_robot(webviz_stage: Stages) -> None:
     text = seen.statuses("TF")["base_scan"].text
     assert text.startswith("In 'base_link' (static)")
     assert "yaw (0.0, 0.0, 15.0) degrees" in text
+    told = seen.statuses("LaserScan")["Map"]
+    assert told.level is Level.WARN
+    assert "turned by -15° about 'base_scan'" in told.text
     # None is missing: one is wrong.
     assert seen.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 
@@ -103,6 +110,9 @@ def test_a_path_that_leads_through_an_obstacle(webviz_stage: Stages) -> None:
     seen.turn()
     seen.check_picture("stories/through_an_obstacle")
     assert "the newest 8.0 s ago" in seen.statuses("Path")["Topic"].text  # the plan
+    assert (
+        "is 8.0 s old: the planner has not planned again" in seen.statuses("Path")["Obstacles"].text
+    )
     assert "the newest 0.0 s ago" in seen.statuses("LaserScan")["Topic"].text  # the scan
 
     around = Planner(world).plan(START, goal)

@@ -92,6 +92,9 @@ class Faulty(Display):
     def inspect(self, hit: Hit, ctx: Context) -> None:
         self._raise_in("inspect")
 
+    def evidence(self, samples: Sequence[Sample], ctx: Context) -> None:
+        self._raise_in("evidence")
+
     def talk(self, wire: Wire, ctx: Context) -> None:
         self._raise_in("talk")
 
@@ -117,7 +120,7 @@ HOOKS = sorted({name for name, hook in vars(Display).items() if inspect.isfuncti
 def feed(b: Any) -> None:
     """Let the next turn have something to do in every part."""
     b.source.now += SECOND // 10
-    b.clock += 0.1
+    b.clock += 0.3
     b.transform("map", "base", b.source.now)
     b.pose("/pose", "base", b.source.now)
     b.viewer._next_panel = b.viewer._files._next_look = 0.0

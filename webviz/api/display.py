@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 import msgspec
 
 from webviz.api.declared import Declared, Topic
+from webviz.api.evidence import Evidence
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
@@ -198,6 +199,15 @@ class Display(Declared, kw_only=True):
 
     def grip(self, grip: Grip, wire: Wire, ctx: Context) -> None:
         """Take up what a browser does with a handle. One at a time holds it."""
+
+    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Evidence | None:
+        """What the held samples, oldest first, say about where things are.
+
+        The viewer compares it with that of other displays and reports contradictions. Called once
+        a second while something of the display is drawn; nodes and statuses added to `ctx` are
+        ignored.
+        """
+        return None
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """What is known of something that was selected; None if it does not exist any more.

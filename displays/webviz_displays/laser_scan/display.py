@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic
+from webviz.api.evidence import Hits
 from webviz.data import messages
 from webviz.data.rotations import conjugate
 from webviz_displays.laser_scan import beams
@@ -80,6 +82,14 @@ class LaserScan(PointsDisplay):
         # RViz draws scans in the fixed frame, so the sides of boxes lie along its axes.
         turn = conjugate(sample.pose.wxyz)
         self.draw_points(xyz, colors, ctx, ctx, turn, ids=hits.beams)
+
+    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Hits | None:
+        """The points of the newest scan."""
+        if not samples or beams.fault(samples[-1].message):
+            return None
+        sample = samples[-1]
+        xyz = self._place(beams.project(sample.message), sample, ctx)
+        return Hits(sample.frame, sample.stamp_ns, xyz)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A beam: its range, intensity and angle."""

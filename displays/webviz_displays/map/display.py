@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -22,10 +23,11 @@ from webviz import (
     Topic,
     compose,
 )
+from webviz.api.evidence import Walls
 from webviz.data.words import counted
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
-from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated
+from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated, window
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
@@ -255,6 +257,15 @@ class Map(MapDisplay):
         Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
         Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
     ] = Topic()
+
+    def evidence(self, samples: Sequence[Sample], ctx: Context) -> Walls | None:
+        """Where the map has walls; costmaps have what a robot keeps away from."""
+        grid: TiledGrid | None = samples[-1].message.grid if samples else None
+        if grid is None or self.color_scheme != "map" or not self.alpha:
+            return None
+        return Walls(
+            self.topic.name, grid.frame, grid.origin, grid.resolution, partial(window, grid)
+        )
 
 
 def _images(grid: TiledGrid, look: MapStyle, state: _State) -> dict[Corner, Image]:

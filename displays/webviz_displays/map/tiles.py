@@ -135,6 +135,18 @@ def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:
     return replace(grid, tiles=tiles)
 
 
+def window(grid: TiledGrid, row: int, column: int, rows: int, columns: int) -> NDArray[np.int8]:
+    """The cells from a row and column on, which may lie outside; cells there are -1."""
+    cells = np.full((rows, columns), -1, np.int8)
+    for (top, left), tile in grid.tiles.items():
+        up, down = max(top, row), min(top + tile.shape[0], row + rows)
+        west, east = max(left, column), min(left + tile.shape[1], column + columns)
+        if up < down and west < east:
+            part = tile[up - top : down - top, west - left : east - left]
+            cells[up - row : down - row, west - column : east - column] = part
+    return cells
+
+
 def tile_shape(height: int, width: int) -> tuple[int, int]:
     """Rows and columns of the tiles of a map, so that it has at most `MOST_TILES`.
 

@@ -8,6 +8,7 @@ from typing import Any
 from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
+from webviz.api.evidence import Evidence
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
@@ -16,6 +17,7 @@ from webviz.api.status import Level, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.gripping import Gripping
 from webviz.engine.pipeline.guard import Guard
+from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.holder import Holder
 from webviz.engine.pipeline.painter import Painter
 from webviz.engine.pipeline.picking import Found
@@ -151,6 +153,16 @@ class Runner:
     def color_scale(self) -> ColorScale | None:
         """Which values colours stand for, None if nothing of them can be seen."""
         return None if self._painter.is_empty() else self._painter.color_scale()
+
+    def evidence(self, frames: Frames) -> Evidence | None:
+        """What the display says about where things are; None if nothing of it can be seen."""
+        if not overrides(self.display, "evidence") or self._painter.is_empty():
+            return None
+        context = self._painter.context(self.display, self._guard, self._own(frames))
+        if context is None:
+            return None
+        samples = held_samples(self._holder.histories)
+        return self._guard.attempt("evidence", None, self.display.evidence, samples, context)
 
     # Handles
 

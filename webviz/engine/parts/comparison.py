@@ -1,0 +1,159 @@
+"""Contradictions between displays: scans beside the walls of the map, paths through obstacles."""
+
+from __future__ import annotations
+
+import math
+
+from webviz.api.evidence import Hits, Walls, Way
+from webviz.api.frames import compose, is_placeable, to_pose
+from webviz.api.nodes import Pose
+from webviz.api.status import Level, Status
+from webviz.data.rotations import conjugate, matrices
+from webviz.data.transforms import TransformException
+from webviz.engine.matching import C128, Fit, fit, in_the_way
+from webviz.engine.parts.display_list import DisplayList
+from webviz.engine.parts.part import Core
+from webviz.engine.pipeline import Runner
+
+EVERY_S = 1.0
+"""How often displays are compared."""
+ON_MAP, ON_WAY = "Map", "Obstacles"
+"""Keys of the statuses of scans and of paths."""
+LEVEL = math.cos(math.radians(6.0))
+"""A scanner that is tilted by more sees floors and ceilings."""
+FEWEST = 3
+"""Points that make an obstacle."""
+OLD_S = 3.0
+"""Age of a path whose planner seems to have stopped."""
+
+
+class Comparison:
+    """Compares what displays know of where things are, while browsers are connected.
+
+    Args:
+        core: has transforms and time.
+        displays: what is compared, and gets the statuses.
+    """
+
+    def __init__(self, core: Core, displays: DisplayList) -> None:
+        self._core = core
+        self._displays = displays
+        self._next = 0.0
+
+    def update(self) -> None:
+        """Compare again when it is time."""
+        if self._core.clock() < self._next:
+            return
+        self._next = self._core.clock() + EVERY_S
+        for runner in self._displays.runners():
+            for key in (ON_MAP, ON_WAY):
+                runner.remarks.pop(key, None)
+        if self._core.is_watched():
+            self._compare()
+
+    def _compare(self) -> None:
+        scans: list[tuple[Runner, Hits]] = []
+        ways: list[tuple[Runner, Way]] = []
+        maps: list[Walls] = []
+        for runner in self._displays.active():
+            match runner.evidence(self._core.frames):
+                case Hits() as hits:
+                    scans.append((runner, hits))
+                case Way() as way:
+                    ways.append((runner, way))
+                case Walls() as walls:
+                    maps.append(walls)
+        trusted: list[Hits] = []
+        for runner, hits in scans:
+            status = self._on_map(hits, maps)
+            if status is not None:
+                runner.remarks[ON_MAP] = status
+            if status is None or status.level is Level.OK:
+                trusted.append(hits)
+        for runner, way in ways:
+            if (count := sum(self._in_the_way(hits, way) for hits in trusted)) >= FEWEST:
+                age_s = (self._core.now_ns - way.received_ns) / 1e9
+                runner.remarks[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
+
+    def _on_map(self, hits: Hits, maps: list[Walls]) -> Status | None:
+        """Whether a scan lies on the walls of any map; None if that cannot be known."""
+        found: list[tuple[Fit, Walls]] = []
+        for walls in maps:
+            if placed := self._placed(hits, walls.frame, walls.origin):
+                result = fit(*placed, walls.resolution, walls.window)
+                found += [(result, walls)] if result else []
+        if not found:
+            return None
+        best, walls = max(found, key=lambda each: each[0].share)
+        level = Level.OK if best.is_good else Level.WARN
+        return Status(level, _sentence(best, walls, hits))
+
+    def _in_the_way(self, hits: Hits, way: Way) -> int:
+        placed = self._placed(hits, way.frame, Pose())
+        if placed is None:
+            return 0
+        laser, _, points = placed
+        return in_the_way(laser, points, way.xyz[:, 0] + 1j * way.xyz[:, 1])
+
+    def _placed(self, hits: Hits, frame: str, origin: Pose) -> tuple[complex, float, C128] | None:
+        """The sensor, its heading, and its points relative to it, in the plane of `origin`.
+
+        None if there is no transform, or the sensor is tilted against that plane.
+        """
+        try:
+            pose = to_pose(self._core.buffer.lookup(frame, hits.frame, hits.stamp_ns))
+        except TransformException:
+            return None
+        back = tuple(conjugate(origin.wxyz).tolist())
+        x, y, z = origin.position
+        pose = compose(compose(Pose(wxyz=back), Pose((-x, -y, -z))), pose)
+        turn = matrices(pose.wxyz)
+        if not is_placeable(pose) or abs(turn[2, 2]) < LEVEL:
+            return None
+        xy = hits.xyz @ turn[:2].T
+        laser, points = complex(*pose.position[:2]), xy[:, 0] + 1j * xy[:, 1]
+        return laser, math.atan2(turn[1, 0], turn[0, 0]), points
+
+
+def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
+    """How well a scan fits, and what would cure it."""
+    text = f"{best.share:.0%} of {best.points} points lie on walls of {walls.topic}"
+    if best.is_good:
+        return f"{text}."
+    text = f"Only {text}"
+    if best.turn is not None:
+        return (
+            f"{text}; turned by {math.degrees(best.turn):.0f}° about '{hits.frame}' "
+            f"{best.cured:.0%} would. Check the yaw of '{hits.frame}' on the robot, then the "
+            "localisation."
+        )
+    if best.shift is not None:
+        x, y = best.shift
+        return (
+            f"{text}; shifted by ({x:.1f}, {y:.1f}) m in the map {best.cured:.0%} would. The robot "
+            "is misplaced: give a 2D Pose Estimate, or check what publishes the transform from "
+            f"'{walls.frame}'."
+        )
+    if best.is_mirrored:
+        return (
+            f"{text}; mirrored {best.cured:.0%} would. The laser is upside down: give "
+            f"'{hits.frame}' a roll of 180° on the robot."
+        )
+    return (
+        f"{text}. The robot is misplaced, its laser's transform is wrong, or this is the map of "
+        "another place."
+    )
+
+
+def _blocked(count: int, age_s: float) -> str:
+    """What it means that a path leads through obstacles."""
+    text = f"The path leads through {count} points of the laser scan"
+    if age_s > OLD_S:
+        return (
+            f"{text} and is {age_s:.1f} s old: the planner has not planned again since. Check "
+            "that it still runs."
+        )
+    return (
+        f"{text}: the planner does not know this obstacle. Check that its costmap subscribes to "
+        "the scan."
+    )
