@@ -19,6 +19,7 @@ from webviz.data.messages import encode, interfaces
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.pipeline.background import Workers
+from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.sources import Gate, Offer, Publisher, Raw, Rights
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
@@ -49,7 +50,14 @@ class Bench:
         self.now_ns = START
         self.graph = RememberingGraph()
         gate = Gate(HandFedSource(graph=self.graph), Rights(), lambda: ("/*",))
-        services = Services(self.scene, workers, lambda topic: topic, strict=True, gate=gate)
+        services = Services(
+            self.scene,
+            workers,
+            lambda topic: topic,
+            strict=True,
+            gate=gate,
+            points=PointBudget(self.scene.points_held),
+        )
         self.runner = Runner("display", display, services)
         self._batches: dict[str, list[Raw]] = {}
         self._offers: dict[str, Offer] = {}

@@ -162,6 +162,38 @@ def test_more_points_than_the_limit_are_picked_evenly_and_it_is_said(lab: Benche
     assert len(bench.xyz("points")) == 1000
 
 
+def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(lab: Benches) -> None:
+    points = np.random.default_rng(0).random((1000, 3))
+    bench = lab(xyz_cloud(points.tolist()), color_transformer="FlatColor")
+    assert len(bench.xyz("points")) == 1000
+    bench.scene.held = 200
+    bench.turn(0.1)
+    sample = bench.nodes()["points"]
+    assert bench.statuses()["Points"][1] == (
+        "Showing 200 of 1 000 points; dropped: 800 over the 200 that browsers hold at 20 frames a "
+        "second."
+    )
+    bench.turn(3.5)
+    shown = bench.nodes()
+    assert shown["points"] == sample
+    assert shown["more"].thins
+    assert not shown["points"].thins
+    assert sorted([*shown["points"].ids, *shown["more"].ids]) == list(range(1000))
+    np.testing.assert_allclose(
+        bench.xyz("more"), np.add(points, (0, 0, 1))[shown["more"].ids], atol=1e-6
+    )
+    assert bench.statuses()["Points"][1] == (
+        "Showing 1 000 of 1 000 points; browsers thin out distant ones to keep 20 frames a second."
+    )
+    bench.scene.held = 400
+    bench.turn(1.0)
+    assert bench.nodes()["points"] == sample, "is not sent again"
+    bench.send(CLOUD, xyz_cloud(points.tolist()), frame="lidar")
+    bench.turn()
+    bench.turn()
+    assert {key: len(node.xyz) for key, node in bench.nodes().items()} == {"points": 400}
+
+
 def test_one_point_of_each_voxel_is_shown_and_it_is_said(lab: Benches) -> None:
     points = [(0.01, 0, 0), (0.02, 0, 0), (-0.01, 0, 0), (NAN, 0, 0), (0.11, 0, 0)]
     bench = lab(xyz_cloud(points), voxel_size=0.1)

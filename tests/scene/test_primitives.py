@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from webviz.api.nodes import (
+    POINTS_HELD,
+    POINTS_PER_BLOCK,
     Arrows,
     Axes,
     Glb,
@@ -23,6 +25,7 @@ from webviz.api.nodes import (
     Rgb,
 )
 from webviz.edges.scene import set_background
+from webviz.edges.scene.holding import FEWEST_POINTS
 from webviz.edges.scene.server import BACKGROUND
 
 COLOR = (200, 100, 50)
@@ -263,6 +266,23 @@ def test_the_background_can_be_changed(view: Any) -> None:
     view.wait_for(lambda: view.draw(1) or (view.pixels() == (10, 20, 30)).all())
     set_background(view.scene.link.server, BACKGROUND)
     view.wait_for(lambda: view.draw(1) or (view.pixels() == BACKGROUND).all())
+
+
+def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(view: Any) -> None:
+    blocks = 16
+    rng = np.random.default_rng(0)
+    xyz = np.zeros((blocks, POINTS_PER_BLOCK, 3), np.float32)
+    xyz[:, :, :2] = rng.uniform(-0.5, 0.5, (blocks, POINTS_PER_BLOCK, 2))
+    xyz[1:, :, 0] += 10.0 * np.arange(1 - blocks // 2, blocks // 2)[:, None]
+    view.scene.upsert("map", "more", Points(xyz.reshape(-1, 3), RED, 0.01, thins=True))
+    view.show()
+    drawn = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.render"
+    near = view.evaluate(drawn)
+    assert near["points"] == 2 * POINTS_PER_BLOCK + 4, "one block is in sight, the first always"
+    view.look((0.0, -0.1, 200.0), (0.0, 0.0, 0.0))
+    far = view.evaluate(drawn)
+    assert far["calls"] == near["calls"] + blocks - 2
+    assert FEWEST_POINTS - blocks <= far["points"] <= POINTS_HELD
 
 
 def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:

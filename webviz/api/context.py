@@ -90,9 +90,10 @@ class Group:
         size: float,
         shape: Literal["square", "circle"] = "square",
         ids: Ids | None = None,
+        thins: bool = False,
     ) -> None:
         """Draw points; see `webviz.api.nodes.Points`."""
-        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape, ids)
+        self.nodes[key] = nodes.Points(_f32(xyz, 3), _colors(colors), size, shape, ids, thins)
 
     def lines(
         self,
@@ -223,6 +224,8 @@ class Context(Group):
         state: kept between calls; see `Display.new_state`.
         placement: of the context's own nodes.
         order: place of the display in the list; later displays are drawn on top.
+        share_of_points: how many points the display may show if it has a number of them, by what
+            browsers draw fast enough; to be called in `depends`.
     """
 
     def __init__(
@@ -232,8 +235,10 @@ class Context(Group):
         state: Any,
         placement: Placement = Placement(),
         order: int = 0,
+        share_of_points: Callable[[int], int] = lambda count: nodes.POINTS_HELD,
     ) -> None:
         super().__init__(placement)
+        self.share_of_points = share_of_points
         self.order = order
         self.frames = frames
         self.background = background

@@ -22,6 +22,12 @@ Ids = NDArray[Any]
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone"]
 
+POINTS_HELD = 400_000
+"""How many points a browser draws fast enough, as long as it has not measured it."""
+
+POINTS_PER_BLOCK = 1 << 15
+"""Of `Points` that browsers may thin."""
+
 _COMPARED = 1 << 16
 """Bytes of arrays per comparison."""
 
@@ -64,6 +70,9 @@ class Points(_Node):
         size: edge or diameter in metres.
         shape: outline of each point.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
+        thins: whether browsers may draw only some of them, fewer of those that are far away: all of
+            the first block of `POINTS_PER_BLOCK`, and the first points of each further block,
+            which must stand for all of the block.
     """
 
     xyz: F32
@@ -71,6 +80,7 @@ class Points(_Node):
     size: float
     shape: Literal["square", "circle"] = "square"
     ids: Ids | None = field(default=None, compare=False)
+    thins: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
+from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import Robot, robots_of
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
@@ -34,6 +35,7 @@ from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.pipeline import Services, Workers
 from webviz.engine.pipeline.guard import Guard
+from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.requests import Requests
 from webviz.engine.scene import Scene
 from webviz.engine.settled import settled
@@ -107,6 +109,7 @@ class FrameLoop:
             gate=gate,
             wake=self._wake,
             robots=self._robots,
+            points=PointBudget(self._points_held),
         )
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
@@ -238,6 +241,9 @@ class FrameLoop:
         """Look up frames at the time that is shown now."""
         core = self._core
         core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
+
+    def _points_held(self) -> int:
+        return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
 
     def _robots(self) -> tuple[Robot, ...]:
         return robots_of(self.settings.robots)

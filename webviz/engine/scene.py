@@ -84,6 +84,10 @@ class Scene(DrawingScene, Protocol):
         """Whether any browser is connected."""
         ...
 
+    def points_held(self) -> int:
+        """How many points every connected browser draws fast enough."""
+        ...
+
     def set_background(self, rgb: Color) -> None:
         """Set the background colour."""
         ...

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Hit, Input, Pose, Prop, Rgb, Sample, Topic, compose
+from webviz.api.nodes import POINTS_HELD
+from webviz_displays.point_cloud2.blocks import in_blocks
 from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
 from webviz_displays.point_cloud2.cloud_colors import (
     automatic,
@@ -26,6 +28,9 @@ F32 = NDArray[np.float32]
 DOTS_LIMIT = 50_000
 """The browser draws the style Points as lines, and slows down with more of them."""
 
+REST_NS = 3_000_000_000
+"""Age of a cloud after which none is expected to follow."""
+
 WHITE = (255, 255, 255)
 
 
@@ -35,11 +40,19 @@ class _State:
 
     Args:
         clouds: when each arrived, ROS time in nanoseconds, by number.
-        shares: how many clouds share `max_points`.
+        shares: how many clouds share the limit of points.
+        held: limit of points by what browsers draw fast enough.
+        newest: number and time of arrival of the cloud drawn last, None before the first.
+        size: of that cloud, in points.
+        resting: number of a cloud that no other follows, None if one does.
     """
 
     clouds: dict[int, int] = field(default_factory=dict)
     shares: int = 1
+    held: int = POINTS_HELD
+    newest: tuple[int, int] | None = None
+    size: int = 1 << 40
+    resting: int | None = None
 
 
 class CloudDisplay(PointsDisplay):
@@ -61,10 +74,11 @@ class CloudDisplay(PointsDisplay):
         int,
         Prop(
             ge=0,
-            help="Limit of points shown, evenly sampled; 0 shows all. Clouds kept "
-            "for the decay time share it. Each point takes 15 bytes to send.",
+            help="Limit of points shown, evenly sampled. 0 shows as many as all browsers draw 20 "
+            "times a second, and all of a cloud that no other follows. Clouds kept for the decay "
+            "time share it. Each point takes 15 bytes to send.",
         ),
-    ] = 300_000
+    ] = 0
     voxel_size: Annotated[
         float, Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all.")
     ] = 0.0
@@ -81,10 +95,20 @@ class CloudDisplay(PointsDisplay):
         """No clouds."""
         return _State()
 
-    def depends(self, ctx: Context) -> int:
-        """How many clouds share max_points: a power of two, so that it seldom changes."""
+    def depends(self, ctx: Context) -> tuple[int, int, int | None]:
+        """How many clouds share which limit of points, and which cloud is shown as a whole.
+
+        The number of clouds is a power of two, so that it seldom changes; the limit is 0 if it
+        leaves out nothing.
+        """
         state: _State = ctx.state
-        oldest = ctx.frames.now_ns - round(min(self.decay_time * 1e9, 2**63))
+        now_ns, newest = ctx.frames.now_ns, state.newest
+        is_at_rest = newest is not None and now_ns - newest[1] > REST_NS
+        state.resting = newest[0] if newest and is_at_rest and not self.decay_time else None
+        # A cloud at rest is sent once, whatever browsers hold later: they thin it by themselves.
+        if state.resting is None:
+            state.held = ctx.share_of_points(state.size)
+        oldest = now_ns - round(min(self.decay_time * 1e9, 2**63))
         # A copy, as `draw` may add a cloud in its thread.
         for number in [n for n, received_ns in state.clouds.copy().items() if received_ns < oldest]:
             del state.clouds[number]
@@ -93,11 +117,15 @@ class CloudDisplay(PointsDisplay):
         if count > shares or count < shares // 4:
             shares = 1 << (count - 1).bit_length()
         state.shares = shares
-        return shares
+        if self.max_points or state.size * shares <= state.held:
+            return shares, 0, None
+        return shares, state.held, state.resting
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame of the sensor at the stamp."""
-        ctx.state.clouds[sample.number] = sample.received_ns
+        state: _State = ctx.state
+        state.clouds[sample.number] = sample.received_ns
+        state.newest = sample.number, sample.received_ns
         try:
             cloud = self.cloud_of(sample.message)
             xyz, origin = cloud.positions()
@@ -106,7 +134,10 @@ class CloudDisplay(PointsDisplay):
             return
         if cloud.remark:
             ctx.warn("Data", cloud.remark)
-        rows, sentence = self._select(xyz, ctx.state.shares)
+        state.size = len(xyz)
+        rows, others, sentence = self._select(xyz, state, sample.number == state.resting)
+        if rows is not None and others is not None:
+            rows = np.concatenate((rows, others))
         xyz = picked(xyz, rows)
         own = Pose(origin)
         fixed = compose(sample.pose, own) if any(origin) else sample.pose
@@ -115,8 +146,10 @@ class CloudDisplay(PointsDisplay):
         except CloudError as error:
             ctx.warn("Colors", f"{error} The points are white.")
             colors, opacities = WHITE, None
+        sample_size = len(xyz) - (0 if others is None else len(others))
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0
+            sample_size = int(np.count_nonzero(seen[:sample_size]))
             xyz, rows = xyz[seen], np.flatnonzero(seen) if rows is None else rows[seen]
             colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
             if hidden := len(seen) - len(xyz):
@@ -126,9 +159,13 @@ class CloudDisplay(PointsDisplay):
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
-        self.draw_points(
-            xyz, colors, group, ctx, ids=rows
-        )  # as in RViz, boxes turn with the sensor
+        if rows is None or others is None:
+            # As in RViz, boxes turn with the sensor.
+            self.draw_points(xyz, colors, group, ctx, ids=rows)
+            return
+        for part, thins in ((slice(sample_size), False), (slice(sample_size, None), True)):
+            some = colors if isinstance(colors, tuple) else colors[part]
+            self.draw_points(xyz[part], some, group, ctx, ids=rows[part], thins=thins)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """All fields of a point."""
@@ -140,16 +177,23 @@ class CloudDisplay(PointsDisplay):
             values |= {"Row": hit.id // cloud.width, "Column": hit.id % cloud.width}
         return Details(f"Point {hit.id}", values | {"Points in the cloud": cloud.count})
 
-    def _select(self, xyz: F32, shares: int) -> tuple[Rows | None, str]:
-        """The rows of the points to show, None for all, and a sentence about them.
+    def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, Rows | None, str]:
+        """The points to show.
 
         Args:
             xyz: all points of a cloud.
-            shares: number of clouds that share the limit.
+            state: says how many clouds share which limit.
+            rests: whether no other cloud follows.
+
+        Returns:
+            Rows of points that all browsers draw, None for all points; rows of the others if
+            browsers draw as many of them as they hold, in an order for `Points.thins`; and a
+            sentence.
         """
-        total = len(xyz)
+        total, shares = len(xyz), state.shares
         if not total:
-            return None, "The cloud is empty: width x height is 0. Check the sensor or its filter."
+            empty = "The cloud is empty: width x height is 0. Check the sensor or its filter."
+            return None, None, empty
         reasons: list[str] = []
 
         def left(before: int, rows: Rows | None, reason: str) -> int:
@@ -166,18 +210,28 @@ class CloudDisplay(PointsDisplay):
             count = left(
                 count, rows, f"in voxels of {self.voxel_size:g} m that already show a point"
             )
-        name, limit = "max_points", self.max_points or total * shares
+        name, limit = f"max_points of {spaced(self.max_points)}", self.max_points
+        if not limit:
+            limit = state.held
+            name = f"the {spaced(limit)} that browsers hold at 20 frames a second"
         if self.style == "Points" and limit > DOTS_LIMIT:
-            name, limit = "the limit of the style Points", DOTS_LIMIT
+            name, limit = f"the limit of the style Points of {spaced(DOTS_LIMIT)}", DOTS_LIMIT
+        others = None
         if count > max(limit // shares, 1):
             kept = evenly(count, max(limit // shares, 1))
+            if rests and not self.max_points and self.style != "Points":
+                others = np.delete(np.arange(count) if rows is None else rows, kept)
+                others = others[in_blocks(xyz[others])]
             rows = kept if rows is None else rows[kept]
             many = f" for {shares} clouds" if shares > 1 else ""
-            count = left(count, rows, f"over {name} of {spaced(limit)}{many}")
+            if others is None:
+                count = left(count, rows, f"over {name}{many}")
         sentence = f"Showing {spaced(count)} of {spaced(total)} points"
         if reasons:
             sentence += f"; dropped: {', '.join(reasons)}"
-        return rows, f"{sentence}."
+        if others is not None:
+            sentence += "; browsers thin out distant ones to keep 20 frames a second"
+        return rows, others, f"{sentence}."
 
     def _colors(
         self, cloud: Cloud, rows: Rows | None, xyz: F32, own: Pose, fixed: Pose, ctx: Context

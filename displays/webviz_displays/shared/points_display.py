@@ -95,6 +95,7 @@ class PointStyle(Display):
         box_wxyz: ArrayLike | None = None,
         ids: NDArray[Any] | None = None,
         size: float | NDArray[np.floating] | None = None,
+        thins: bool = False,
     ) -> None:
         """Draw points in the chosen style.
 
@@ -108,9 +109,11 @@ class PointStyle(Display):
             ids: (N,), index of each in the message; None if all are drawn.
             size: edge or diameter in metres, of all or (N,); None is the property. Flat styles of
                 many points get it roughly.
+            thins: draw more points besides those of another call, in an order for `Points.thins`;
+                not for the style Points.
         """
         size = self.size if size is None else size
-        too_many = len(xyz) > SOLIDS_LIMIT
+        too_many = thins or len(xyz) > SOLIDS_LIMIT
         if self.style in _SOLIDS and not too_many:
             wxyzs = None if box_wxyz is None else np.tile(np.asarray(box_wxyz), (len(xyz), 1))
             shape = _SOLIDS[self.style]
@@ -139,7 +142,7 @@ class PointStyle(Display):
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
         if not isinstance(size, np.ndarray):
-            group.points("points", xyz, colors, size, outline, ids)
+            group.points("more" if thins else "points", xyz, colors, size, outline, ids, thins)
             return
         for name, rows, one in by_size(size):
             chosen = colors if isinstance(colors, tuple) else colors[rows]

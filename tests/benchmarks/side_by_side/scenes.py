@@ -169,7 +169,7 @@ EVERYTHING = "".join(
     ]
 )
 ARRAY = "- {type: MarkerArray, topic: /markers}\n"
-ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
+ALL_POINTS = "- {type: PointCloud2, max_points: 10000000}\n"
 
 SCENES = {
     scene.name: scene
@@ -188,9 +188,9 @@ SCENES = {
         Scene("E1M10", "1 000 000 points, 10 Hz", _cloud(1_000_000, 10), ALL_POINTS),
         Scene(
             "E300k",
-            "1 000 000 points, 10 Hz; webviz shows 300 000, its default",
+            "1 000 000 points, 10 Hz; webviz shows 300 000",
             _cloud(1_000_000, 10),
-            "- {type: PointCloud2}\n",
+            "- {type: PointCloud2, max_points: 300000}\n",
         ),
         Scene("F", "a map of 4000 x 4000, 200 x 200 updates, 5 Hz", _big_map, "- {type: Map}\n"),
         Scene(

@@ -59,6 +59,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "FramesShown": Role.WATCHER,
     "Gripped": Role.OPERATOR,
     "Hello": Role.WATCHER,
+    "Holds": Role.OPERATOR,
     "Invite": Role.OWNER,
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,

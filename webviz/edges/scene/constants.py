@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from webviz.api.nodes import POINTS_HELD
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
 from webviz.edges.access import rules
-from webviz.edges.scene.names import PART_PREFIX, ROOT, TILE_PREFIX
+from webviz.edges.scene.holding import FEWEST_POINTS, MOST_POINTS
+from webviz.edges.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.edges.scene.points import PART
 
 DARKEST = 0.3
@@ -15,7 +17,11 @@ CONSTANTS = {
     "ROOT": ROOT,
     "TILE_PREFIX": TILE_PREFIX,
     "PART_PREFIX": PART_PREFIX,
+    "BLOCK_PREFIX": BLOCK_PREFIX,
     "POINTS_PER_PART": PART,
+    "POINTS_HELD": POINTS_HELD,
+    "FEWEST_POINTS": FEWEST_POINTS,
+    "MOST_POINTS": MOST_POINTS,
     "DARKEST": DARKEST,
     "RAISED": RAISED,
     "EYE": EYE,

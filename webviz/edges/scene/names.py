@@ -13,6 +13,9 @@ TILE_PREFIX = "%tile "
 PART_PREFIX = "%part "
 """Marks the names of the parts of a cloud after the first."""
 
+BLOCK_PREFIX = "%block "
+"""Marks those parts of which the page may draw only the first points."""
+
 
 @functools.lru_cache(maxsize=10_000)
 def segment(text: str) -> str:

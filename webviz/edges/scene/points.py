@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
-from webviz.api.nodes import Points
+from webviz.api.nodes import POINTS_PER_BLOCK, Points
 from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.drawn import Props, SingleNode, rgb_array
-from webviz.edges.scene.names import PART_PREFIX
+from webviz.edges.scene.names import BLOCK_PREFIX, PART_PREFIX
 
 # Beyond the far plane of every camera.
 _OUT_OF_SIGHT = np.full((2, 3), -1e9, dtype=np.float32)
 
-PART = 1 << 15
+PART = POINTS_PER_BLOCK
 """Points per viser node: half a megabyte with colours, so that on a slow network other messages can
 be sent in between."""
 
@@ -23,7 +23,8 @@ be sent in between."""
 class PointsDrawn:
     """Points as viser point clouds, several for a large cloud.
 
-    The first part is the parent of the others. Parts that are no longer needed stay, empty.
+    The first part is the parent of the others. Parts that are no longer needed stay, empty. Whether
+    browsers may thin the points does not change; the first part they never thin.
     """
 
     def __init__(self, link: Adapter, name: str) -> None:
@@ -33,8 +34,9 @@ class PointsDrawn:
 
     def draw(self, node: Points) -> None:
         """Sends the parts that changed."""
+        prefix = BLOCK_PREFIX if node.thins else PART_PREFIX
         while len(self._parts) * PART < len(node.xyz):
-            self._parts.append(_Part(self._link, f"{self._name}/{PART_PREFIX}{len(self._parts)}"))
+            self._parts.append(_Part(self._link, f"{self._name}/{prefix}{len(self._parts)}"))
         for index, part in enumerate(self._parts):
             rows = slice(index * PART, (index + 1) * PART)
             colors = node.colors if isinstance(node.colors, tuple) else node.colors[rows]

@@ -29,6 +29,7 @@ from webviz.edges.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.edges.scene.axes import AxesDrawn
 from webviz.edges.scene.cameras import ViserCameras
 from webviz.edges.scene.drawn import Drawn
+from webviz.edges.scene.holding import Holding
 from webviz.edges.scene.images import ImageDrawn
 from webviz.edges.scene.instances import InstancesDrawn
 from webviz.edges.scene.labels import LabelsDrawn
@@ -73,10 +74,15 @@ class ViserScene:
         self._gone: list[_Group] = []
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
+        self._holding = Holding(self.link)
 
     def has_watchers(self) -> bool:
         """Whether any browser is connected."""
         return self.link.watchers > 0
+
+    def points_held(self) -> int:
+        """How many points every connected browser draws fast enough."""
+        return self._holding.points()
 
     def set_background(self, rgb: Rgb) -> None:
         """Sets the background to one colour."""

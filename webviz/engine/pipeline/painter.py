@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from webviz.engine.pipeline.drawing import Drawing, Scene
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.point_budget import PointBudget
 
 _NO_STATE = object()
 
@@ -53,13 +55,16 @@ class Painter:
         id: unique name in the scene.
         scene: where to draw.
         workers: for slow work.
+        points: how many points each display may show.
     """
 
-    def __init__(self, id: str, scene: Scene, workers: Workers) -> None:
+    def __init__(self, id: str, scene: Scene, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
         """Whether everything must be redrawn, such as after a property changed."""
+        self._id = id
         self._workers = workers
+        self._points = points
         self._drawing = Drawing(scene, id)
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
@@ -102,6 +107,7 @@ class Painter:
         self._drawing.clear()
         self._drawn.clear()
         self._drop_errand()
+        self._points.leave(self._id)
         self.is_stale = True
 
     def forget(self) -> None:
@@ -275,7 +281,8 @@ class Painter:
             self._errand = None
 
     def _context(self, frames: Frames, placement: Placement = Placement()) -> Context:
-        return Context(frames, self._tasks, self._state, placement, self.order)
+        share = functools.partial(self._points.share, self._id)
+        return Context(frames, self._tasks, self._state, placement, self.order, share)
 
     def _call(
         self,

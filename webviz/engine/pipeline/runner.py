@@ -46,7 +46,7 @@ class Runner:
         self.remarks: dict[str, Status] = {}
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
-        self._painter = Painter(id, services.scene, services.workers)
+        self._painter = Painter(id, services.scene, services.workers, services.points)
         self._gripping = Gripping(id, services)
         self._guard = self._new_guard()
         self._holder = self._new_holder()

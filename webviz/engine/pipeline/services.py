@@ -6,9 +6,11 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import Robot
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.drawing import Scene
+from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.sources import Gate
 from webviz.engine.trace import Tracer
 
@@ -27,6 +29,7 @@ class Services:
         gate: for displays that follow a protocol of their own; None if they cannot.
         wake: makes the frame loop turn again soon.
         robots: whose topics and frames have a name of their own.
+        points: how many points each display may show.
     """
 
     scene: Scene
@@ -38,3 +41,4 @@ class Services:
     gate: Gate | None = None
     wake: Callable[[], None] = lambda: None
     robots: Callable[[], Sequence[Robot]] = tuple
+    points: PointBudget = field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from webviz.api.bounds import Box, bounds, union
 from webviz.api.frames import compose
-from webviz.api.nodes import Node, Pose, Rgb
+from webviz.api.nodes import POINTS_HELD, Node, Pose, Rgb
 from webviz.engine.scene import Cameras, NoCameras
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ class RecordingScene:
     hidden: set[str] = field(default_factory=set)
     watched: bool = True
     upserts: int = 0
+    held: int = POINTS_HELD
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
@@ -116,6 +117,10 @@ class RecordingScene:
     def has_watchers(self) -> bool:
         """Whether viewers draw."""
         return self.watched
+
+    def points_held(self) -> int:
+        """How many points browsers draw fast enough."""
+        return self.held
 
     def visible(self, prefix: str = "") -> Iterator[tuple[str, Pose, Node]]:
         """Key, pose in the fixed frame and node of all visible nodes.

@@ -1,10 +1,12 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
+import * as blocks from "./scene/blocks.js";
 import * as channel from "./channel.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
 import * as handles from "./handles/handles.js";
+import * as holding from "./scene/holding.js";
 import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
@@ -24,7 +26,7 @@ async function install() {
   await viser.until(viser.hasScene);
   for (const part of [shell, page, inStep, tiles, labels, lines, shade, colors, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, handles, saveImage, overlay]) part.install();
+  for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
   toolbar.install(shell.places);
 }
 

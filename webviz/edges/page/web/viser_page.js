@@ -10,6 +10,7 @@ const page = () => window.__viserMutable;
 // What has to be there, and what for. A path of a function ends with ().
 const NEEDS = {
   "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
+  "scene.onAfterRender()": "measuring how many points the page holds",
   "scene.__r3f.root.getState()": "everything of three.js",
   "scene.__r3f.root.getState().gl.renderBufferDirect()": "surfaces that are transparent",
   "scene.__r3f.root.getState().raycaster.setFromCamera()": "picking what is under the mouse",
@@ -135,6 +136,15 @@ export function beforeEveryRender(act) {
 /** The same, only with the camera of the page. */
 export function beforeRender(act) {
   beforeEveryRender((...args) => args[2] === camera() && act(...args));
+}
+
+/** Calls `act` each time after the scene was drawn with the camera of the page. */
+export function afterRender(act) {
+  const before = scene().onAfterRender;
+  scene().onAfterRender = function (...args) {
+    before.apply(this, args);
+    if (args[2] === camera()) act();
+  };
 }
 
 /** Calls `act` in each frame; viser places nodes at -1000 and labels at 0. */

@@ -2,6 +2,7 @@
 
 import * as channel from "../channel.js";
 import { el, set, setChildren, setText } from "../dom.js";
+import { points } from "../scene/holding.js";
 import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 
@@ -66,6 +67,7 @@ export function build() {
       ["Watching", `${watchers} ${watchers === 1 ? "browser" : "browsers"}`],
       ["Drawn at once", `${render.triangles} triangles, ${render.points} points, ` +
         `${render.calls} calls`],
+      ["Points held", `${points()} at once, to draw 20 frames a second`],
       ["Drawn by", renderer()],
     ];
     setChildren(more, rows.flatMap(([name, value], index) => {

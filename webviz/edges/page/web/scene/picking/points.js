@@ -4,11 +4,14 @@ import { lensOf } from "./lens.js";
 
 const ROUND = 1000; // above this, the norm of its outline makes a point a square
 
+// The coordinates of the points that are drawn, which may be the first ones only.
+const drawn = ({ geometry: { attributes, drawRange } }) =>
+  attributes.position?.array.subarray(0, 3 * Math.min(drawRange.count, attributes.position.count)) ?? [];
+
 /** The point under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`. */
 export function pointAt(points, [atX, atY], near) {
   const { m, v, wide, tall, dpr } = lensOf(points);
-  const xyz = points.geometry.attributes.position?.array;
-  if (!xyz) return null;
+  const xyz = drawn(points);
   const { scale, point_ball_norm: norm } = points.material.uniforms;
   const half = scale.value / 2 / dpr; // times 1 / depth
   const isSquare = norm.value > ROUND;
@@ -42,7 +45,7 @@ export function pointAt(points, [atX, atY], near) {
 /** Calls `take(number)` for each point whose middle is in a box of the canvas. */
 export function pointsIn(points, { left, top, right, bottom }, take) {
   const { m, v, wide, tall } = lensOf(points);
-  const xyz = points.geometry.attributes.position?.array ?? [];
+  const xyz = drawn(points);
   const [midX, midY] = [wide / 2, tall / 2];
   for (let i = 0, j = 0; j < xyz.length; i++, j += 3) {
     const [x, y, z] = [xyz[j], xyz[j + 1], xyz[j + 2]];

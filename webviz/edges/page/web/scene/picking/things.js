@@ -4,7 +4,7 @@ import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
 import { texts } from "./texts.js";
 
-const { ROOT, TILE_PREFIX, PART_PREFIX, POINTS_PER_PART } = constants;
+const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = constants;
 
 /**
  * All that displays draw and that can be seen: `{object, name, node, ordinal}`; `object` is of three.js
@@ -54,7 +54,8 @@ export const isTile = (name) => name.includes(`/${TILE_PREFIX}`);
 export function nodeNamed(name) {
   const [, , group, key, part = ""] = name.split("/");
   if (group === undefined || key === undefined) return null;
-  const before = part.startsWith(PART_PREFIX) ? Number(part.slice(PART_PREFIX.length)) : 0;
+  const prefix = [PART_PREFIX, BLOCK_PREFIX].find((each) => part.startsWith(each));
+  const before = prefix ? Number(part.slice(prefix.length)) : 0;
   try {
     const path = `${ROOT}/${group}/${key}`;
     return { group: text(group), key: text(key), path, first: before * POINTS_PER_PART };

@@ -1,0 +1,92 @@
+// Large clouds at rest, of which as many points are drawn as the page holds: fewer of a block that is
+// far away, none of one out of sight. The first points of a block stand for all of it.
+
+import constants from "../constants.js";
+import * as holding from "./holding.js";
+import * as viser from "../viser_page.js";
+
+const MARK = `/${constants.BLOCK_PREFIX}`;
+const LEAST_SHARE = 0.5; // of the points held, although other clouds have more
+
+const spheres = new WeakMap(); // by array of coordinates
+
+export function install() {
+  let others = 0;
+  let thinned = 0;
+  viser.beforeEveryRender((gl, scene, camera) => {
+    const held = holding.points();
+    thinned = thin(blocks(), camera, Math.max(held - others, LEAST_SHARE * held));
+  });
+  viser.afterRender(() => (others = viser.gl().info.render.points - thinned));
+}
+
+function blocks() {
+  const found = [];
+  const nodes = viser.nodes();
+  for (const name in nodes) {
+    if (!name.includes(MARK) || !nodes[name] || !isShown(nodes[name])) continue;
+    nodes[name].traverse((object) => object.isPoints && found.push(object));
+  }
+  return found;
+}
+
+function isShown(object) {
+  for (let each = object; each; each = each.parent) if (!each.visible) return false;
+  return true;
+}
+
+// All points up to some distance, and fewer by its square beyond.
+function thin(objects, camera, budget) {
+  const wanted = [];
+  for (const object of objects) {
+    object.visible = false;
+    const xyz = object.geometry.attributes.position?.array;
+    if (!xyz?.length) continue;
+    const weight = weightOf(sphereOf(xyz), object.matrixWorld, camera) * xyz.length;
+    if (weight) wanted.push({ object, count: xyz.length / 3, weight });
+  }
+  wanted.sort((a, b) => a.count / a.weight - b.count / b.weight);
+  let weights = wanted.reduce((sum, { weight }) => sum + weight, 0);
+  let drawn = 0;
+  for (const { object, count, weight } of wanted) {
+    const shown = Math.min(count, Math.floor(((budget - drawn) * weight) / weights));
+    object.visible = shown > 0;
+    object.geometry.setDrawRange(0, shown);
+    weights -= weight;
+    drawn += shown;
+  }
+  return drawn;
+}
+
+// How much a sphere counts, the more the nearer; 0 out of sight.
+function weightOf({ middle, radius }, matrixWorld, camera) {
+  const at = camera.position.clone().fromArray(middle);
+  at.applyMatrix4(matrixWorld).applyMatrix4(camera.matrixWorldInverse);
+  const p = camera.projectionMatrix.elements;
+  for (const axis of [0, 1]) {
+    for (const side of [-1, 1]) {
+      const [x, y, z, w] = [0, 1, 2, 3].map((i) => p[4 * i + 3] + side * p[4 * i + axis]);
+      if (x * at.x + y * at.y + z * at.z + w < -radius * Math.hypot(x, y, z)) return 0;
+    }
+  }
+  const isFlat = p[11] === 0; // without perspective
+  return isFlat ? 1 : 1 / Math.max(at.length(), radius, 1e-6) ** 2;
+}
+
+function sphereOf(xyz) {
+  const known = spheres.get(xyz);
+  if (known) return known;
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < xyz.length; i += 3) {
+    for (let axis = 0; axis < 3; axis++) {
+      const value = xyz[i + axis];
+      if (value < low[axis]) low[axis] = value;
+      if (value > high[axis]) high[axis] = value;
+    }
+  }
+  const middle = low.map((value, axis) => (value + high[axis]) / 2);
+  const sphere = { middle, radius: Math.hypot(...middle.map((value, axis) => high[axis] - value)) };
+  spheres.set(xyz, sphere);
+  return sphere;
+}

@@ -1,0 +1,84 @@
+// How many points this page draws 20 times a second, which it measures while it draws.
+
+import { why } from "../access.js";
+import * as channel from "../channel.js";
+import constants from "../constants.js";
+import * as viser from "../viser_page.js";
+
+const { POINTS_HELD, FEWEST_POINTS, MOST_POINTS } = constants;
+const GOAL_MS = 50;
+// Between these the number stays: it goes in steps of two, which lead from neither to the other.
+const SLOW_MS = 1.5 * GOAL_MS;
+const FAST_MS = 0.5 * GOAL_MS;
+const USED = 0.7; // of the points held, for a fast frame to say that there is room for more
+const FRAMES = 5;
+const PATIENCE_MS = 1500; // of a slow browser, fewer frames are enough
+const LOOK_MS = 2;
+
+let held = POINTS_HELD;
+let isMeasured = false;
+
+/** How many points to draw at once. */
+export const points = () => held;
+
+export function install() {
+  let began = 0;
+  let isMeasuring = false;
+  let frames = [];
+
+  channel.onOpen(() => isMeasured && report());
+  viser.beforeRender(() => (began = performance.now()));
+  viser.afterRender(() => {
+    const drawn = viser.gl().info.render.points;
+    if (isMeasuring || 2 * drawn < FEWEST_POINTS || isHeld()) return;
+    isMeasuring = true;
+    measure(began, (ms) => {
+      isMeasuring = false;
+      if (document.hidden || !ms) return;
+      frames.push({ ms, drawn });
+      const all = frames.reduce((sum, frame) => sum + frame.ms, 0);
+      if (frames.length < FRAMES && all < PATIENCE_MS) return;
+      decide(frames);
+      frames = [];
+    });
+  });
+}
+
+// When the graphics card has drawn what it was told, not when it was told.
+function measure(began, done) {
+  const context = viser.gl().getContext();
+  const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  context.flush();
+  (function look() {
+    if (context.isContextLost()) return done(0);
+    if (context.getSyncParameter(drawn, context.SYNC_STATUS) !== context.SIGNALED) {
+      return setTimeout(look, LOOK_MS);
+    }
+    context.deleteSync(drawn);
+    done(performance.now() - began);
+  })();
+}
+
+function decide(frames) {
+  const times = frames.map(({ ms }) => ms).sort((a, b) => a - b);
+  const ms = times[times.length >> 1];
+  const drawn = Math.max(...frames.map((frame) => frame.drawn));
+  const before = held;
+  if (ms > SLOW_MS) held = stepBelow((Math.min(drawn, held) * GOAL_MS) / ms);
+  else if (ms < FAST_MS && drawn > USED * held) held = stepBelow(2 * held);
+  if (held === before && isMeasured) return;
+  isMeasured = true;
+  report();
+  viser.requestRender();
+}
+
+function stepBelow(count) {
+  const step = FEWEST_POINTS * 2 ** Math.floor(Math.log2(count / FEWEST_POINTS));
+  return Math.min(Math.max(step, FEWEST_POINTS), MOST_POINTS);
+}
+
+// What watchers report would change what others see.
+const report = () => why("Holds") || channel.send({ type: "Holds", points: held });
+
+// Pages that only take pictures draw on request; those must not depend on how fast that is.
+const isHeld = () => viser.canvas().style.visibility === "hidden";

@@ -1,0 +1,49 @@
+"""How many points each display may show, of those that the browsers draw fast enough."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+
+class PointBudget:
+    """Shares the points that browsers hold among the displays that want some.
+
+    Those that want little get it, and leave the rest to the others, in equal shares. All methods
+    belong to the frame loop.
+
+    Args:
+        held: how many points every connected browser draws fast enough.
+    """
+
+    def __init__(self, held: Callable[[], int]) -> None:
+        self._held = held
+        self._wanted: dict[str, int] = {}
+
+    def share(self, display: str, wanted: int) -> int:
+        """How many points a display may show.
+
+        Args:
+            display: its id.
+            wanted: how many it has to show; it counts until the next call, or `leave`.
+
+        Returns:
+            A limit of two significant digits, so that it does not change with every message.
+        """
+        self._wanted[display] = wanted
+        left, waiting = self._held(), len(self._wanted)
+        for each in sorted(self._wanted.values()):
+            if each * waiting > left:
+                break
+            left, waiting = left - each, waiting - 1
+        # If all have what they want, any of them may have the rest as well.
+        return _rounded(left // waiting if waiting else left + wanted)
+
+    def leave(self, display: str) -> None:
+        """Give what a display had to the others."""
+        self._wanted.pop(display, None)
+
+
+def _rounded(count: int) -> int:
+    """The next smaller number with two significant digits, at least 1."""
+    unit = 10 ** max(len(str(count)) - 2, 0)
+    return max(count // unit * unit, 1)
