@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from urllib.parse import urlsplit
 
-import psutil
 import segno
 
 from webviz.edges.access.starting import is_local, link
@@ -71,6 +70,8 @@ def reachable(url: str, host: str, names: Sequence[str]) -> str:
 
 def _own_addresses() -> list[str]:
     """The IPv4 addresses of this machine in networks."""
+    import psutil  # here, as it would slow down the start
+
     return [
         address.address
         for addresses in psutil.net_if_addrs().values()
