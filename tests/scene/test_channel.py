@@ -205,6 +205,22 @@ def test_when_the_channel_ends_viser_notifies_the_page(
     wait_until(lambda: browser not in server._websock_server._live_connections)
 
 
+def test_when_viser_s_connection_ends_so_does_the_channel(
+    server: Server, call: Callable[..., Any]
+) -> None:
+    """A page that keeps only its channel would keep a file descriptor as well."""
+    peer = call()
+    _, key = key_of(peer)
+    with channel(server) as connection:
+        connection.send(hello(key))
+        connection.recv(60)
+        peer.close()
+        with contextlib.suppress(websockets.exceptions.ConnectionClosed):
+            while connection.recv(60):
+                pass
+        assert connection.close_code is not None
+
+
 def test_the_page_is_one_file_that_may_load_nothing_from_elsewhere(server: Server) -> None:
     with urllib.request.urlopen(f"http://127.0.0.1:{server.get_port()}/?x", timeout=60) as answer:
         headers, page = answer.headers, answer.read()

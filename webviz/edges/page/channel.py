@@ -118,9 +118,10 @@ class Channel:
         with self._lock:
             if browser is None and message.kept:
                 self._kept[type(message)] = message
+            data = msgspec.json.encode(message)
             for id_, outbox in self._outboxes.items():
                 if browser in (None, id_):
-                    outbox.put(message)
+                    outbox.put(message, data)
         self._wake_soon()
 
     def send_bytes(self, data: bytes, key: str, browser: int) -> None:
@@ -203,14 +204,16 @@ class Channel:
             self._loop = asyncio.get_running_loop()
             outbox = self._outboxes[browser] = _Outbox(key)
             for message in self._kept.values():
-                outbox.put(message)
+                outbox.put(message, msgspec.json.encode(message))
         return key
 
     def leave(self, browser: int) -> None:
-        """Forgets a browser that is gone."""
+        """Forgets a browser that is gone, and ends what is left of its channel."""
         with self._lock:
-            self._outboxes.pop(browser, None)
+            outbox = self._outboxes.pop(browser, None)
             self._visitors.pop(browser, None)
+        if outbox is not None:
+            outbox.abort()
 
     async def serve(
         self, connection: Connection, inside: Callable[[], contextlib.AbstractContextManager[None]]
@@ -355,10 +358,9 @@ class _Outbox:
         """Send a message before all that waits."""
         self.waiting = {type(message): msgspec.json.encode(message), **self.waiting}
 
-    def put(self, message: ToPage) -> None:
+    def put(self, message: ToPage, data: bytes) -> None:
         key = type(message) if message.kept else next(self._numbers)
         self.waiting.pop(key, None)
-        data = msgspec.json.encode(message)
         size = len(data) + sum(map(len, self.waiting.values()))
         if len(self.waiting) < MAX_WAITING and size <= MAX_WAITING_BYTES and not self.is_full:
             self.waiting[key] = data
