@@ -37,7 +37,7 @@ $(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
 	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
 endef
 
-.PHONY: install test quick check bench attack browser docs
+.PHONY: install test quick check bench soak attack browser docs
 
 install: $(VENV)/ready
 
@@ -61,6 +61,10 @@ check: $(VENV)/ready-to-test
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.
 bench: $(VENV)/ready-to-bench
 	@PYTHONPATH=tests/benchmarks:tests/support $(VENV)/bin/python -m side_by_side $(ARGS)
+
+# ARGS="--minutes 30" for half an hour instead of ten minutes.
+soak: $(VENV)/ready-to-test
+	@PYTHONPATH=tests/benchmarks:tests/support $(VENV)/bin/python -m side_by_side.soak $(ARGS)
 
 # ARGS="--hours 1", or "--seed 7 --only dds --first 120" for what a report names.
 attack: $(VENV)/ready-to-test

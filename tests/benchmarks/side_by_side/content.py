@@ -81,6 +81,20 @@ def frames(prefix: str, root: str, count: int, branching: int = 6) -> list[Value
     return made
 
 
+def passing_frames(groups: int, repeats: int, count: int = 8) -> list[Values]:
+    """Groups of frames that are published in turn, each some times, so that they come and go."""
+    return [
+        {
+            "transforms": [
+                _moved("map", f"passing_{group}_{i}", (group, i, 0.1 * repeat), 0)
+                for i in range(count)
+            ]
+        }
+        for group in range(groups)
+        for repeat in range(repeats)
+    ]
+
+
 def links(count: int) -> list[Values]:
     """Transforms of the robot of `robot`; its base is marked."""
     made = []

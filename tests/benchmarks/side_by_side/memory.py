@@ -44,14 +44,21 @@ class Soak:
 
     @property
     def slope(self) -> float:
-        """MB per minute: the median of the slopes between all samples far apart (Theil-Sen).
+        """MB per minute."""
+        return slope(self.times, self.resident)
 
-        A single step, as when an allocator takes a larger piece, does not count as growth.
-        """
-        apart = len(self.times) // 4
-        i, j = np.triu_indices(len(self.times), apart)
-        rise = self.resident[j] - self.resident[i]
-        return 60 * float(np.median(rise / (self.times[j] - self.times[i])))
+
+def slope(times: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+    """Growth per minute: the median of the slopes between all samples far apart (Theil-Sen).
+
+    A single step, as when an allocator takes a larger piece, does not count as growth.
+
+    Args:
+        times: of the samples, s (N,).
+        values: at these (N,).
+    """
+    i, j = np.triu_indices(len(times), len(times) // 4)
+    return 60 * float(np.median((values[j] - values[i]) / (times[j] - times[i])))
 
 
 def soak(system: System, scene: Scene, seconds: float, folder: Path) -> Soak:

@@ -135,6 +135,14 @@ def _everything() -> list[Stream]:
     ]
 
 
+def _comings_and_goings() -> list[Stream]:
+    return [
+        *_demo(),
+        Stream("/markers", MARKERS, 20, marker_content.churn(), Lane(2, Place.FRAME)),
+        Stream("/tf", TF, 5, content.passing_frames(40, 5)),
+    ]
+
+
 def _still() -> list[Stream]:
     lane = Lane(0, Place.PICTURE)
     return [
@@ -252,6 +260,12 @@ SCENES = {
             "depths of 640 x 480, 16UC1, 30 Hz, as a cloud",
             lambda: image_content.depths(640, 480),
             "- {type: DepthCloud, topic: /depth/image, max_points: 0}\n",
+        ),
+        Scene(
+            "soak",
+            "the demo with frames and markers that come and go",
+            _comings_and_goings,
+            DEMO + ARRAY,
         ),
         Scene("idle", "nothing moves", _still, "- {type: Map}\n"),
     )
