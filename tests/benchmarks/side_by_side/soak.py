@@ -98,13 +98,9 @@ def come_and_go(port: int, ended: threading.Event, failures: list[str]) -> None:
             failures.append(f"a visitor: {error}")
 
 
-def sample(
-    process: psutil.Process,
-    reader: ViserWatcher,
-    page: playwright.Page,
-    inspector: playwright.CDPSession,
-) -> list[float]:
+def sample(process: psutil.Process, reader: ViserWatcher, page: playwright.Page) -> list[float]:
     """The figures of one moment, but for the latency."""
+    inspector = page.context.new_cdp_session(page)
     inspector.send("HeapProfiler.collectGarbage")
     heap = inspector.send("Runtime.getHeapUsage")["usedSize"] / 1e6
     inspector.detach()
