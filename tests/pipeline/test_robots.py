@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 from bench import Bench
+from ruamel.yaml import YAML
 
+from webviz import Display
+from webviz import Pose as At
+from webviz.api.context import Context
 from webviz.api.declared import Topic
-from webviz.api.robots import Robot, robot_of
-from webviz.files.config import Branch, Unreadable, dump
+from webviz.api.frames import Frames
+from webviz.api.robots import Robot, RobotFrames, robot_of
+from webviz.api.wire import Wire
+from webviz.data.transforms import TransformBuffer
+from webviz.engine.commands import Open, Save, SetProperty, Undo
+from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
+from webviz_displays.interactive_markers.completion import Completed
+from webviz_displays.interactive_markers.feedback import POSE_UPDATE, values_of
+from webviz_displays.interactive_markers.tracked import Tracked
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.poses import Pose
 
@@ -89,11 +102,76 @@ def test_entries_with_a_placeholder_are_repeated_for_each_robot() -> None:
         "/fleet/robot2/scan",
     ]
     assert [tool.name for tool in config.tools] == ["Goal robot1", "Goal fleet/robot2"]
-    # Saved, they stand for themselves.
-    assert dump(parse(dump(config), "y.yaml")) == dump(config)
+
+
+def test_saving_keeps_a_placeholder_until_one_of_its_robots_differs(
+    bench: Callable[..., Bench], tmp_path: Path
+) -> None:
+    file = tmp_path / "fleet.yaml"
+    file.write_text(TEMPLATE)
+    b = bench()
+    b.do(Open(str(file)))
+    before, rows = document(parse(TEMPLATE, "x.yaml")), b.states[-1].rows
+    assert before["displays"] == YAML(typ="safe").load(TEMPLATE)["displays"]
+    assert before["tools"] == YAML(typ="safe").load(TEMPLATE)["tools"]
+    b.do(Save())
+    assert document(parse(file.read_text(), "y.yaml")) == before
+    b.do(SetProperty(rows[2].id, "size", 0.5))
+    b.do(Save())
+    [_, one, two] = YAML(typ="safe").load(file.read_text())["displays"]
+    assert one == {
+        "type": "Group",
+        "name": "robot1",
+        "displays": [{"type": "LaserScan", "topic": "/robot1/scan", "size": 0.5}],
+    }
+    assert two["name"] == "fleet/robot2"
+    b.do(Undo())
+    b.do(Save())
+    assert document(parse(file.read_text(), "y.yaml")) == before
 
 
 def test_without_robots_a_placeholder_is_an_error_of_its_display() -> None:
     text = 'version: 1\ndisplays: [{type: LaserScan, topic: "/{robot}/scan", size: -1}]\n'
     [item] = parse(text, "x.yaml").displays
     assert isinstance(item, Unreadable)
+
+
+class Follower(Display):
+    """Listens on a topic that no input declares, as displays with a protocol of their own."""
+
+    def talk(self, wire: Wire, ctx: Context) -> None:
+        wire.listen("/robot1/markers/update", "std_msgs/msg/String", 1)
+        NAMES.append(ctx.frames.named("base_link"))
+
+
+NAMES: list[str] = []
+
+
+def test_a_display_with_a_protocol_of_its_own_belongs_to_the_robot_of_its_topics(
+    bench: Callable[..., Bench],
+) -> None:
+    b = bench(Follower(), robots=("robot1",))
+    b.turn()
+    assert NAMES[-1] == "robot1/base_link"
+
+
+@pytest.mark.parametrize(
+    ("frame", "stamp_ns", "fixed", "sent"),
+    [
+        ("base_link", 0, "map", ("base_link", 3)),
+        ("base_link", 1 * S, "map", ("map", 0)),
+        ("base_link", 1 * S, "robot1/odom", ("odom", 0)),
+        ("odom", 0, "robot1/odom", ("odom", 0)),
+    ],
+)
+def test_feedback_of_interactive_markers_has_the_frame_names_of_their_robot(
+    frame: str, stamp_ns: int, fixed: str, sent: tuple[str, int]
+) -> None:
+    buffer = TransformBuffer()
+    for parent, child in (("map", "robot1/odom"), ("robot1/odom", "robot1/base_link")):
+        for second in (1, 3):
+            buffer.set_transform(parent, child, second * S, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    frames = RobotFrames(Frames(buffer, fixed, 3 * S), Robot("robot1"))
+    made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), ())
+    values: Any = values_of(POSE_UPDATE, Tracked("m", made), "", frames, "client")
+    assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == sent

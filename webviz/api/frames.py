@@ -99,6 +99,10 @@ class Frames:
         """The name in the viewer of a frame that a message names."""
         return frame.removeprefix("/")
 
+    def own(self, frame: str) -> str:
+        """The name of a frame of the viewer for those who read messages of the display."""
+        return frame
+
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
         """Pose of a frame at a stamp (0: the latest common time), None if it is unknown."""
         key = (frame, stamp_ns)

@@ -45,8 +45,16 @@ class Robot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     def frame(self, name: str) -> str:
         """The name in the viewer of a frame of the robot, which may be that already."""
         name = name.removeprefix("/")
-        prefix = self.root[1:] if self.prefix is None else self.prefix
+        prefix = self._prefix
         return name if not name or name in self.shared or name.startswith(prefix) else prefix + name
+
+    def own(self, frame: str) -> str:
+        """The robot's own name of a frame of the viewer; other robots' frames keep theirs."""
+        return frame.removeprefix(self._prefix)
+
+    @property
+    def _prefix(self) -> str:
+        return self.root[1:] if self.prefix is None else self.prefix
 
 
 @functools.lru_cache(maxsize=8)
@@ -80,6 +88,10 @@ class RobotFrames(Frames):
     def named(self, frame: str) -> str:
         """The name of a frame in the viewer."""
         return self._robot.frame(frame)
+
+    def own(self, frame: str) -> str:
+        """The robot's own name of a frame of the viewer."""
+        return self._robot.own(frame)
 
     def at(self, frame: str, stamp_ns: int) -> Pose | None:
         """See `Frames.at`."""

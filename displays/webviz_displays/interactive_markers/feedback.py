@@ -30,7 +30,8 @@ def values_of(
     """The values of a visualization_msgs/InteractiveMarkerFeedback; None without a transform.
 
     A marker that moves with its frame is reported in that frame, at the latest time at which its
-    transform is known; another one in the fixed frame with a stamp of 0.
+    transform is known; another one in the fixed frame with a stamp of 0. Frames have the names that
+    the robot of the server has for them.
 
     Args:
         point: under the pointer, in the frame of `Tracked.place`; None for nothing.
@@ -39,15 +40,15 @@ def values_of(
     place = marker.place(frames)
     if place is None:
         return None
-    stamp_ns = 0
-    if place.frame != frames.fixed_frame:
+    stamp_ns, frame = 0, frames.named(place.frame)
+    if frame != frames.fixed_frame:
         try:
-            stamp_ns = frames.buffer.latest_common_time(frames.fixed_frame, place.frame)
+            stamp_ns = frames.buffer.latest_common_time(frames.fixed_frame, frame)
         except TransformException:
             return None
     sec, nanosec = divmod(stamp_ns, 1_000_000_000)
     return {
-        "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": place.frame},
+        "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frames.own(frame)},
         "client_id": client,
         "marker_name": marker.made.name,
         "control_name": control,

@@ -6,7 +6,7 @@ import contextlib
 import functools
 import os
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -20,13 +20,14 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.steps import Origin
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import File
 from webviz.engine.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
-from webviz.files.config import Config, ConfigError
+from webviz.files.config import Config, ConfigError, Template
 from webviz.files.config.files import SUFFIXES, refuse_too_large
 
 MAX_OTHERS = 200
@@ -69,6 +70,7 @@ class FilesPart(Part):
         self._path: Path | None = None
         self._folder = path.absolute().parent if path else Path.cwd()
         self._report: list[str] = []
+        self._templates: tuple[Template, ...] = ()
         self._others: tuple[str, ...] = ()
         self._listing: Future[tuple[str, ...]] | None = None
         self._next_listing = 0.0
@@ -92,15 +94,22 @@ class FilesPart(Part):
     def config(self) -> Config:
         """The current config: a snapshot, for any thread."""
         displays, tools, panels = self._displays.list, self._tools, self._panels
-        return Config(self._settings.settings, displays.items(), tools.items(), panels.items())
+        return Config(
+            self._settings.settings,
+            displays.items(),
+            tools.items(),
+            panels.items(),
+            templates=self._templates,
+        )
 
-    def origin(self) -> tuple[Path | None, list[str]]:
-        """The file that is shown, and what of it has no counterpart here."""
-        return self._path, self._report
+    def origin(self) -> Origin:
+        """Where the config comes from."""
+        return Origin(self._path, self._report, self._templates)
 
-    def set_origin(self, path: Path | None, report: Sequence[str]) -> None:
-        """Say which file is shown; of another one than the last it counts as changed."""
-        self._path, self._report = path, list(report)
+    def set_origin(self, origin: Origin) -> None:
+        """Say where the config comes from; of another file than the last it counts as changed."""
+        self._path, self._report = origin.path, list(origin.report)
+        self._templates = origin.templates
 
     def keep_up(self, commanded: bool) -> None:
         """Update whether there are unsaved changes, and the files of the folder."""
@@ -212,6 +221,7 @@ class FilesPart(Part):
         self._panels.show(config.panels)
         self._path = path
         self._report = config.report
+        self._templates = config.templates
         self._saved = {path: config_file.document(self.config())}
         self._is_changed = False
 

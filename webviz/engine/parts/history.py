@@ -160,7 +160,7 @@ class HistoryPart(Part):
             self._displays.list.kept(before.displays),
             self._tools.kept(before.tools),
             self._panels.kept(before.panels),
-            *self._files.origin(),
+            self._files.origin(),
         )
 
     def _show(self, moment: Moment) -> None:
@@ -169,4 +169,4 @@ class HistoryPart(Part):
         self._panels.restore(moment.panels)
         self._settings.settings = moment.settings
         self._views.start_with(moment.settings.view)
-        self._files.set_origin(moment.path, moment.report)
+        self._files.set_origin(moment.origin)

@@ -12,7 +12,7 @@ import msgspec
 from webviz.api.declared import Declared, make
 from webviz.api.properties import properties_of
 from webviz.api.views import View
-from webviz.files.config import Settings, Unreadable
+from webviz.files.config import Settings, Template, Unreadable
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,21 @@ def made_anew(kept: Snapshot) -> Declared | Unreadable:
 
 
 @dataclass(frozen=True)
+class Origin:
+    """Where a config comes from.
+
+    Args:
+        path: of the config file, None for none.
+        report: on what of a .rviz file has no counterpart.
+        templates: see `webviz.files.config.Config`.
+    """
+
+    path: Path | None = None
+    report: Sequence[str] = ()
+    templates: tuple[Template, ...] = ()
+
+
+@dataclass(frozen=True)
 class Moment:
     """All that undo brings back.
 
@@ -63,16 +78,14 @@ class Moment:
         displays: by id, in the order of the list.
         tools: by id, in the order of the toolbar.
         panels: by id, in the order of their tabs.
-        path: of the config file, None for none.
-        report: on what of a .rviz file has no counterpart.
+        origin: of all of them.
     """
 
     settings: Settings = field(default_factory=Settings)
     displays: Mapping[str, Snapshot] = field(default_factory=dict)
     tools: Mapping[str, Snapshot] = field(default_factory=dict)
     panels: Mapping[str, Snapshot] = field(default_factory=dict)
-    path: Path | None = None
-    report: Sequence[str] = ()
+    origin: Origin = Origin()
 
 
 @dataclass(frozen=True)
@@ -94,8 +107,9 @@ def difference(before: Moment, after: Moment) -> Difference:
 
     An entry that can be shown because its plug-in came is the same one.
     """
-    if before.path != after.path:
-        return Difference(f"Open {after.path.name}" if after.path else "Open another config")
+    path = after.origin.path
+    if before.origin.path != path:
+        return Difference(f"Open {path.name}" if path else "Open another config")
     lists = (
         (before.displays, after.displays),
         (before.tools, after.tools),

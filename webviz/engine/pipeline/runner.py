@@ -222,7 +222,10 @@ class Runner:
     def _own(self, frames: Frames) -> Frames:
         """The frames by the names of the robot whose topics the display has."""
         robots = self._services.robots()
-        robot = robot_of(self._holder.inputs.topics(), robots) if robots else None
+        if not robots:
+            return frames
+        topics = [*self._holder.inputs.topics(), *self._gripping.subscriptions()]
+        robot = robot_of(topics, robots)
         return RobotFrames(frames, robot) if robot else frames
 
     def _new_guard(self) -> Guard:

@@ -19,6 +19,7 @@ from webviz.files.config.model import (
     standard,
 )
 from webviz.files.config.reading import MAX_PLUGINS, read, read_display, read_panel, read_tool
+from webviz.files.config.robots import Template
 from webviz.files.config.source import MAX_DEPTH, MAX_VALUES, Location, YamlDocument
 from webviz.files.config.writing import document, dump, dump_displays
 
@@ -35,6 +36,7 @@ __all__ = [
     "Location",
     "PanelItem",
     "Settings",
+    "Template",
     "ToolItem",
     "Unreadable",
     "YamlDocument",

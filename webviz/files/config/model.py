@@ -16,6 +16,7 @@ from webviz.api.registry import display_types, plugin_types
 from webviz.api.robots import Namespace, Robot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
+from webviz.files.config.robots import Template
 
 VERSION = 1
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
@@ -131,6 +132,7 @@ class Config:
         tools: in the order of the toolbar.
         panels: of plug-ins, in the order of their tabs.
         report: sentences on unsupported parts of a .rviz file.
+        templates: of displays and tools, which are saved again as they were read.
     """
 
     settings: Settings = field(default_factory=Settings)
@@ -138,6 +140,7 @@ class Config:
     tools: list[ToolItem] = field(default_factory=all_tools)
     panels: list[PanelItem] = field(default_factory=all_panels)
     report: list[str] = field(default_factory=list)
+    templates: tuple[Template, ...] = ()
 
     def set_fixed_frame(self, frame: str) -> None:
         """The config with another fixed frame; a leading slash is removed from its name."""

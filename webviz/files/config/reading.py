@@ -28,8 +28,9 @@ from webviz.files.config.model import (
     ToolItem,
     Unreadable,
 )
-from webviz.files.config.robots import filled, repeated
+from webviz.files.config.robots import Repetition, Template, filled, repeated
 from webviz.files.config.source import Location, YamlDocument
+from webviz.files.config.writing import entry_of
 
 NO_TYPE = "a {} needs a `type`, such as `type: {}`."
 EXAMPLES = {"display": "Grid", "tool": "GoalPose", "panel": "QuietTopics"}
@@ -81,27 +82,35 @@ def read(text: str, where: str) -> Config:
     entries = repeated(_list(document, "displays", top), names)
     refuse_too_many([entry for _, entry, _ in entries], "displays", where)
     items = [read_display(filled(entry, name), top.at("displays", i)) for i, entry, name in entries]
-    config = Config(settings, items)
+    config = Config(settings, items, templates=_templates(entries, items))
     if "tools" in document:
-        config.tools = _plugins(Tool, document, where, top, names)
+        entries = repeated(_list(document, "tools", top), names)
+        config.tools = _plugins(Tool, entries, where, top)
+        config.templates += _templates(entries, config.tools)
     if "panels" in document:
-        config.panels = _plugins(Panel, document, where, top)
+        config.panels = _plugins(Panel, repeated(_list(document, "panels", top), ()), where, top)
     return config
 
 
 def _plugins(
-    base: type[P],
-    document: Mapping[Any, Any],
-    where: str,
-    top: Location,
-    robots: Sequence[str] = (),
+    base: type[P], entries: Sequence[Repetition], where: str, top: Location
 ) -> list[P | Unreadable]:
     """The list of tools or panels."""
     key = f"{base.kind}s"
-    entries = repeated(_list(document, key, top), robots)
     if len(entries) > MAX_PLUGINS:
         raise ConfigError(f"{where} has {len(entries)} {key}; the limit is {MAX_PLUGINS}.")
     return [_read_plugin(base, filled(entry, name), top.at(key, i)) for i, entry, name in entries]
+
+
+def _templates(
+    entries: Iterable[Repetition], items: Iterable[Item | ToolItem]
+) -> tuple[Template, ...]:
+    """The entries that were repeated, given what became of them."""
+    found: dict[int, tuple[Any, list[Any]]] = {}
+    for (place, entry, name), item in zip(entries, items, strict=True):
+        if name:
+            found.setdefault(place, (entry, []))[1].append(entry_of(item))
+    return tuple(Template(entry, written) for entry, written in found.values())
 
 
 def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:

@@ -3,20 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 PLACE = "{robot}"
 """Stands for the namespace of a robot in names and topics."""
 
+Repetition = tuple[int, Any, str]
+"""An entry: its place in the file, the entry itself, and the robot that it is for, or ""."""
 
-def repeated(entries: Iterable[Any], robots: Sequence[str]) -> list[tuple[int, Any, str]]:
+
+@dataclass(frozen=True)
+class Template:
+    """An entry that was repeated.
+
+    Args:
+        entry: as in the file.
+        written: what saving makes of each of its repetitions, in their order.
+    """
+
+    entry: Any
+    written: Sequence[Any]
+
+
+def folded(entries: Sequence[Any], templates: Sequence[Template]) -> list[Any]:
+    """A list to save, in which unchanged repetitions of an entry are that entry again."""
+    result: list[Any] = []
+    place = 0
+    while place < len(entries):
+        for template in templates:
+            count = len(template.written)
+            if entries[place : place + count] == template.written:
+                result.append(template.entry)
+                break
+        else:
+            result.append(entries[place])
+            count = 1
+        place += count
+    return result
+
+
+def repeated(entries: Iterable[Any], robots: Sequence[str]) -> list[Repetition]:
     """Each entry with its place in the file and a robot; those with `PLACE` once for each robot.
 
     Args:
         entries: of a list in a file.
         robots: their names.
     """
-    result = []
+    result: list[Repetition] = []
     for place, entry in enumerate(entries):
         names = robots if robots and _mentions(entry) else [""]
         result += [(place, entry, name) for name in names]

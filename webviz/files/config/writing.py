@@ -23,6 +23,7 @@ from webviz.files.config.model import (
     all_tools,
 )
 from webviz.files.config.representer import Representer
+from webviz.files.config.robots import folded
 
 LINE = 88
 """Maximum length of a mapping or list on one line."""
@@ -35,12 +36,12 @@ def document(config: Config) -> dict[str, Any]:
     values: dict[str, Any] = {"version": VERSION}
     values |= {key: value for key, value in settings.items() if value != basis[key]}
     kept = values.pop("rviz", None)
-    values["displays"] = [_entry(display) for display in config.displays]
+    values["displays"] = folded(list(map(entry_of, config.displays)), config.templates)
     plugins = {"tools": (config.tools, all_tools()), "panels": (config.panels, all_panels())}
     for key, (items, installed) in plugins.items():
-        entries = [_entry(item) for item in items]
-        if entries != [_entry(item) for item in installed]:
-            values[key] = entries
+        entries = list(map(entry_of, items))
+        if entries != list(map(entry_of, installed)):
+            values[key] = folded(entries, config.templates)
     if kept:
         values["rviz"] = kept  # last, because it is long and seldom read
     return values
@@ -53,7 +54,7 @@ def dump(config: Config) -> str:
 
 def dump_displays(items: Sequence[Item]) -> str:
     """Displays as the list under the key `displays` of a config file."""
-    return _text([_entry(item) for item in items])
+    return _text([entry_of(item) for item in items])
 
 
 def _text(values: Any) -> str:
@@ -87,10 +88,11 @@ def _fits(nodes: Sequence[Node]) -> bool:
     return is_short and not any(mark in node.value for node in nodes for mark in ":?")
 
 
-def _entry(item: Item | Declared) -> Any:
+def entry_of(item: Item | Declared) -> Any:
+    """A display, tool or panel as the entry of a list, without defaults."""
     if isinstance(item, Unreadable):
         return item.values
     if isinstance(item, Branch):
-        inner = [_entry(each) for each in item.displays]
-        return _entry(item.group) | ({"displays": inner} if inner else {})
+        inner = [entry_of(each) for each in item.displays]
+        return entry_of(item.group) | ({"displays": inner} if inner else {})
     return {"type": type_name(type(item)), **to_values(item)}
