@@ -2,11 +2,11 @@
 
 import heapq
 import math
-from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz_sim.circles import NONE, Circles
 from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS
 from webviz_sim.world import World
@@ -43,22 +43,26 @@ class Planner:
         near = (COMFORT - self._clearance) / (COMFORT - RADIUS - MARGIN)
         self._cost = 1.0 + 3.0 * np.clip(near, 0.0, 1.0)
 
-    def plan(self, start: Pose2D, goal: Pose2D) -> NDArray[np.float64] | None:
-        """Plans a path that keeps clear of walls and unknown space.
+    def plan(
+        self, start: Pose2D, goal: Pose2D, circles: Circles = NONE
+    ) -> NDArray[np.float64] | None:
+        """Plans a path that keeps clear of walls, unknown space and round obstacles.
 
         Args:
             start: In the map frame. If the robot has no clearance there, the path begins at the
                 nearest place with clearance.
             goal: In the map frame; likewise. The yaw is ignored.
+            circles: Obstacles that are not in the world.
 
         Returns:
             Points of the path in the map frame, shape (n, 2), about `SPACING` apart; None without
             a path.
         """
-        source, target = self._nearest_open(start), self._nearest_open(goal)
+        is_open = self._open & self._is_beside(circles)
+        source, target = (self._nearest(is_open, pose) for pose in (start, goal))
         if source is None or target is None:
             return None
-        came_from = self._search(source, target)
+        came_from = self._search(source, target, np.where(is_open, self._cost, np.inf))
         if target not in came_from:
             return None
         cells = [target]
@@ -66,9 +70,9 @@ class Planner:
             cells.append(came_from[cells[-1]])
         points = self._to_map(np.array(cells[::-1], dtype=float))
         for end, pose in ((0, start), (-1, goal)):
-            if self._has_clearance(np.array([[pose.x, pose.y]]))[0]:
+            if self._has_clearance(np.array([[pose.x, pose.y]]), circles)[0]:
                 points[end] = pose.x, pose.y
-        return self._smooth(_resample(points))
+        return self._smooth(_resample(points), circles)
 
     def spread(self, start: Pose2D, count: int) -> list[Pose2D]:
         """Chooses places to visit: reachable, with room around them, and far apart.
@@ -79,7 +83,7 @@ class Planner:
             start: In the map frame.
             count: Maximum number of places.
         """
-        source = self._nearest_open(start)
+        source = self._nearest(self._open, start)
         if source is None:
             return []
         places = self._roomy(np.argwhere(self._reachable(source)))
@@ -122,10 +126,18 @@ class Planner:
                 reached &= self._open
         return reached
 
-    def _search(self, source: Cell, target: Cell) -> dict[Cell, Cell]:
-        """A* from one cell to another; maps each visited cell to its predecessor."""
+    def _search(self, source: Cell, target: Cell, costs: NDArray[np.float64]) -> dict[Cell, Cell]:
+        """A* from one cell to another; maps each visited cell to its predecessor.
+
+        Args:
+            source: The first cell.
+            target: The last one.
+            costs: Of each cell, for each cell's length of the way; infinite where there is none.
+        """
+        # Lists are faster for single cells. The index -1 leads to the border, as all outside does.
+        factors = np.pad(costs, (0, 1), constant_values=np.inf).tolist()
         came_from = {source: source}
-        costs = {source: 0.0}
+        lengths = {source: 0.0}
         queue = [(0.0, source)]
         done = set()
         while queue:
@@ -135,46 +147,58 @@ class Planner:
             if cell in done:
                 continue
             done.add(cell)
-            for other, step in self._neighbours(cell):
-                cost = costs[cell] + step
-                if cost < costs.get(other, math.inf):
-                    costs[other] = cost
+            row, column = cell
+            here = lengths[cell]
+            for rows, columns, step in _STEPS:
+                length = here + step * factors[row + rows][column + columns]
+                other = (row + rows, column + columns)
+                if length < lengths.get(other, math.inf):
+                    lengths[other] = length
                     came_from[other] = cell
-                    heapq.heappush(queue, (cost + math.dist(other, target), other))
+                    heapq.heappush(queue, (length + math.dist(other, target), other))
         return came_from
 
-    def _neighbours(self, cell: Cell) -> Iterator[tuple[Cell, float]]:
-        height, width = self._open.shape
-        for rows, columns, length in _STEPS:
-            row, column = cell[0] + rows, cell[1] + columns
-            if 0 <= row < height and 0 <= column < width and self._open[row, column]:
-                yield (row, column), length * self._cost[row, column]
-
-    def _nearest_open(self, pose: Pose2D) -> Cell | None:
+    def _nearest(self, is_open: NDArray[np.bool_], pose: Pose2D) -> Cell | None:
+        """The open cell that is nearest to a pose; None without any."""
         x, y, _ = self._world.to_grid(pose)
-        cells = np.argwhere(self._open)
+        cells = np.argwhere(is_open)
         if not len(cells):
             return None
         here = (np.array([y, x]) - self._offset - 0.5) / self._stride
         row, column = cells[np.hypot(*(cells - here).T).argmin()]
         return int(row), int(column)
 
+    def _is_beside(self, circles: Circles) -> NDArray[np.bool_]:
+        """The planning cells, shape as `_open`, in whose middles the robot touches no circle."""
+        height, width = self._open.shape
+        is_beside = np.ones((height, width), dtype=bool)
+        at = self._world.to_cells(circles[:, :2])
+        columns, rows = ((at - self._offset - 0.5) / self._stride).T
+        reaches = (circles[:, 2] + RADIUS + MARGIN) / (self._stride * self._world.resolution)
+        for column, row, reach in zip(columns, rows, reaches, strict=True):
+            y, x = np.ogrid[:height, :width]
+            is_beside &= (x - column) ** 2 + (y - row) ** 2 >= reach**2
+        return is_beside
+
     def _to_map(self, cells: NDArray[np.float64]) -> NDArray[np.float64]:
         """Centres of planning cells (row, column) in the map frame (x, y)."""
         return self._world.to_map(cells[:, ::-1] * self._stride + self._offset + 0.5)
 
-    def _has_clearance(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    def _has_clearance(self, points: NDArray[np.float64], circles: Circles) -> NDArray[np.bool_]:
         height, width = self._distance.shape
         columns, rows = np.floor(self._world.to_cells(points)).astype(int).T
         inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
         index = np.where(inside, rows, 0), np.where(inside, columns, 0)
-        return inside & (self._distance[index] >= RADIUS + MARGIN)
+        clear = inside & (self._distance[index] >= RADIUS + MARGIN)
+        for x, y, radius in circles:
+            clear &= np.hypot(points[:, 0] - x, points[:, 1] - y) >= radius + RADIUS + MARGIN
+        return clear
 
-    def _smooth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _smooth(self, points: NDArray[np.float64], circles: Circles) -> NDArray[np.float64]:
         """Repeatedly moves each point towards the middle of its neighbours, if it stays clear."""
         for _ in range(80):
             moved = 0.5 * points[1:-1] + 0.25 * (points[:-2] + points[2:])
-            allowed = self._has_clearance(moved)
+            allowed = self._has_clearance(moved, circles)
             points[1:-1][allowed] = moved[allowed]
         return _resample(points)
 

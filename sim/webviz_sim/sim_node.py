@@ -19,7 +19,6 @@ from webviz_sim import messages, options
 from webviz_sim.broadcaster import Broadcaster
 from webviz_sim.navigation import Navigation
 from webviz_sim.pose import Pose2D
-from webviz_sim.robot import Robot
 from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import WorldError, load_world
 
@@ -52,7 +51,7 @@ class SimNode(Node):
         start_pose = Pose2D(*values["start_pose"]) if values["start_pose"] else None
         if fleet:
             world = fleet[0]._simulation.world
-            start_pose = fleet[0]._free_place([node._simulation.robot for node in fleet])
+            start_pose = fleet[0]._free_place(len(fleet))
         else:
             world = load_world(values["world"] or options.BUILDING)
         self._simulation = Simulation(
@@ -130,16 +129,17 @@ class SimNode(Node):
         elif not self._broadcaster.localization.put(pose):
             self._simulation.put(pose)
 
-    def _free_place(self, robots: Sequence[Robot]) -> Pose2D:
-        """A place of the tour that is as far as possible from robots.
+    def _free_place(self, robots: int) -> Pose2D:
+        """The place for the next robot, as far as possible from those of so many robots.
 
         Raises:
             WorldError: The world has no other place.
         """
-        places = self._simulation.places
-        if len(places) < len(robots):
+        simulation = self._simulation
+        places = simulation.planner.spread(simulation.robot.pose, robots)
+        if len(places) < robots:
             raise WorldError(f"The world has places for {len(places) + 1} robots only.")
-        return max(places, key=lambda p: min(math.dist(p[:2], r.pose[:2]) for r in robots))
+        return places[-1]
 
     def _reset_odometry(self, _: Empty.Request, response: Empty.Response) -> Empty.Response:
         self._simulation.reset_odometry()

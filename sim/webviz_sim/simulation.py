@@ -19,6 +19,8 @@ REST = 1.0  # s at each place of the tour
 REST_AT_GOAL = 5.0  # s at a goal before the tour continues
 PATIENCE = 6.0  # s without progress after which a path is abandoned
 PROGRESS = 0.05  # m
+NEARBY = 1.5  # m; paths lead around what moves as near as this
+ROOM = 0.12  # m that it keeps to what moves ahead of it
 BESIDE_GOAL = 0.5  # m; a free place this near to an occupied goal is accepted
 
 
@@ -90,6 +92,7 @@ class Simulation:
         self._touring = False
         self._rest_until = 0.0
         self._goal: Pose2D | None = None
+        self._turns = True
         self.reached: Pose2D | None = None
         """The last goal that was reached."""
         self._progress = (start, 0.0)
@@ -97,8 +100,13 @@ class Simulation:
     @property
     def circles(self) -> Circles:
         """All obstacles that are not in the world."""
+        return np.vstack([self._moving, self.boxes])
+
+    @property
+    def _moving(self) -> Circles:
+        """The obstacles that move: people and other robots."""
         others = [(*other.pose[:2], RADIUS) for other in self.others]
-        return np.vstack([self.crowd.circles, self.boxes, np.reshape(others, (-1, 3))])
+        return np.vstack([self.crowd.circles, np.reshape(others, (-1, 3))])
 
     @property
     def path(self) -> NDArray[np.float64]:
@@ -123,11 +131,11 @@ class Simulation:
             goal: The goal.
             turn: Whether to turn to its heading at the end.
         """
-        path = self.planner.plan(self.robot.pose, goal)
+        path = self._plan(goal)
         if path is None or math.dist(path[-1], goal[:2]) > BESIDE_GOAL:
             return False
         self._follow(Follower(path, goal.yaw if turn else None), touring=False)
-        self._goal = goal
+        self._goal, self._turns = goal, turn
         self._commanded_at = -math.inf
         return True
 
@@ -174,9 +182,9 @@ class Simulation:
         )
         if follower.done:
             self._arrive()
-        elif self._is_stuck():
+        elif self._is_stuck() and not self._goes_around():
             self._follower = None
-        return velocity
+        return (0.0, velocity[1]) if self._waits() else velocity
 
     def _touring_now(self) -> bool:
         return self.settings.tour and bool(self.places) and self.time >= self._rest_until
@@ -185,9 +193,39 @@ class Simulation:
         """Sets out for the place of the tour after the last one."""
         place = self.places.pop(0)
         self.places.append(place)
-        path = self.planner.plan(self.robot.pose, place)
+        path = self._plan(place)
         if path is not None:
             self._follow(Follower(path), touring=True)
+        else:
+            self._rest_until = self.time + REST
+
+    def _plan(self, goal: Pose2D) -> NDArray[np.float64] | None:
+        """A path around walls and what moves nearby, which it passes on the right as others do."""
+        near = self._near
+        x, y = (near[:, :2] - self.robot.pose[:2]).T
+        left = np.column_stack([-y, x]) / np.maximum(np.hypot(x, y), RADIUS)[:, None]
+        beside = np.column_stack([near[:, :2] + RADIUS * left, near[:, 2]])
+        return self.planner.plan(self.robot.pose, goal, np.vstack([near, beside]))
+
+    @property
+    def _near(self) -> Circles:
+        """The moving obstacles nearby; those farther away will have moved."""
+        moving, here = self._moving, self.robot.pose
+        return moving[np.hypot(moving[:, 0] - here.x, moving[:, 1] - here.y) < NEARBY]
+
+    def _waits(self) -> bool:
+        """Whether something that moves is so near ahead that there would be no room to turn."""
+        near, here = self._near, self.robot.pose
+        x, y = (near[:, :2] - here[:2]).T
+        ahead = x * math.cos(here.yaw) + y * math.sin(here.yaw)
+        distance = np.hypot(x, y)
+        is_close = distance - near[:, 2] < RADIUS + ROOM
+        return bool((is_close & (ahead > 0.5 * distance)).any())
+
+    def _goes_around(self) -> bool:
+        """Whether it can go on to its goal around what moves and stands in the way."""
+        goal = self.goal
+        return goal is not None and len(self._near) > 0 and self.go_to(goal, self._turns)
 
     def _follow(self, follower: Follower, touring: bool) -> None:
         self._follower, self._touring = follower, touring

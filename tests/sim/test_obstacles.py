@@ -12,6 +12,7 @@ from webviz_sim.options import FAULT, OPTIONS, refusal
 from webviz_sim.planner import Planner
 from webviz_sim.pose import Pose2D
 from webviz_sim.robot import RADIUS, Robot
+from webviz_sim.simulation import Simulation, SimulationSettings
 
 
 def test_rays_end_where_they_enter_a_circle():
@@ -93,3 +94,17 @@ def test_the_map_of_slam_is_what_the_scanner_saw(room):
     assert shares[0] == 0.0
     assert np.diff(shares).min() > 0.05
     assert 0.5 < shares[-1] < 0.9
+
+
+def test_robots_whose_ways_cross_get_around_each_other(room):
+    starts = Pose2D(1.0, 2.0, 0.0), Pose2D(4.0, 2.0, math.pi)
+    robots = [Simulation(room, SimulationSettings(tour=False), start) for start in starts]
+    for one, other in (robots, robots[::-1]):
+        one.others.append(other.robot)
+        assert one.go_to(other.robot.pose)
+    for _ in range(round(40.0 / 0.02)):
+        for robot in robots:
+            robot.step(0.02)
+            assert nearest(robot.circles, *robot.robot.pose[:2]) >= RADIUS - 1e-9
+    for robot, goal in zip(robots, starts[::-1], strict=True):
+        assert math.dist(robot.robot.pose[:2], goal[:2]) < 0.5
