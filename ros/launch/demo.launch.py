@@ -13,7 +13,10 @@ from launch_ros.actions import Node
 SHARE = Path(get_package_share_directory("webviz"))
 ARGUMENTS = {
     "config": (str(SHARE / "config" / "demo.yaml"), "Config to show, YAML or .rviz."),
-    "world": ("", "Map to drive in, a yaml for map_server; empty: that of the parameters."),
+    "world": (
+        "",
+        "Map to drive in, a yaml for map_server or an SVG plan; empty: as the parameters say.",
+    ),
     "robot": ("", "URDF of the robot; empty: that of the parameters."),
     "port": ("8080", "Port of the page; 0 picks a free one."),
     "use_sim_time": ("false", "Let the simulator publish /clock, and the viewer follow it."),

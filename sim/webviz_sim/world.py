@@ -1,4 +1,4 @@
-"""The world: an occupancy image and its YAML, read as by nav2's map_server."""
+"""The world: an occupancy image and its YAML, read as by nav2's map_server, or an SVG plan."""
 
 import math
 from dataclasses import dataclass
@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from PIL import Image
 from ruamel.yaml import YAML, YAMLError
 
+from webviz_sim import plan
 from webviz_sim.pose import Pose2D
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
 
 # Occupancies at which a cell counts as occupied or free by map_saver's defaults.
 OCCUPIED_FROM, FREE_BELOW = 65, 25
+PLAN_RESOLUTION = 0.05  # m, the edge of a plan's cells
 
 
 class WorldError(ValueError):
@@ -90,15 +92,18 @@ class World:
 
 
 def load_world(path: str | Path) -> World:
-    """Reads a map as nav2's map_server does (nav2_map_server/src/map_io.cpp, Jazzy).
+    """Reads a map as nav2's map_server does (nav2_map_server/src/map_io.cpp, Jazzy), or a plan.
 
     Args:
-        path: The yaml file; `image` in it is relative to the yaml's folder.
+        path: The yaml file; `image` in it is relative to the yaml's folder. A file that ends in
+            .svg is a plan, whose lower left corner is the origin of the map.
 
     Raises:
         WorldError: A file is missing or unreadable, or an entry is missing or invalid.
     """
     path = Path(path)
+    if path.suffix.lower() == ".svg":
+        return _load_plan(path)
     try:
         entries = YAML(typ="safe", pure=True).load(path.read_text())
     except OSError as error:
@@ -111,6 +116,20 @@ def load_world(path: str | Path) -> World:
         return _read(entries, path.parent)
     except WorldError as error:
         raise WorldError(f"Invalid map {path}: {error}.") from None
+
+
+def _load_plan(path: Path) -> World:
+    try:
+        shade = plan.draw(path, PLAN_RESOLUTION)
+    except OSError as error:
+        raise WorldError(f"Cannot read the plan {path}: {error.strerror}.") from None
+    except plan.PlanError as error:
+        raise WorldError(f"Invalid plan {path}: {error}.") from None
+    # The thresholds of map_saver.
+    cells = occupancy(
+        shade, None, mode="trinary", negate=False, occupied_thresh=0.65, free_thresh=0.25
+    )
+    return World(np.ascontiguousarray(cells[::-1]), PLAN_RESOLUTION, Pose2D())
 
 
 def _read(entries: dict[str, Any], folder: Path) -> World:

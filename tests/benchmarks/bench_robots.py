@@ -1,7 +1,7 @@
 """The processor time of `webviz demo --robots N`, per robot: `bench_robots.py 1 5 20`.
 
-The viewer sends to one client, which draws no page. The simulator steps 50 times a second; on a machine
-with too much else to do it skips steps, so the rate of its odometry is shown as well.
+The viewer sends to one client, which draws no page. The simulator steps 50 times a second; on a
+machine with too much else to do it skips steps, so the rate of its odometry is shown as well.
 """
 
 from __future__ import annotations
