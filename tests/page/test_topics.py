@@ -83,7 +83,10 @@ def test_a_topic_has_its_facts_in_a_row(loop: Loop, panel: Tab) -> None:
 
 def test_a_wide_panel_has_all_columns(loop: Loop, open_tab: Callable[..., Tab]) -> None:
     wide = open_tab(1300)
-    wide.page.evaluate("document.documentElement.style.setProperty('--wv-width', '850px')")
+    wide.page.evaluate("""async () => {
+      (await import("/webviz/remember.js")).remember("width", 850);
+      window.dispatchEvent(new Event("resize"));
+    }""")
     wide.show_tab("Topics")
     loop.show(
         offers={"/scan": Offer((SCAN,), subscribers=1)},
