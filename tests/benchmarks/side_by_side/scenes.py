@@ -95,6 +95,10 @@ def _robot() -> list[Stream]:
     ]
 
 
+def _frames() -> list[Stream]:
+    return [Stream("/tf", TF, 50, content.frames("frame_", "map", 200), Lane(0, Place.FRAME))]
+
+
 def _many_frames() -> list[Stream]:
     return [Stream("/tf", TF, 30, content.frames("frame_", "map", 1000), Lane(0, Place.FRAME))]
 
@@ -189,6 +193,7 @@ SCENES = {
             _robot,
             "- {type: RobotModel}\n- {type: TF}\n",
         ),
+        Scene("TF", "200 frames, 50 Hz", _frames, "- {type: TF}\n"),
         Scene("C", "1000 frames, 30 Hz", _many_frames, "- {type: TF}\n"),
         Scene("D", "a scan of 1080 beams, 40 Hz", _laser, "- {type: LaserScan}\n"),
         Scene("E100k", "100 000 points, 10 Hz", _cloud(100_000, 10), ALL_POINTS),

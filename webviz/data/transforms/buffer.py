@@ -15,7 +15,7 @@ from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple, canonical, compose_as_matrices
 from webviz.data.transforms.listing import frames_as_yaml
 from webviz.data.transforms.many_frames import FramesIn
-from webviz.data.transforms.many_inserts import insert_expected
+from webviz.data.transforms.many_inserts import ManyInserts
 from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.records import Link, Rejection, Transform, fault_of, too_old
@@ -57,6 +57,7 @@ class TransformBuffer:
         self._tree = FrameTree()
         self._publishers: dict[str, Publishers] = {}
         self._rejections: dict[str, Rejection] = {}
+        self._many = ManyInserts(self._tree, self._publishers)
         self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
         """The cached shape of the last query for many frames, by structure version and query."""
         self._largest: tuple[int, tuple[str, int]] | None = None
@@ -164,14 +165,14 @@ class TransformBuffer:
         """`set_transform` for N moving transforms of one message.
 
         Args:
-            names: N pairs of a parent and its child.
+            names: N pairs of a parent and its child; not to be changed afterwards.
             stamps_ns: N stamps.
             poses: float64 (N, 7), translations in metres and rotations (x, y, z, w).
             authority: their publisher.
             received_ns: time of reception.
         """
-        others = insert_expected(
-            self._tree, self._publishers, names, stamps_ns, poses, authority, received_ns
+        others = self._many.insert(
+            names, stamps_ns, poses, authority, received_ns, self.structure_version
         )
         self.version += len(names) - len(others)
         for place in others:

@@ -123,17 +123,12 @@ class TimeCache:
             self.samples.append(sample)
             return True
         newest = stamps[-1]
-        horizon = newest - self._cache_time_ns
-        if stamps[0] < horizon:
-            self._drop_oldest(self._count_before(horizon))
-        elif len(stamps) >= MAX_SAMPLES:
-            self._drop_oldest(1)
         if stamp_ns > newest:
             if sample[1] != self.samples[-1][1]:
                 self.mixed_ns = newest
-            stamps.append(stamp_ns)
-            self.samples.append(sample)
+            self.append(stamp_ns, sample)
             return True
+        horizon = self._prune()
         if stamp_ns < horizon:
             return False
         place = bisect_right(stamps, stamp_ns)
@@ -149,6 +144,12 @@ class TimeCache:
         del self._packed[7 * (self._dead + place) :]
         return True
 
+    def append(self, stamp_ns: int, sample: ParentedPose) -> None:
+        """`insert` a sample that is newer than all others and has their parent."""
+        self._prune()
+        self.stamps.append(stamp_ns)
+        self.samples.append(sample)
+
     def poses(self, part: slice) -> array[float]:
         """A copy of the poses of `samples[part]`, seven numbers each."""
         gathered = len(self._packed) // 7 - self._dead
@@ -156,6 +157,16 @@ class TimeCache:
             self._packed.extend(pose)
         start, stop, _ = part.indices(len(self.stamps))
         return self._packed[7 * (self._dead + start) : 7 * (self._dead + stop)]
+
+    def _prune(self) -> int:
+        """Drop what is too old; returns the stamp from which samples are kept."""
+        stamps = self.stamps
+        horizon = stamps[-1] - self._cache_time_ns
+        if stamps[0] < horizon:
+            self._drop_oldest(self._count_before(horizon))
+        elif len(stamps) >= MAX_SAMPLES:
+            self._drop_oldest(1)
+        return horizon
 
     def _count_before(self, horizon_ns: int) -> int:
         count = 1

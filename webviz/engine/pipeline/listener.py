@@ -62,6 +62,7 @@ class TransformListener:
         self._asked = 0
         self._asked_at = 0.0
         self._settled_changes = 0
+        self._settled_structure = -1
         self._reviewed_at: float | None = None
         self._found: dict[str, Status] = {}
 
@@ -166,10 +167,12 @@ class TransformListener:
         if publishers != self._static_publishers:
             self._static_publishers = publishers
             if any(p.contest for p in self._buffer.publishers.values()):
-                self._settled_changes = -1
+                self._settled_changes = self._settled_structure = -1
             self._buffer.forget_publishers()
             self._reviewed_at = None
-        if self._clock() - self._asked_at > ASK_S:
+        structure = self._buffer.structure_version  # changes with every static transform
+        if structure != self._settled_structure and self._clock() - self._asked_at > ASK_S:
+            self._settled_structure = structure
             changes = sum(p.changes for p in self._buffer.publishers.values())
             if changes != self._settled_changes:
                 self._settled_changes = changes
