@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_right
+from collections import deque
+from itertools import islice
 
 from webviz.data.transforms.errors import (
     BackwardExtrapolationException,
@@ -70,8 +72,9 @@ class StaticCache:
 class TimeCache:
     """The samples of a moving frame, ascending by stamp.
 
-    Among equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel lists;
-    readers must not change them.
+    Among equal stamps the later arrival counts as newer. `stamps` and `samples` are parallel, and
+    readers must not change them. They are deques: with each insert an old sample goes, and to move
+    the others up in lists took a third of the time of inserting many frames.
 
     Attributes:
         mixed_ns: the samples newer than this have one parent.
@@ -81,8 +84,8 @@ class TimeCache:
     is_static = False
 
     def __init__(self, cache_time_ns: int) -> None:
-        self.stamps: list[int] = []
-        self.samples: list[ParentedPose] = []
+        self.stamps: deque[int] = deque()
+        self.samples: deque[ParentedPose] = deque()
         self.mixed_ns = NEVER_NS
         self._cache_time_ns = cache_time_ns
         # A contiguous copy of the poses that `poses` extends on demand: gathering them each time
@@ -153,7 +156,7 @@ class TimeCache:
     def poses(self, part: slice) -> array[float]:
         """A copy of the poses of `samples[part]`, seven numbers each."""
         gathered = len(self._packed) // 7 - self._dead
-        for pose, _ in self.samples[gathered:]:
+        for pose, _ in islice(self.samples, gathered, None):
             self._packed.extend(pose)
         start, stop, _ = part.indices(len(self.stamps))
         return self._packed[7 * (self._dead + start) : 7 * (self._dead + stop)]
@@ -175,8 +178,9 @@ class TimeCache:
         return count
 
     def _drop_oldest(self, count: int) -> None:
-        del self.stamps[:count]
-        del self.samples[:count]
+        for _ in range(count):
+            self.stamps.popleft()
+            self.samples.popleft()
         if self._packed:
             self._dead += count
             if 7 * self._dead > len(self._packed) // 2:

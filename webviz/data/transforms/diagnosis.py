@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
@@ -166,9 +166,9 @@ def _age(stamp_ns: int, age_ns: int) -> str:
 
 def _gap(cache: Cache) -> int:
     """The longest of the recent times without a transform, 0 if none is unusual."""
-    stamps = cache.stamps[-GAP_SAMPLES:] if isinstance(cache, TimeCache) else []
-    if len(stamps) <= GAP_PERIODS:
+    if not isinstance(cache, TimeCache) or len(cache) <= GAP_PERIODS:
         return 0
+    stamps = islice(cache.stamps, max(0, len(cache) - GAP_SAMPLES), None)
     periods = sorted(after - before for before, after in pairwise(stamps))
     usual, longest = periods[len(periods) // 2], periods[-1]
     return longest if longest >= max(GAP_NS, GAP_PERIODS * usual) else 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from contextlib import suppress
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -75,9 +75,10 @@ class _History:
     def __init__(self, cache: TimeCache, first_ns: int, last_ns: int) -> None:
         stamps = cache.stamps
         low = max(bisect_left(stamps, first_ns) - 1, 0)
-        part = slice(low, bisect_right(stamps, last_ns) + 1)
+        high = bisect_right(stamps, last_ns) + 1
+        part = slice(low, high)
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
-        self._known = stamps[part]
+        self._known = list(islice(stamps, low, high))
         self.stamps = np.array(self._known, np.int64)
         # Each sample with its successor; the last, and one before a change of parent, with itself.
         start = packed_to_rows(cache.poses(part))
@@ -87,7 +88,7 @@ class _History:
         if self._known[0] > cache.mixed_ns:
             self.parent = cache.samples[-1][1]
         else:
-            parents = [parent for _, parent in cache.samples[part]]
+            parents = [parent for _, parent in islice(cache.samples, low, high)]
             self.parents = np.array(parents)
             changes = np.flatnonzero([a != b for a, b in pairwise(parents)])
             end[:, changes] = start[:, changes]

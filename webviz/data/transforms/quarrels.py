@@ -6,8 +6,9 @@ alternating parents, poses at one stamp, stamps, or poses.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from collections import deque
+from collections.abc import Iterator
+from itertools import islice, pairwise
 from math import dist
 
 from webviz.data.transforms.buffer import TransformBuffer
@@ -32,8 +33,9 @@ def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
         yield _in_words(frame, contest)
     if not isinstance(cache, TimeCache) or not cache.stamps:
         return
-    samples, stamps = cache.samples[-RECENT:], cache.stamps[-RECENT:]
-    parents = [parent for _, parent in samples] if cache.mixed_ns >= stamps[0] else []
+    stamps = list(islice(reversed(cache.stamps), RECENT))
+    is_mixed = cache.mixed_ns >= stamps[-1]
+    parents = [p for _, p in islice(reversed(cache.samples), RECENT)] if is_mixed else []
     changes = sum(a != b for a, b in pairwise(parents))
     if changes > 1:
         both = " and ".join(f'"{name}"' for name in sorted(set(parents)))
@@ -48,7 +50,7 @@ def quarrels(buffer: TransformBuffer, frame: str) -> Iterator[str]:
             f'"{frame}" has {twins} pairs of different poses with the same stamp: two publishers, '
             "or one whose clock stands still."
         )
-    elif _takes_turns(samples):
+    elif _takes_turns(cache.samples):
         yield f'"{frame}" alternates between two poses: it has two publishers, stop one of them.'
 
 
@@ -75,9 +77,9 @@ def _in_words(frame: str, contest: Contest) -> str:
     return f'"{frame}" has two publishers, {names}: stop one of them.'
 
 
-def _takes_turns(samples: Sequence[ParentedPose]) -> bool:
+def _takes_turns(samples: deque[ParentedPose]) -> bool:
     """Whether the newest poses alternate between two places."""
-    newest = [pose[:3] for pose, _ in samples[-MIN_TURNS - 2 :]]
+    newest = [pose[:3] for pose, _ in islice(reversed(samples), MIN_TURNS + 2)]
     if len(newest) < MIN_TURNS + 2:
         return False
     steps = [dist(a, b) for a, b in pairwise(newest)]
