@@ -80,9 +80,10 @@ def depth_points(
     if behind is not None:
         hidden = behind(depths, is_valid, grid)
         layers.append((hidden.depths, hidden.is_hidden, hidden.colors))
-    xyz = np.concatenate([model.points(z, step)[chosen] for z, chosen, _ in layers])
-    colors = [each[chosen] for _, chosen, each in layers if each is not None]
     ids = [np.flatnonzero(chosen) for _, chosen, _ in layers]
+    own = list(zip(layers, ids, strict=True))
+    xyz = np.concatenate([_rows(model.points(z, step), chosen) for (z, _, _), chosen in own])
+    colors = [_rows(each, chosen) for (_, _, each), chosen in own if each is not None]
     rows, columns = np.divmod(np.concatenate(ids), depths.shape[1])
     return DepthPoints(
         xyz,
@@ -93,6 +94,11 @@ def depth_points(
         step / model.fx,
         remark,
     )
+
+
+def _rows(grid: NDArray[Any], chosen: NDArray[np.intp]) -> NDArray[Any]:
+    """Some triples (N, 3) of a grid (H, W, 3)."""
+    return grid.reshape(-1, 3).take(chosen, axis=0)
 
 
 def _colors(

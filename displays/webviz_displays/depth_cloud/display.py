@@ -156,7 +156,9 @@ class DepthCloud(PointsDisplay):
         self._hold(*newest, images, ctx.state)
         for number, points in ctx.state.clouds.items():
             pose = ctx.state.poses[number]
-            self._draw_points(points, pose, ctx.follow(None, offset=pose, key=str(number)), ctx)
+            # Without a decay time a new cloud replaces the one before in place.
+            key = str(number) if self.decay_time else "newest"
+            self._draw_points(points, pose, ctx.follow(None, offset=pose, key=key), ctx)
         doubt = calibration_problem(infos[-1].message) or optical_problem(images[-1].frame)
         self._report(newest[1], doubt, ctx)
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +25,14 @@ def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp]
     """
     if not len(sizes):
         return
-    steps = np.log(np.clip(sizes, LEAST_M, MOST_M)) / np.log(RATIO)
+    steps = np.log(np.clip(sizes, LEAST_M, MOST_M)) / math.log(RATIO)
     numbers = np.ceil(steps - 1e-4).astype(np.int16)
-    middle = int(np.median(numbers))
+    least = int(numbers.min())
+    up_to = np.cumsum(np.bincount(numbers - least))
+    middle = least + int(np.searchsorted(up_to, len(sizes) // 2, side="right"))
     numbers = np.clip(numbers, middle - REACH, middle + REACH)
-    for number in np.unique(numbers).tolist():
-        yield str(number), np.flatnonzero(numbers == number), RATIO**number
+    order = np.argsort(numbers, kind="stable")
+    ends = np.cumsum(np.bincount(numbers - (middle - REACH))).tolist()
+    for number, (start, end) in enumerate(pairwise((0, *ends)), middle - REACH):
+        if end > start:
+            yield str(number), order[start:end], RATIO**number

@@ -145,9 +145,10 @@ class PointStyle(Display):
             group.points("more" if thins else "points", xyz, colors, size, outline, ids, thins)
             return
         for name, rows, one in by_size(size):
-            chosen = colors if isinstance(colors, tuple) else colors[rows]
+            # `take` is four times as fast as an index for each row.
+            chosen = colors if isinstance(colors, tuple) else colors.take(rows, axis=0)
             own = rows if ids is None else ids[rows]
-            group.points(f"points {name}", xyz[rows], chosen, one, outline, own)
+            group.points(f"points {name}", xyz.take(rows, axis=0), chosen, one, outline, own)
 
 
 InvertRainbow = Annotated[
