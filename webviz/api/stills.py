@@ -6,6 +6,7 @@ import io
 from typing import NamedTuple
 
 import msgspec
+import numpy as np
 from PIL import Image
 
 from webviz.api.pictures import Encoded, Picture, Pixels, Readout
@@ -16,10 +17,15 @@ LONGEST_EDGE = 16_384
 
 
 class File(NamedTuple):
-    """A file that a browser decodes."""
+    """A file that a browser decodes.
+
+    Args:
+        mime: such as "image/jpeg".
+        data: its bytes.
+    """
 
     mime: str
-    data: bytes
+    data: bytes | memoryview
 
 
 def factor_for(picture: Picture, width: int) -> int:
@@ -37,7 +43,7 @@ def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
         return File("application/json", msgspec.json.encode(picture.tree()))
     if isinstance(picture, Pixels):
         return File("image/jpeg", jpeg(picture.image, picture.tone, factor))
-    return File(picture.mime, picture.data.tobytes())
+    return File(picture.mime, np.ascontiguousarray(picture.data).data)
 
 
 def opened(picture: Pixels | Encoded) -> Image.Image:

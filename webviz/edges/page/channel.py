@@ -134,6 +134,12 @@ class Channel:
                 outbox.bulk[key] = data
         self._wake_soon()
 
+    def call_soon(self, call: Callable[[], object]) -> None:
+        """Calls something on the event loop, once a page has joined; from any thread."""
+        if (loop := self._loop) is not None:
+            with contextlib.suppress(RuntimeError):  # the server has stopped
+                loop.call_soon_threadsafe(call)
+
     def browsers(self) -> set[int]:
         """The ids of all pages."""
         with self._lock:
@@ -326,9 +332,7 @@ class Channel:
             log.warning("A page may not watch a store that it asked for, or not so many.")
 
     def _wake_soon(self) -> None:
-        if (loop := self._loop) is not None:
-            with contextlib.suppress(RuntimeError):  # the server has stopped
-                loop.call_soon_threadsafe(self._wake)
+        self.call_soon(self._wake)
 
     def _wake(self) -> None:
         for outbox in tuple(self._outboxes.values()):

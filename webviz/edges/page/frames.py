@@ -54,7 +54,8 @@ def frame(
         head["video"] = picture.codec
         head["sizes"] = [len(packet.data) for packet in packets]
         head["starts"] = packets[0] is picture.packets[0]
-        return _joined(head, (packet.data for packet in packets)), Sent(packets[-1].number)
+        parts = (np.ascontiguousarray(packet.data).data for packet in packets)
+        return _joined(head, parts), Sent(packets[-1].number)
     assert file is not None
     head["mime"] = file.mime
     if isinstance(picture, Readout):
@@ -112,6 +113,6 @@ def warp_values(warp: Warp | None) -> dict[str, Any] | None:
     return {"rows": rows, "columns": columns, "places": places}
 
 
-def _joined(head: dict[str, Any], parts: Iterable[bytes | np.ndarray[Any, Any]]) -> bytes:
+def _joined(head: dict[str, Any], parts: Iterable[bytes | memoryview]) -> bytes:
     encoded = msgspec.json.encode(head)
-    return b"".join((struct.pack("<I", len(encoded)), encoded, *(bytes(part) for part in parts)))
+    return b"".join((struct.pack("<I", len(encoded)), encoded, *parts))

@@ -7,9 +7,10 @@ import threading
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Pixels, Video
+from webviz.api.pictures import Pixels, Readout, Video
 from webviz.api.stills import File, factor_for, file_of
 from webviz.data.images import ImageError
 from webviz.edges.page.channel import Channel
@@ -57,8 +58,9 @@ class _Look:
 class Pictures:
     """The pictures of all displays, and the pages that show them.
 
-    `show` and `remove` belong to one thread; pages are heard on the event loop; pictures are made
-    in threads.
+    `show` and `remove` belong to one thread; pages are heard on the event loop. Pictures are made
+    in threads, and sent on the event loop if they are files already: each thread on their way
+    would take longer than that.
 
     Args:
         channel: to the pages.
@@ -141,13 +143,17 @@ class Pictures:
     def _continue(self, browser: int, display: str, look: _Look) -> None:
         """Make the next picture for a page, if there is one that the page can take."""
         shown = self._shown.get(display)
-        is_new = shown is not None and shown.number != look.sent
-        if is_new and not look.is_busy and len(look.waiting) < MAX_IN_FLIGHT:
+        if shown is None or shown.number == look.sent:
+            return
+        if not look.is_busy and len(look.waiting) < MAX_IN_FLIGHT:
             look.is_busy = True
-            self._pool.submit(self._send, browser, display, look)
+            if isinstance(shown.pane.picture, Pixels | Readout):
+                self._pool.submit(self._send, browser, display, look)
+            else:
+                self._channel.call_soon(partial(self._send, browser, display, look))
 
     def _send(self, browser: int, display: str, look: _Look) -> None:
-        """Send the newest picture, in a thread."""
+        """Send the newest picture."""
         with self._lock:
             shown = self._shown.get(display)
             has = look.has
