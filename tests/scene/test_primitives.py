@@ -26,6 +26,7 @@ from webviz.api.nodes import (
 )
 from webviz.edges.scene import set_background
 from webviz.edges.scene.holding import FEWEST_POINTS
+from webviz.edges.scene.points import PART
 from webviz.edges.scene.server import BACKGROUND
 
 COLOR = (200, 100, 50)
@@ -266,6 +267,26 @@ def test_the_background_can_be_changed(view: Any) -> None:
     view.wait_for(lambda: view.draw(1) or (view.pixels() == (10, 20, 30)).all())
     set_background(view.scene.link.server, BACKGROUND)
     view.wait_for(lambda: view.draw(1) or (view.pixels() == BACKGROUND).all())
+
+
+def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
+    xyz = np.zeros((PART + 1, 3), np.float32)
+    xyz[-1] = (2, 0, 0)
+    view.scene.upsert("lidar", "it", Points(xyz, RED, 0.5))
+    view.show()
+    (name,) = (name for name in view.nodes() if name.endswith("%part 1"))
+    at = {name.rpartition("/")[0]: xyz[:1], name: xyz[-1:]}
+    seen = []
+    for node, place in at.items():
+        updates = {
+            "points": place,
+            "colors": np.array(GREEN, np.uint8),
+            "cloud": ("it", 7, len(at)),
+        }
+        view.scene.link.update(node, updates)
+        view.show()
+        seen.append([view.color_at(tuple(each[0].tolist())) for each in at.values()])
+    assert seen == [[RED, RED], [GREEN, GREEN]]
 
 
 def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(view: Any) -> None:

@@ -36,9 +36,24 @@ class Queue:
 
     def window(self) -> list[str]:
         """Names of the nodes in the next frame, the type of what has none."""
+        return [getattr(message, "name", type(message).__name__) for message in self._next()]
+
+    def versions(self) -> list[str]:
+        """Names of the nodes in the next frame, with the versions of their clouds."""
+        clouds = [(each.name, each.updates.get("cloud")) for each in self._next()]
+        return [f"{name}{cloud[1]}" if cloud else name for name, cloud in clouds]
+
+    def _next(self) -> list[Any]:
         messages = self.outbox.small(self.live, self._count - 1, None)
-        messages += self.outbox.large(self.live)
-        return [getattr(message, "name", type(message).__name__) for message in messages]
+        return messages + self.outbox.large(self.live)
+
+
+def with_parts(queue: Queue, version: int, names: str) -> None:
+    """Puts a version of a cloud in the queue, of which two parts do not fit one frame."""
+    for name in names:
+        points = np.zeros(WINDOW_BYTES // 4, np.float32)
+        updates = {"points": points, "cloud": ("cloud", version, len(names))}
+        queue.push(wire.SceneNodeUpdateMessage(name, updates))
 
 
 def test_what_is_small_goes_before_what_is_large_and_was_queued_before() -> None:
@@ -66,6 +81,31 @@ def test_large_messages_take_turns_however_fast_newer_ones_come() -> None:
             queue.cloud(name)
         seen += queue.window()
     assert seen == ["/a", "/b", "/c"] * 3
+
+
+def test_a_cloud_that_was_begun_is_finished_before_the_newest_is_sent() -> None:
+    queue = Queue()
+    seen = []
+    for version in range(7):
+        with_parts(queue, version, "abcd")
+        queue.cloud("/map")
+        seen += queue.versions()
+    assert seen == ["a0", "b0", "c0", "d0", "/map", "a5", "b5"]
+    while queue.outbox.is_waiting():
+        seen += queue.versions()
+    assert seen[7:] == ["c5", "d5", "/map", "a6", "b6", "c6", "d6"]
+    assert queue.outbox.progress.begun == {}
+
+
+def test_of_a_cloud_that_was_begun_and_removed_nothing_more_is_sent() -> None:
+    queue = Queue()
+    with_parts(queue, 0, "abc")
+    assert queue.versions() == ["a0"]
+    with_parts(queue, 1, "abc")
+    queue.live.clear()
+    assert queue.versions() == []
+    assert not queue.outbox.is_waiting()
+    assert queue.outbox.progress.begun == {}
 
 
 def test_what_was_removed_or_replaced_is_not_sent() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -24,8 +26,25 @@ class Message(Protocol):
 
 M = TypeVar("M", bound=Message)
 
-Progress = tuple[int, tuple[tuple[object, int], ...]]
-"""How far a browser is; those with the same need the same messages next."""
+CLOUD = "cloud"
+"""Property of the messages that are parts of one thing: its name, its version, and the number of
+parts in it. Pages show a version once they have all parts (`web/scene/whole.js`)."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a browser is; those with the same need the same messages next.
+
+    Args:
+        cursor: number of the last message that was sent or put in the line.
+        line: keys and numbers of the messages that wait.
+        begun: those that are sent even if newer ones exist, by number: the other parts of a cloud
+            of which it has some.
+    """
+
+    cursor: int
+    line: tuple[tuple[object, int], ...]
+    begun: Mapping[int, Any] = field(compare=False)
 
 
 class Outbox:
@@ -34,7 +53,8 @@ class Outbox:
     A websocket delivers in order, so a frame that takes seconds delays all later ones. Hence each
     frame has all small messages, and large ones up to a limit. Large messages update existing
     nodes, so later messages may overtake them. They wait in a line, in which a newer version takes
-    the place of the older one, so that a slow browser receives all of them in turn.
+    the place of the older one, so that a slow browser receives all of them in turn. A cloud of
+    several parts that was begun is finished first, or a slow browser would never have a whole one.
 
     Args:
         last: type of messages that must not overtake earlier ones.
@@ -45,15 +65,17 @@ class Outbox:
         self.cursor = -1
         """Number of the last message that was sent or put in the line."""
         self._line: dict[object, int] = {}
+        self._begun: Mapping[int, Any] = MappingProxyType({})
 
     @property
     def progress(self) -> Progress:
         """How far the browser is."""
-        return self.cursor, tuple(self._line.items())
+        return Progress(self.cursor, tuple(self._line.items()), self._begun)
 
     @progress.setter
     def progress(self, progress: Progress) -> None:
-        self.cursor, self._line = progress[0], dict(progress[1])
+        self.cursor, self._line = progress.cursor, dict(progress.line)
+        self._begun = progress.begun
 
     def is_waiting(self) -> bool:
         """Whether messages are in the line."""
@@ -79,7 +101,9 @@ class Outbox:
         for number in numbers:
             message = live[number]
             if bulk(message) > BULK_BYTES:
-                self._line[message.redundancy_key()] = number
+                key = message.redundancy_key()
+                is_begun = self._line.get(key) in self._begun
+                self._line[(key, "next") if is_begun else key] = number
             elif self._line and isinstance(message, self._last):
                 self._line[number] = number
             else:
@@ -90,15 +114,48 @@ class Outbox:
         """The next messages of the line that still exist: as many as fit, but at least one."""
         window: list[M] = []
         room = WINDOW_BYTES
-        for key, number in tuple(self._line.items()):
+        while self._line:
+            key, number = next(iter(self._line.items()))
             message = live.get(number)
+            if message is None:
+                message = self._unfinished(key, number, live)
             if message is not None:
                 room -= bulk(message)
                 if window and room < 0:
                     break
                 window.append(message)
             del self._line[key]
+            if message is not None and number not in self._begun:
+                self._begin(message, live)
+        if self._begun:
+            self._begun = {n: self._begun[n] for n in self._line.values() if n in self._begun}
         return window
+
+    def _begin(self, first: Message, live: Mapping[int, M]) -> None:
+        """Keep the other parts of a cloud of which one is sent."""
+        cloud = _cloud(first)
+        if cloud is None:
+            return
+        parts = {}
+        for number in self._line.values():
+            part = live.get(number)
+            if part is not None and _cloud(part) == cloud:
+                parts[number] = part
+        self._begun = {**self._begun, **parts}
+        self._line = {
+            part.redundancy_key() if (part := parts.get(number)) else key: number
+            for key, number in self._line.items()
+        }
+
+    def _unfinished(self, key: object, number: int, live: Mapping[int, M]) -> M | None:
+        """A part of a cloud that was begun, unless the cloud is gone."""
+        is_replaced = self._line.get((key, "next"), -1) in live
+        return self._begun.get(number) if is_replaced else None
+
+
+def _cloud(message: Message) -> tuple[Any, ...] | None:
+    """Which version of which cloud a message is part of, None if it is whole."""
+    return getattr(message, "updates", {}).get(CLOUD)
 
 
 def bulk(message: Message) -> int:

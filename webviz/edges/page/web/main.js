@@ -20,11 +20,13 @@ import * as tiles from "./scene/tiles.js";
 import * as toolbar from "./shell/toolbar.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
+import * as whole from "./scene/whole.js";
 
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  for (const part of [shell, page, inStep, tiles, labels, lines, shade, colors, contact]) part.install();
+  const early = [shell, page, inStep, tiles, labels, lines, shade, colors, contact, whole];
+  for (const part of early) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
   toolbar.install(shell.places);
