@@ -37,7 +37,7 @@ CONFIG = """
 fixed_frame: map
 background: [0, 0, 0]
 displays:
-- {type: PointCloud2, name: Cloud, topic: /cloud, size: 0.15}
+- {type: PointCloud2, name: Cloud, topic: /cloud, size: 0.15, max_points: 300000}
 - {type: Grid}
 - {type: LaserScan, name: Scan, topic: /scan, size: 0.02, enabled: false}
 - {type: MarkerArray, name: Markers, topic: /markers, enabled: false}

@@ -29,7 +29,8 @@ DOTS_LIMIT = 50_000
 """The browser draws the style Points as lines, and slows down with more of them."""
 
 REST_NS = 3_000_000_000
-"""Age of a cloud after which none is expected to follow."""
+"""Time after the drawing of a cloud after which none is expected to follow; by then, browsers have
+measured how many points they hold."""
 
 WHITE = (255, 255, 255)
 
@@ -42,7 +43,8 @@ class _State:
         clouds: when each arrived, ROS time in nanoseconds, by number.
         shares: how many clouds share the limit of points.
         held: limit of points by what browsers draw fast enough.
-        newest: number and time of arrival of the cloud drawn last, None before the first.
+        newest: number of the cloud drawn last, None before the first.
+        seen: that number and the time at which it was noticed, ROS time in nanoseconds.
         size: of that cloud, in points.
         resting: number of a cloud that no other follows, None if one does.
     """
@@ -50,7 +52,8 @@ class _State:
     clouds: dict[int, int] = field(default_factory=dict)
     shares: int = 1
     held: int = POINTS_HELD
-    newest: tuple[int, int] | None = None
+    newest: int | None = None
+    seen: tuple[int | None, int] = (None, 0)
     size: int = 1 << 40
     resting: int | None = None
 
@@ -103,8 +106,10 @@ class CloudDisplay(PointsDisplay):
         """
         state: _State = ctx.state
         now_ns, newest = ctx.frames.now_ns, state.newest
-        is_at_rest = newest is not None and now_ns - newest[1] > REST_NS
-        state.resting = newest[0] if newest and is_at_rest and not self.decay_time else None
+        if state.seen[0] != newest:
+            state.seen = newest, now_ns
+        is_at_rest = now_ns - state.seen[1] > REST_NS and not self.decay_time
+        state.resting = newest if is_at_rest else None
         # A cloud at rest is sent once, whatever browsers hold later: they thin it by themselves.
         if state.resting is None:
             state.held = ctx.share_of_points(state.size)
@@ -125,7 +130,7 @@ class CloudDisplay(PointsDisplay):
         """One cloud, in the frame of the sensor at the stamp."""
         state: _State = ctx.state
         state.clouds[sample.number] = sample.received_ns
-        state.newest = sample.number, sample.received_ns
+        state.newest = sample.number
         try:
             cloud = self.cloud_of(sample.message)
             xyz, origin = cloud.positions()
