@@ -9,8 +9,6 @@ from concurrent.futures import Future
 from datetime import UTC, datetime
 from typing import Any
 
-import segno
-
 from webviz.api.errors import Error
 from webviz.data.disk import in_thread
 from webviz.edges.access import token_file
@@ -79,6 +77,8 @@ class People:
             except Error as error:
                 self._channel.send(Invitation(invite.number, str(error), "", ""), browser)
                 return
+            import segno  # here, as it would slow down the start
+
             code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
             self._channel.send(Invitation(invite.number, "", address, code), browser)
             text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."

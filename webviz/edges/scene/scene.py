@@ -26,6 +26,7 @@ from webviz.api.nodes import (
     Rgb,
 )
 from webviz.edges.scene.adapter import Adapter, Move, Position, Wxyz
+from webviz.edges.scene.adapter.background import set_background
 from webviz.edges.scene.axes import AxesDrawn
 from webviz.edges.scene.cameras import ViserCameras
 from webviz.edges.scene.drawn import Drawn
@@ -38,7 +39,6 @@ from webviz.edges.scene.meshes import GlbDrawn, MeshDrawn, ModelsDrawn
 from webviz.edges.scene.names import ROOT, node_path
 from webviz.edges.scene.panes import PaneDrawn
 from webviz.edges.scene.points import PointsDrawn, keep_shaders
-from webviz.edges.scene.server import set_background
 
 _DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
     Points: PointsDrawn,

@@ -7,7 +7,6 @@ import ssl
 import threading
 from collections.abc import Iterable
 
-import numpy as np
 import viser
 import websockets.asyncio.server as websocket
 
@@ -16,6 +15,7 @@ from webviz.edges.access.access import Access
 from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
+from webviz.edges.scene.adapter.background import set_background
 from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.connections import Gate
 from webviz.edges.scene.constants import CONSTANTS
@@ -74,11 +74,6 @@ def open_server(
     greet(server, channel, modules)
     _prepare(server)
     return server
-
-
-def set_background(server: viser.ViserServer, rgb: Rgb) -> None:
-    """Sets the background to one colour."""
-    server.scene.set_background_image(np.array([[rgb]], dtype=np.uint8), format="png")
 
 
 def _prepare(server: viser.ViserServer) -> None:

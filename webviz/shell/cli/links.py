@@ -9,8 +9,6 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from urllib.parse import urlsplit
 
-import segno
-
 from webviz.edges.access.starting import is_local, link
 from webviz.edges.access.tokens import Token
 
@@ -51,6 +49,8 @@ def lines_of(token: Token, address: str) -> list[str]:
 
 def qr_code(text: str) -> str:
     """A QR code for terminals with dark or light background."""
+    import segno  # here, as it would slow down the start
+
     lines = io.StringIO()
     segno.make(text, micro=False).terminal(lines, border=2, compact=True)
     return lines.getvalue().rstrip("\n")
