@@ -65,7 +65,6 @@ class VoxelGrid(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("show_marked", True),
             help="Opacity of voxels with an obstacle; 0 is invisible.",
         ),
@@ -79,7 +78,6 @@ class VoxelGrid(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("show_unknown", True),
             help="Opacity of unknown voxels; 0 is invisible.",
         ),
@@ -95,7 +93,6 @@ class VoxelGrid(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("show_free", True),
             help="Opacity of free voxels; 0 is invisible.",
         ),

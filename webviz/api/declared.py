@@ -39,7 +39,7 @@ def Prop(
     unit: str = "",
     rviz: str = "",
     when: tuple[str, object] | None = None,
-    widget: Literal["", "displays", "frame", "names", "slider"] = "",
+    widget: Literal["", "displays", "frame", "names"] = "",
     otherwise: str = "",
     gt: float | None = None,
     ge: float | None = None,

@@ -43,9 +43,7 @@ class GridCells(Display):
         Topic("/grid_cells")
     )
     color: Annotated[Color, Prop(help="Colour of the cells.")] = (25, 255, 0)
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
-        1.0
-    )
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

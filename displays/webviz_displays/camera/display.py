@@ -54,7 +54,6 @@ class Camera(ImageDisplay):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("image_rendering", ("background and overlay", "overlay")),
             help="Opacity of the image over the scene.",
         ),

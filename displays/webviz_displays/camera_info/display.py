@@ -77,9 +77,7 @@ class CameraInfo(Display):
     edge_color: Annotated[
         Color, Prop(rviz="Edge color", when=("show_edges", True), help="Colour of the edges.")
     ] = (125, 125, 125)
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
-        0.5
-    )
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 0.5
     show_image: Annotated[bool, Prop(help="Show the image at the far end.")] = False
     image_topic: Annotated[
         Topic,

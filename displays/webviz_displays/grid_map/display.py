@@ -59,7 +59,6 @@ class GridMap(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             help="Opacity of the surface; lines are opaque in the browser and fade towards dark "
             "grey.",
         ),

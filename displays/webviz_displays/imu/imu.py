@@ -45,7 +45,6 @@ class BoxSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             rviz="Box alpha",
             when=("enable_box", True),
             help="Opacity of the box; 0 is invisible.",
@@ -98,7 +97,6 @@ class AccelerationSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unk
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             rviz="Acc. vector alpha",
             when=("enable_acceleration", True),
             help="Opacity of the acceleration; 0 is invisible.",

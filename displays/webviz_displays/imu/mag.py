@@ -29,9 +29,7 @@ class Mag(Display):
         float, Prop(gt=0, le=LONGEST, unit="m", help="Half the length of the arrow's shaft.")
     ] = 1.0
     color: Annotated[Color, Prop(help="Colour of the arrow.")] = (255, 0, 0)
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
-        1.0
-    )
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """An arrow along the field at the sensor, of the same length for every field."""

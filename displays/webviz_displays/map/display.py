@@ -106,9 +106,7 @@ class MapDisplay(Display):
     update_topic: Annotated[
         Topic, Prop(help="Topic of partial updates; empty means the map's topic + _updates.")
     ] = Topic()
-    alpha: Annotated[
-        float, Prop(ge=0, le=1, widget="slider", help="Opacity of the map; 0 is invisible.")
-    ] = 0.7
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of the map; 0 is invisible.")] = 0.7
     color_scheme: Annotated[
         Literal["map", "costmap", "raw"],
         Prop(

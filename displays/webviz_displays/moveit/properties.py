@@ -29,7 +29,7 @@ MoveGroupNamespace = Annotated[
 ]
 ShowVisual = Annotated[bool, Prop(help="Draw the links' visual shapes.")]
 ShowCollision = Annotated[bool, Prop(help="Draw the links' collision shapes.")]
-RobotAlpha = Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")]
+RobotAlpha = Annotated[float, Prop(ge=0, le=1, help="Opacity of the links.")]
 AttachedBodyColor = Annotated[
     Color, Prop(help="Colour of the objects that the robot holds, if they have none.")
 ]
@@ -47,9 +47,9 @@ class SceneGeometry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     """How the objects of a scene look."""
 
     show_scene_geometry: Annotated[bool, Prop(help="Draw the objects of the scene.")] = True
-    scene_alpha: Annotated[
-        float, Prop(ge=0, le=1, widget="slider", help="Opacity of objects without a colour.")
-    ] = 0.9
+    scene_alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of objects without a colour.")] = (
+        0.9
+    )
     scene_color: Annotated[Color, Prop(help="Colour of objects without one.")] = (50, 230, 50)
     voxel_rendering: Annotated[Rendering, Prop(help="Which voxels of the octomap to draw.")] = (
         "Occupied Voxels"
@@ -108,7 +108,6 @@ Position = Annotated[
     Prop(
         ge=0,
         le=1,
-        widget="slider",
         when=("paused", True),
         help="Which point: 0 is the first, 1 the last.",
     ),
@@ -150,7 +149,6 @@ class PlanningRequest(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("query_start_state", True),
             help="Opacity at the start.",
         ),
@@ -164,7 +162,6 @@ class PlanningRequest(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("query_goal_state", True),
             help="Opacity at the goal.",
         ),

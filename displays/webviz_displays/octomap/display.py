@@ -80,9 +80,7 @@ class OctreeDisplay(Display):
             "Cell Probability: red (free) to green (occupied)."
         ),
     ] = "Z-Axis"
-    voxel_alpha: Annotated[
-        float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")
-    ] = 1.0
+    voxel_alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
     max_octree_depth: Annotated[
         int,
         Prop(

@@ -23,9 +23,7 @@ class PointStamped(Display):
         Topic, Input("geometry_msgs/msg/PointStamped"), Prop(help="Topic of the points.")
     ] = Topic("/clicked_point")
     color: Annotated[Color, Prop(help="Colour of the spheres.")] = (204, 41, 204)
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
-        1.0
-    )
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
     radius: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Radius of the spheres.")] = 0.2
     history_length: HistoryLength = 1
 

@@ -36,7 +36,6 @@ class PoseDisplay(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=BY_ARROW,
             help="Opacity of the arrow; 0 is invisible.",
         ),

@@ -34,7 +34,6 @@ ArrowAlpha = Annotated[
     Prop(
         ge=0,
         le=1,
-        widget="slider",
         when=_BY_ARROWS,
         help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards dark "
         "grey.",

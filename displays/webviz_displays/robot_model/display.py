@@ -94,7 +94,7 @@ class RobotModel(Display):
         float,
         Prop(ge=0, unit="s", help="Minimum time between moves; 0 moves as often as possible."),
     ] = 0.0
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity of the links.")] = 1.0
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of the links.")] = 1.0
     tf_prefix: Annotated[
         str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
     ] = ""

@@ -35,7 +35,6 @@ class LinkSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             help="Opacity of the link, multiplied by that of the robot.",
         ),
     ] = 1.0

@@ -23,9 +23,7 @@ class Range(Display):
         Topic("/range")
     )
     color: Annotated[Color, Prop(help="Colour of the cones.")] = (255, 255, 255)
-    alpha: Annotated[float, Prop(ge=0, le=1, widget="slider", help="Opacity; 0 is invisible.")] = (
-        0.5
-    )
+    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 0.5
     buffer_length: Annotated[
         int, Prop(ge=1, le=10_000, help="How many of the newest ranges to show.")
     ] = 1

@@ -32,7 +32,6 @@ LineAlpha = Annotated[
     Prop(
         ge=0,
         le=1,
-        widget="slider",
         help="Lines are opaque in the browser; alpha fades them towards dark grey.",
     ),
 ]

@@ -73,7 +73,6 @@ class PointStyle(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             help="Opacity of Spheres and Boxes; flat styles stay opaque in the browser and fade "
             "towards dark grey.",
         ),

@@ -25,7 +25,6 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             when=("value", "Arrow"),
             help="Opacity of the arrows; 0 is invisible.",
         ),
@@ -61,7 +60,7 @@ class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     )
     alpha: Annotated[
         float,
-        Prop(ge=0, le=1, widget="slider", when=("value", True), help="Opacity; 0 is invisible."),
+        Prop(ge=0, le=1, when=("value", True), help="Opacity; 0 is invisible."),
     ] = 0.3
     scale: Annotated[
         float, Prop(gt=0, when=("value", True), help="Size in standard deviations.")
@@ -88,7 +87,7 @@ class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     ] = (255, 255, 127)
     alpha: Annotated[
         float,
-        Prop(ge=0, le=1, widget="slider", when=("value", True), help="Opacity; 0 is invisible."),
+        Prop(ge=0, le=1, when=("value", True), help="Opacity; 0 is invisible."),
     ] = 0.5
     offset: Annotated[
         float,

@@ -76,7 +76,6 @@ class Effort(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             help="Opacity of the heads; rings are opaque in the browser and fade towards "
             "dark grey.",
         ),

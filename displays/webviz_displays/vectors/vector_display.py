@@ -43,7 +43,6 @@ class VectorDisplay(Display):
         Prop(
             ge=0,
             le=1,
-            widget="slider",
             help="Opacity of the arrows; circles are opaque in the browser and fade towards "
             "dark grey.",
         ),
