@@ -100,7 +100,10 @@ def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
     assert not pane(tab, "Color").locator(".wv-pane-legend").is_visible()
 
 
-def test_only_what_is_shown_is_sent_and_only_the_newest(tab: Any, pictures: Pictures) -> None:
+def test_only_what_is_shown_is_sent_and_only_the_newest(
+    tab: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.edges.page.pictures.UNSEEN_S", 0.0)
     sent: list[str] = []
     send = pictures._channel.send_bytes
     pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
@@ -109,7 +112,9 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(tab: Any, pictures: Pict
     )[1]
     try:
         pane(tab, "Depth").get_by_role("button", name="Collapse Depth").click()
-        tab.wait_for(lambda: "Depth" not in looks(pictures))
+        assert not pictures.is_unseen("Depth")
+        tab.wait_for(lambda: "Depth" not in looks(pictures) and pictures.is_unseen("Depth"))
+        assert not pictures.is_unseen("Color")
         for stamp in range(2, 102):
             color = np.full_like(COLORS, stamp)
             pictures.show("Color", pixels(color, "rgb8", stamp=stamp))
@@ -119,6 +124,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(tab: Any, pictures: Pict
         assert sent.count("Color") < 100
         pane(tab, "Depth").get_by_role("button", name="Expand Depth").click()
         tab.wait_for(lambda: "Depth" in sent)
+        assert not pictures.is_unseen("Depth")
     finally:
         del pictures._channel.send_bytes
 

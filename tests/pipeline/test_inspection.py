@@ -22,6 +22,7 @@ from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import State
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
+from webviz_displays.image import Image
 from webviz_displays.path import Path
 
 PATH = "nav_msgs/msg/Path"
@@ -195,6 +196,21 @@ def test_the_transform_between_two_frames_is_read_out(bench: Callable[..., Any])
     assert found["map", "moon"].translation is None
     assert "moon" in found["map", "moon"].problem
     assert do(b, InspectTransforms(tree=False)).between == {}
+
+
+def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[..., Any]) -> None:
+    b = bench(Image(name="I", topic=Topic("/image")), Path(name="P", topic=Topic("/path")))
+    b.turn()
+    assert "/image" in b.source.wanted
+    b.scene.unseen = {row.id for row in do(b).rows}
+    b.turn()
+    assert "/image" not in b.source.wanted
+    assert "/path" in b.source.wanted  # which has no pane
+    told = do(b).rows[0].statuses
+    assert told["Display"].text.startswith("Not received: no browser shows its pane.")
+    b.scene.unseen = set()
+    b.turn()
+    assert "/image" in b.source.wanted
 
 
 def test_a_display_that_nobody_watches_does_not_ask_for_something_to_draw(

@@ -84,6 +84,10 @@ class Scene(DrawingScene, Protocol):
         """Whether any browser is connected."""
         ...
 
+    def is_unseen(self, display: str) -> bool:
+        """Whether pages have a pane for a display, by its id, but none has shown it for a while."""
+        ...
+
     def points_held(self) -> int:
         """How many points every connected browser draws fast enough."""
         ...

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -22,6 +23,8 @@ MAX_IN_FLIGHT = 2
 """Pictures of a pane that a page has not shown yet: one on its way, one being decoded."""
 MAX_PANES = 64
 """That one page may show."""
+UNSEEN_S = 2.0
+"""A page that is loaded again, or left for a moment, has its pictures at once."""
 
 log = logging.getLogger("webviz")
 
@@ -75,6 +78,10 @@ class Pictures:
         self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
         """By display and factor, of the newest picture: pages of one size share it."""
         self._reading: dict[int, Future[None]] = {}
+        self._pages: set[int] = set()
+        """That have panes, whether or not they show them."""
+        self._seen: dict[str, float] = {}
+        """When pages were found not to show a display any more."""
         self._number = 0
         channel.on(ShowPictures, self._look)
         channel.on(FramesShown, self._advance)
@@ -93,8 +100,19 @@ class Pictures:
         """Forget the picture of a display."""
         with self._lock:
             self._shown.pop(display, None)
+            self._seen.pop(display, None)
             for key in [key for key in self._made if key[0] == display]:
                 del self._made[key]
+
+    def is_unseen(self, display: str) -> bool:
+        """Whether pages have a pane for a display, but none has shown it for `UNSEEN_S`."""
+        now = time.monotonic()
+        with self._lock:
+            self._pages &= self._channel.browsers()
+            if not self._pages or any(display in self._looks.get(each, {}) for each in self._pages):
+                self._seen.pop(display, None)
+                return False
+            return now - self._seen.setdefault(display, now) > UNSEEN_S
 
     def panes(self) -> dict[str, Pane]:
         """What is shown now by id of the display, in the order of the displays."""
@@ -106,6 +124,7 @@ class Pictures:
 
     def _look(self, browser: int, message: ShowPictures) -> None:
         with self._lock:
+            self._pages.add(browser)
             before = self._looks.pop(browser, {})
             looks = {
                 display: before.get(display) or _Look(width)

@@ -80,6 +80,10 @@ class ViserScene:
         """Whether any browser is connected."""
         return self.link.watchers > 0
 
+    def is_unseen(self, display: str) -> bool:
+        """Whether pages have a pane for a display, by its id, but none has shown it for a while."""
+        return self.link.pictures.is_unseen(display)
+
     def points_held(self) -> int:
         """How many points every connected browser draws fast enough."""
         return self._holding.points()

@@ -10,7 +10,7 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.registry import display_types
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
 from webviz.engine.commands import (
     AddDisplay,
     Command,
@@ -29,6 +29,11 @@ from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.pipeline import Runner, Services
 from webviz.engine.sources import Outlet, Subscription, merged
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
+
+UNSEEN = Status(
+    Level.OK,
+    "Not received: no browser shows its pane. Expand the pane, or bring the browser to the front.",
+)
 
 
 class DisplaysPart(Part):
@@ -62,7 +67,8 @@ class DisplaysPart(Part):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The subscriptions of the displays. The first decides on type and QoS of a topic."""
-        return merged(runner.subscriptions() for runner in self.list.active())
+        active = self.list.active()
+        return merged(each.subscriptions() for each in active if not self._is_unseen(each))
 
     def outlets(self) -> set[Outlet]:
         """What the displays publish."""
@@ -85,8 +91,17 @@ class DisplaysPart(Part):
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core
+        if self._is_unseen(runner):
+            return {"Display": UNSEEN}
         dropped = core.source.inbox.dropped
         return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
+
+    def _is_unseen(self, runner: Runner) -> bool:
+        """Whether all that a display shows is a pane that nobody sees."""
+        scene, display = self.core.scene, runner.display
+        if not (display.enabled and type(display).has_pane):
+            return False
+        return self.core.guard.attempt("Scene", False, scene.is_unseen, runner.id)
 
     # Commands
 

@@ -31,6 +31,8 @@ class RecordingScene:
     watched: bool = True
     upserts: int = 0
     held: int = POINTS_HELD
+    unseen: set[str] = field(default_factory=set)
+    """Ids of displays whose panes nobody sees."""
     background: Rgb | None = None
     lock: threading.RLock = field(default_factory=threading.RLock)
     cameras: Cameras = field(default_factory=NoCameras)
@@ -117,6 +119,10 @@ class RecordingScene:
     def has_watchers(self) -> bool:
         """Whether viewers draw."""
         return self.watched
+
+    def is_unseen(self, display: str) -> bool:
+        """Whether pages have a pane for a display, but none shows it."""
+        return display in self.unseen
 
     def points_held(self) -> int:
         """How many points browsers draw fast enough."""

@@ -7,7 +7,7 @@ const SETTLE_MS = 100;
 
 const panes = new Map();
 const shown = new Map();
-let asked = "{}";
+let asked = ""; // each page says once that it has panes, and which it shows
 let timer = 0;
 let isDue = false;
 
@@ -21,7 +21,7 @@ channel.onBytes((buffer) => {
 });
 
 channel.onOpen(() => {
-  asked = "{}";
+  asked = "";
   ask();
 });
 document.addEventListener("visibilitychange", ask);
