@@ -5,24 +5,27 @@ from __future__ import annotations
 import gc
 import hashlib
 import inspect
+import io
 import time
 import weakref
 from collections.abc import Callable
 from typing import Any, get_type_hints
 
 import numpy as np
+import PIL.Image
 import pytest
 from viser import _messages as wire
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
 
 from webviz.edges.scene import ViserScene
+from webviz.edges.scene.adapter.image import add_blank_image
 from webviz.edges.scene.adapter.link import MAX_TOMBSTONES
 from webviz.edges.scene.adapter.poses import OrientationMessage, PositionMessage
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:
-    """If this fails, viser changed: compare `_windows` in replay.py with its new loop."""
+    """If this fails, viser changed: compare `Sender` with its new loop."""
     source = inspect.getsource(AsyncMessageBuffer._window_loop)
     assert hashlib.sha256(source.encode()).hexdigest().startswith("622c10d1a9e84168")
 
@@ -83,6 +86,20 @@ def test_nodes_of_one_class_share_the_types_of_its_properties(scene: ViserScene)
     one, other = (scene.link.server.scene.add_frame(f"/{name}") for name in ("one", "other"))
     assert one._prop_hints is other._prop_hints
     assert one._prop_hints == get_type_hints(wire.FrameProps)
+
+
+def test_a_blank_image_is_added_as_viser_adds_one(scene: ViserScene) -> None:
+    server = scene.link.server
+    one = np.zeros((1, 1, 4), np.uint8)
+    image = server.scene.add_image(
+        "/image", one, 1.0, 1.0, format="png", cast_shadow=False, receive_shadow=False
+    )
+    ours = add_blank_image(server, "/image")
+    first, second = (vars(handle._impl.props) for handle in (image, ours))
+    assert {**first, "_data": b""} == {**second, "_data": b""}
+    for props in (first, second):
+        with PIL.Image.open(io.BytesIO(props["_data"])) as picture:
+            assert np.asarray(picture).tolist() == one.tolist()
 
 
 def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(

@@ -9,6 +9,7 @@ from viser import ImageHandle
 
 from webviz.api.nodes import U8, Image, same
 from webviz.edges.scene.adapter import Adapter
+from webviz.edges.scene.adapter.image import add_blank_image
 from webviz.edges.scene.names import TILE_PREFIX
 from webviz.edges.scene.png import encode_png
 
@@ -25,8 +26,6 @@ Shape = tuple[int, int]
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
 """Centre and size in metres."""
-
-_BLANK = np.zeros((1, 1, 4), np.uint8)
 
 
 class ImageDrawn:
@@ -85,9 +84,7 @@ class ImageDrawn:
         size = {"render_width": width, "render_height": height}
         with self._link.atomic():
             if tile not in self._handles:
-                self._handles[tile] = self._link.server.scene.add_image(
-                    name, _BLANK, 1.0, 1.0, format="png", cast_shadow=False, receive_shadow=False
-                )
+                self._handles[tile] = add_blank_image(self._link.server, name)
             self._link.update(name, {"_data": png, "_format": "png", **size})
             if self._extents.get(tile) != extent:
                 self._extents[tile] = extent
