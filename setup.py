@@ -23,6 +23,7 @@ setup(
     # The one place of the version, which tools of ROS read there.
     version=ElementTree.parse("package.xml").findtext("version"),
     license="Apache-2.0",
+    license_files=["LICENSE", "THIRD_PARTY.md"],
     python_requires=">=3.11,<3.14",
     packages=[
         name

@@ -1,0 +1,96 @@
+"""What people get who install webviz: all files, all requirements, all licences."""
+
+from __future__ import annotations
+
+import fnmatch
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+import viser
+
+ROOT = Path(__file__).parents[2]
+PACKAGES = ("webviz", "displays/webviz_displays", "urdf/webviz_urdf", "sim/webviz_sim")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+LICENCES = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
+CLIENT = Path(viser.__file__).parent / "client"
+OPTIONAL = {"rclpy", "xacro", "playwright", "pytest", "_pytest"}
+"""Modules of extras and of those who write tests; imported where they are used."""
+REQUIREMENT = {"PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
+REQUIREMENT |= {"ruamel": "ruamel.yaml", "svg": "svg.path"}
+"""Of modules with another name."""
+IMPORT = re.compile(r"^ *(?:import (\w+)|from (\w+)[\w.]* import )", re.MULTILINE)
+OF_ROS = re.compile(r"(\w+_(msgs|srvs|interfaces|runtime_py)|rcl_\w+|rpyutils)$")
+
+
+def requirements(*extras: str) -> set[str]:
+    """The names of what webviz requires."""
+    wanted = list(PROJECT["dependencies"])
+    for extra in extras:
+        wanted += PROJECT["optional-dependencies"][extra]
+    return {re.split(r"[<>=!\[; ]", each)[0].lower() for each in wanted}
+
+
+def files() -> list[Path]:
+    listed = subprocess.run(
+        ["git", "ls-files", *PACKAGES], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    if listed.returncode:
+        pytest.skip("not a clone of the repository")
+    return [Path(name) for name in listed.stdout.splitlines()]
+
+
+def test_every_file_of_the_packages_is_installed() -> None:
+    patterns = re.search(r'DATA = "(.*)"', (ROOT / "setup.py").read_text(encoding="utf-8"))
+    assert patterns
+    known = ["*.py", *patterns[1].split()]
+    missing = [str(f) for f in files() if not any(fnmatch.fnmatch(f.name, p) for p in known)]
+    assert missing == []
+
+
+def test_every_imported_library_is_required() -> None:
+    known = {name.replace("-", "_") for name in requirements()} | OPTIONAL
+    known |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
+    found: dict[str, Path] = {}
+    for file in files():
+        if file.suffix == ".py":
+            text = (ROOT / file).read_text(encoding="utf-8")
+            found |= dict.fromkeys((a or b for a, b in IMPORT.findall(text)), file)
+    missing = {name: str(file) for name, file in found.items() if not OF_ROS.match(name)}
+    assert {n: f for n, f in missing.items() if REQUIREMENT.get(n, n) not in known} == {}
+
+
+def test_the_licence_of_every_requirement_is_listed() -> None:
+    rows = dict(re.findall(r"^\| `([\w.-]+)` \| (.+?) \|", LICENCES, re.MULTILINE))
+    assert rows.keys() == requirements("ros", "pictures")
+    for name, licence in rows.items():
+        try:
+            about = metadata.metadata(name)
+        except metadata.PackageNotFoundError:
+            continue
+        keys = ("License-Expression", "License", "Classifier")
+        fields = [each for key in keys for each in about.get_all(key) or []]
+        said = " ".join(f for f in fields if " :: " not in f)
+        said += " ".join(f for f in fields if f.startswith("License ::"))
+        if said.strip():  # the wheels of ROS say nothing
+            word = re.split(r"[- ]", licence)[0]
+            assert word in said, f"{name}: {licence} is listed, its metadata say {said!r:.200}"
+
+
+def test_the_licences_of_visers_page_are_listed() -> None:
+    wanted = json.loads((CLIENT / "package.json").read_text(encoding="utf-8"))["dependencies"]
+    lock = json.loads((CLIENT / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    section = LICENCES.partition("## In the page")[2].partition("\n## ")[0]
+    listed = {
+        name: line.partition("**")[2].partition("**")[0]
+        for line in section.splitlines()
+        for name in re.findall(r"`(@?[\w./-]+)`", line)
+    }
+    copies = [each.name for each in (CLIENT / "src/vendor").iterdir()]
+    assert all(f"/{name} (MIT)" in section for name in copies), copies
+    assert listed == {name: lock[f"node_modules/{name}"]["license"] for name in wanted}
