@@ -29,7 +29,7 @@ def test_one_browser_too_many_is_refused_with_the_reason(
     with pytest.raises(websockets.exceptions.InvalidStatus, match="503"):
         call()
     status, _, body = ask(PAGE)
-    assert (status, body.split(b",")[0]) == (503, b"64 browsers are connected")
+    assert (status, body.split(b",")[0]) == (503, b"128 browsers are connected")
     peers[0].close()
     wait_until(lambda: ask(PAGE)[0] == 200)
 

@@ -53,5 +53,5 @@ class Limits:
 LIMITS = {
     Role.WATCHER: Limits(0.75, 16, 100.0, 1 << 20),
     Role.OPERATOR: Limits(0.9, 32, 200.0, 1 << 20),
-    Role.OWNER: Limits(1.0, 64, 200.0, 3 << 20),
+    Role.OWNER: Limits(1.0, 128, 200.0, 3 << 20),
 }

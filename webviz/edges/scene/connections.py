@@ -18,7 +18,7 @@ from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is
 from webviz.edges.scene.listener import Handshakes
 from webviz.edges.scene.messages import objection
 
-MAX_BROWSERS = 64
+MAX_BROWSERS = 128
 
 BURST_S = 2.0
 """Seconds of the allowed rate that may come at once."""
