@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import demo_picture
+import PIL.Image
 import pytest
 
 from webviz.api.registry import display_types
@@ -118,3 +120,15 @@ def test_a_property_has_its_bounds_unit_condition_and_default() -> None:
     assert "| Color | `color` | red, green, blue, 0 to 255 each | [25, 255, 0] |" in text
     assert "| Alpha | `alpha` | number, 0 to 1 | 1 |" in text
     assert "| Pose Style | `pose_style` | `None`, `Axes`, `Arrows` | `None` |" in text
+
+
+def test_the_readme_is_short_and_begins_with_the_animation_of_the_demo() -> None:
+    readme = (docs.ROOT / "README.md").read_text()
+    assert readme.count("\n") < 150
+    assert docs.ROOT / links(readme)[0] == demo_picture.PATH
+    with PIL.Image.open(demo_picture.PATH) as picture:
+        assert picture.size == demo_picture.SHOWN
+        assert getattr(picture, "n_frames", 1) == demo_picture.FRAMES
+    assert demo_picture.PATH.stat().st_size < 1_500_000
+    command = Path(demo_picture.__file__).relative_to(docs.ROOT)
+    assert f"python {command}" in (docs.ROOT / "CONTRIBUTING.md").read_text()
