@@ -4,6 +4,7 @@ import * as channel from "../channel.js";
 
 const COARSE = 64;
 const SETTLE_MS = 100;
+const MOST = 64; // the server takes no message about more
 
 const panes = new Map();
 const shown = new Map();
@@ -47,11 +48,11 @@ export function refresh() {
 }
 
 function ask() {
-  const widths = {};
-  for (const [display, pane] of document.hidden ? [] : panes) {
-    const width = pane.width();
-    if (width > 0) widths[display] = Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16);
-  }
+  const all = document.hidden ? [] : [...panes].map(([display, pane]) => [display, pane.width()]);
+  const looked = all.filter(([, width]) => width > 0).slice(0, MOST);
+  const widths = Object.fromEntries(
+    looked.map(([display, width]) => [display, Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16)]),
+  );
   const wanted = JSON.stringify(widths);
   if (wanted === asked) return;
   asked = wanted;
