@@ -8,12 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+import photos
 import PIL.Image
 import pytest
 
 import webviz
 import webviz_urdf
+from webviz.data.messages import encode
 from webviz.shell.pictures.browser import VARIABLE
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import HandFedSource
 
 ROBOT = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
 SIZE = (320, 240)
@@ -40,6 +44,16 @@ def test_a_picture_has_what_was_added_just_before(viewer: webviz.Viewer, tmp_pat
     viewer.save_view("Far", {"type": "TopDownOrtho", "scale": 20.0})
     far = viewer.screenshot(size=SIZE, view="Far")
     assert 0.0 < is_red(far) < 0.3 * is_red(after)
+
+
+def test_images_are_beside_the_scene(viewer: webviz.Viewer, source: HandFedSource) -> None:
+    viewer.add("Image", topic="/image")
+    green = np.full((12, 16, 3), (0, 255, 0), np.uint8)
+    message = photos.raw(green, "rgb8") | {"header": header("camera", source.now)}
+    source.put("/image", photos.RAW, encode(photos.RAW, message))
+    pixels = viewer.screenshot(size=SIZE)
+    assert np.abs(pixels[120, -48] - np.array((0, 255, 0))).max() < 4  # amid the right 30 %
+    assert np.array_equal(pixels[120, 100], viewer.background)
 
 
 def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> None:

@@ -238,7 +238,7 @@ class Running:
         size: tuple[int, int] = (1280, 720),
         view: View | str | Mapping[str, Any] | None = None,
     ) -> Pixels:
-        """Make a picture of the scene as a new browser would show it.
+        """Make a picture of the scene as a new browser would show it, with images beside it.
 
         Takes seconds, and requires playwright and a browser on this machine.
 

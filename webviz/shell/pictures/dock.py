@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from PIL import Image
@@ -19,19 +19,22 @@ GAP = 2
 """Pixels between panes."""
 BACKGROUND = (28, 31, 36)
 
-Draw = Callable[[str, Pane, tuple[int, int]], Image.Image]
-"""Draws what a pane shows, given its display and its size in pixels."""
 
-
-def with_panes(scene: browser.Pixels, panes: Mapping[str, Pane], draw: Draw) -> browser.Pixels:
+def with_panes(
+    page: browser.Page,
+    scene: browser.Pixels,
+    panes: Mapping[str, Pane],
+    hidden: Mapping[str, Sequence[str]],
+) -> browser.Pixels:
     """A picture of a scene with panes at its right, one below the other.
 
     The scene loses its sides, as in a narrower window: its vertical field of view stays.
 
     Args:
+        page: draws panes that show the scene, too.
         scene: uint8 (H, W, 3) or (H, W, 4).
         panes: by display, from top to bottom; those with a video are left out.
-        draw: draws panes that show the scene, too.
+        hidden: ids of the displays that a pane leaves out, by its display.
     """
     stills = {each: pane for each, pane in panes.items() if not isinstance(pane.picture, Video)}
     if not stills:
@@ -46,7 +49,12 @@ def with_panes(scene: browser.Pixels, panes: Mapping[str, Pane], draw: Draw) -> 
         if isinstance(pane.picture, Readout):
             sheet.paste(written(pane.picture, room), (GAP, top))
             continue
-        shown = draw(display, pane, room) if pane.sight else _fitting(pane, room)
+        assert isinstance(pane.picture, Pixels | Encoded)
+        own = opened(pane.picture)
+        if pane.sight:
+            shown = page.pane(own, pane.sight, room, hidden.get(display, ()))
+        else:
+            shown = _fitting(own, room)
         place = GAP + (room[0] - shown.width) // 2, top + (room[1] - shown.height) // 2
         sheet.paste(shown, place)
     whole = np.full_like(scene, 255)
@@ -56,10 +64,8 @@ def with_panes(scene: browser.Pixels, panes: Mapping[str, Pane], draw: Draw) -> 
     return whole
 
 
-def _fitting(pane: Pane, room: tuple[int, int]) -> Image.Image:
-    """The picture of a pane, as large as there is room."""
-    assert isinstance(pane.picture, Pixels | Encoded)
-    shown = opened(pane.picture).convert("RGB")
-    scale = min(room[0] / shown.width, room[1] / shown.height)
-    size = max(1, round(shown.width * scale)), max(1, round(shown.height * scale))
-    return shown.resize(size, Image.Resampling.BOX)
+def _fitting(picture: Image.Image, room: tuple[int, int]) -> Image.Image:
+    """A picture as large as there is room."""
+    scale = min(room[0] / picture.width, room[1] / picture.height)
+    size = max(1, round(picture.width * scale)), max(1, round(picture.height * scale))
+    return picture.convert("RGB").resize(size, Image.Resampling.BOX)

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 
 from webviz.api.errors import Error
 from webviz.api.views import View
+from webviz.edges.page.content.visibility import hidden_in
 from webviz.edges.scene import ViserScene
 from webviz.engine.state import State
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.browser_scripts import CANVAS
+from webviz.shell.pictures.dock import with_panes
 from webviz.shell.pictures.offline_viewer import LOADING
 
 if TYPE_CHECKING:
@@ -81,7 +83,9 @@ class Snapshots:
                 page.wait_for(self._is_loaded, "all is loaded", PATIENCE_S)
                 self._scene.link.acknowledge(PATIENCE_S, client)
                 page.settle(PATIENCE_S)
-                return page.pixels()
+                rows = self._draw().rows
+                panes = self._scene.link.pictures.panes()
+                return with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
         except TimeoutError as error:
             raise Error(str(error)) from error
 

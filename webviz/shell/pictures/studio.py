@@ -8,10 +8,9 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image
 
 from webviz.api import pictures
-from webviz.api.nodes import Pane, Rgb
+from webviz.api.nodes import Rgb
 from webviz.api.stills import opened
 from webviz.api.views import View
 from webviz.edges.scene import ViserScene, open_server
@@ -116,10 +115,4 @@ class Studio:
         """
         self.settle()
         whole = self.page.pixels(transparent)
-
-        def draw(display: str, pane: Pane, size: tuple[int, int]) -> Image.Image:
-            assert pane.sight is not None
-            assert isinstance(pane.picture, pictures.Pixels | pictures.Encoded)
-            return self.page.pane(opened(pane.picture), pane.sight, size, hidden.get(display, ()))
-
-        return with_panes(whole, self.scene.link.pictures.panes(), draw)
+        return with_panes(self.page, whole, self.scene.link.pictures.panes(), hidden)
