@@ -21,6 +21,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Open, Save, SetProperty, Undo
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
+from webviz.shell.cli.fleet import standard_config
 from webviz_displays.interactive_markers.completion import Completed
 from webviz_displays.interactive_markers.feedback import POSE_UPDATE, values_of
 from webviz_displays.interactive_markers.tracked import Tracked
@@ -175,3 +176,13 @@ def test_feedback_of_interactive_markers_has_the_frame_names_of_their_robot(
     made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), ())
     values: Any = values_of(POSE_UPDATE, Tracked("m", made), "", frames, "client")
     assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == sent
+
+
+@pytest.mark.parametrize(("robots", "tools"), [(3, 6), (20, 16)])
+def test_the_config_of_a_fleet_has_no_more_tools_than_the_toolbar_has_room_for(
+    robots: int, tools: int
+) -> None:
+    with standard_config(robots) as path:
+        config = parse(path.read_text(), path.name)
+    assert len(config.settings.robots) == robots
+    assert len([tool for tool in config.tools if "robot" in tool.name]) == tools
