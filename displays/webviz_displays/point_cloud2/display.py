@@ -130,7 +130,6 @@ class CloudDisplay(PointsDisplay):
         """One cloud, in the frame of the sensor at the stamp."""
         state: _State = ctx.state
         state.clouds[sample.number] = sample.received_ns
-        state.newest = sample.number
         try:
             cloud = self.cloud_of(sample.message)
             xyz, origin = cloud.positions()
@@ -159,6 +158,7 @@ class CloudDisplay(PointsDisplay):
             colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
             if hidden := len(seen) - len(xyz):
                 sentence += f" {spaced(hidden)} of them are invisible: their rgba has alpha 0."
+        state.newest = sample.number  # not before, as this may have taken seconds
         (ctx.ok if len(xyz) else ctx.warn)("Points", sentence)
         if self.alpha == 0:
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
