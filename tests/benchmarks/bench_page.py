@@ -35,6 +35,7 @@ from webviz.api.vehicle import Velocity
 from webviz.edges.access.access import EVERYBODY
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Hello, Watch
+from webviz.edges.page.pace import Pace, Stretch
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
@@ -96,6 +97,7 @@ class Reader:
         self.logger = logging.getLogger(__name__)
         self.transport = self
         self.latency = 0.0
+        self.stretch = Stretch(Pace())
         self.is_expelled = False
         self.grant = EVERYBODY
         self.address = ""
@@ -107,6 +109,9 @@ class Reader:
         return self._said.pop(0) if self._said else await asyncio.Future()
 
     async def send(self, message: str | bytes, /) -> None:
+        """Take it."""
+
+    async def send_in_time(self, message: bytes, /) -> None:
         """Take it."""
 
     async def close(self, code: int = 1000, reason: str = "") -> None:
@@ -122,7 +127,7 @@ def watched(count: int) -> Iterator[Channel]:
     channel, ended = Channel(), asyncio.Event()
 
     async def serve() -> None:
-        keys = map(channel.join, range(count))
+        keys = [channel.join(number, Pace()) for number in range(count)]
         pages = [
             asyncio.create_task(channel.serve(Reader(key), contextlib.nullcontext)) for key in keys
         ]

@@ -20,8 +20,8 @@ from websockets.sync.connection import Connection
 
 from webviz.edges.access import rules
 from webviz.edges.access.roles import LIMITS, Role
-from webviz.edges.page.channel import MAX_WAITING
 from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
+from webviz.edges.page.outgoing import MAX_WAITING
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.quiet_server import Server
 from webviz.shell.pictures.browser import Page

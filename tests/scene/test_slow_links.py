@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import socket
+import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from viser import _messages as wire
 
-from webviz.api.nodes import Points, Pose
+from tests.scene.conftest import Peer
+from tests.support.slow_link import SlowLink
+from webviz.api.nodes import Image, Points, Pose
+from webviz.edges.page.links import reduced
+from webviz.edges.page.pace import Pace, Stretch
 from webviz.edges.scene import ViserScene
 from webviz.edges.scene.adapter.acknowledging import Marker
 from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
 from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
+from webviz.edges.scene.pieces import Piece
 from webviz.edges.scene.points import PART
+
+PLENTY = 1e9
+SLOW = 1e6
 
 
 class Queue:
     """The messages there are, as viser's buffer holds them."""
 
-    def __init__(self) -> None:
+    def __init__(self, rate: float = PLENTY) -> None:
         self.live: dict[int, Any] = {}
-        self.outbox = Outbox(Marker)
+        self.now = 100.0
+        self.pace = Pace(rate, lambda: self.now)
+        self.outbox = Outbox(Marker, self.pace)
         self._count = 0
 
     def push(self, message: Any) -> None:
@@ -174,3 +186,151 @@ def test_a_connection_holds_little_that_nothing_can_overtake(
     # Linux counts its own bookkeeping, for which it doubles what it was asked for.
     assert sock.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) <= 2 * SEND_BUFFER_BYTES
     assert sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT) == UNSENT_BYTES
+
+
+def cloud(count: int) -> dict[str, np.ndarray]:
+    """Points whose colours are their numbers."""
+    points = np.repeat(np.arange(count, dtype=np.float32)[:, None], 3, axis=1)
+    return {"points": points, "colors": points.astype(np.uint8)}
+
+
+def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
+    """What is sent meanwhile."""
+    sent = []
+    until = queue.now + seconds
+    while queue.now < until:
+        queue.now += 0.01
+        sent += queue.outbox.small(queue.live, queue._count - 1, None)
+        sent += queue.outbox.large(queue.live)
+    return sent
+
+
+def completed(sent: list[Any]) -> list[tuple[str, dict[str, np.ndarray]]]:
+    """Names and properties of all updates, whose pieces are put together as in the page."""
+    updates, slots = [], {}
+    for message in sent:
+        if not isinstance(message, Piece):
+            updates.append((message.name, message.updates))
+            continue
+        slots[message.slot] = (slots[message.slot] if message.start else b"") + message.data
+        if message.update is not None:
+            data = slots[message.slot]
+            assert len(data) == message.size
+            values = {
+                name: np.frombuffer(data[value["start"] : value["end"]], value["dtype"] or "|u1")
+                for name, value in message.update["values"].items()
+            }
+            updates.append((message.update["name"], values))
+    return updates
+
+
+def test_a_slow_link_gets_fewer_points_of_a_cloud_and_all_of_them_once_it_rests() -> None:
+    queue = Queue(SLOW)
+    full = cloud(100_000)
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", full))
+    (_, thin), (_, last) = completed(taken(queue))
+    points = thin["points"].reshape(-1, 3)[:, 0]
+    assert len(points) == 100_000 // 8
+    assert (points.astype(np.uint8) == thin["colors"].reshape(-1, 3)[:, 0]).all()
+    assert len(set((points % 8).tolist())) == 8
+    assert (last["points"] == full["points"].ravel()).all()
+    assert (last["colors"] == full["colors"].ravel()).all()
+    assert not queue.outbox.is_waiting()
+    assert queue.pace.every == 1
+
+
+def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
+    queue = Queue(SLOW)
+    queue.push(wire.SceneNodeUpdateMessage("/map", {"png": bytes(2_000_000)}))
+    sent: list[Any] = []
+    for _ in range(50):
+        queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
+        queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((1000, 3), "f4")}))
+        sent += taken(queue, 0.1)
+    names = [name for name, _ in completed(sent)]
+    assert names.count("/scan") >= 30
+    assert names.count("/lidar") >= 5
+    assert names.count("/map") == 1
+    assert max(len(values["points"]) for name, values in completed(sent) if name == "/lidar") < 50e3
+    assert reduced(queue.pace) == "Slow link, 8 Mbit/s: clouds show every 8th point"
+
+
+def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
+    queue = Queue(SLOW)
+    queue.push(wire.SceneNodeUpdateMessage("/map", {"png": bytes(2_000_000)}))
+    assert taken(queue, 0.2)
+    queue.live.clear()
+    assert not taken(queue, 0.2)
+    assert not queue.outbox.is_waiting()
+
+
+def test_a_link_that_makes_nobody_wait_reduces_nothing() -> None:
+    now = [0.0]
+    stretch = Stretch(Pace(None, lambda: now[0]))
+    for _ in range(100):
+        stretch.send(1000)
+        if (mark := stretch.end()) is not None:
+            now[0] += 0.3  # a busy browser
+            stretch.pace.hear(mark)
+        now[0] += 0.05
+    assert stretch.pace.rate is None
+    assert stretch.pace.room() > 0
+
+
+def test_on_a_link_of_5_mbit_the_pose_stays_fresh_and_the_cloud_is_thinned(
+    scene: ViserScene,
+) -> None:
+    link = SlowLink(scene.link.server.get_port(), 5e6 / 8, 0.1)
+    peer = Peer(link)
+    try:
+        peer.replay()
+        random = np.random.default_rng(0)
+        clouds = [random.random((100_000, 3), np.float32) for _ in range(3)]
+        ended = threading.Event()
+
+        def drive() -> None:
+            colors = np.zeros((100_000, 3), np.uint8)
+            turn = 0
+            while not ended.wait(0.05):
+                turn += 1
+                scene.upsert("lidar", "it", Points(clouds[turn % 3], colors, 0.1))
+                scene.set_pose("robot", Pose((time.monotonic(), 0.0, 0.0)))
+                scene.flush()
+
+        robot = threading.Thread(target=drive)
+        robot.start()
+        began, ages, texts = time.monotonic(), [], set()
+        while (now := time.monotonic()) < began + 5.0:
+            poses = [m["position"][0] for m in peer.receive() if "position" in m]
+            if poses and now > began + 3.0:
+                ages.append(time.monotonic() - poses[-1])
+                (browser,) = scene.link.server.channel.browsers()
+                pace = scene.link.server.channel.pace(browser)
+                assert pace is not None
+                texts.add(reduced(pace))
+                assert pace.in_flight < 5e5
+        ended.set()
+        robot.join()
+    finally:
+        peer.close()
+        link.close()
+    assert len(ages) > 5
+    assert max(ages) < 1.0  # 0.3 s on a quiet machine
+    assert any("clouds show every" in text for text in texts)
+
+
+def test_the_page_puts_pieces_together(view: Any) -> None:
+    channel = view.scene.link.server.channel
+    pace = channel.pace(max(channel.browsers()))
+    pace.rate = SLOW
+    cells = np.random.default_rng(0).integers(0, 255, (400, 400, 4), np.uint8)
+    cells[200:, :, :] = (200, 100, 50, 255)
+    view.scene.upsert("map", "grid", Image(cells, 4.0, 4.0))
+    side = np.linspace(-4.0, -1.0, 200, dtype=np.float32)
+    xyz = np.stack([*np.meshgrid(side, side), np.zeros((200, 200), np.float32)], -1).reshape(-1, 3)
+    colors = np.full((len(xyz), 3), (0, 0, 255), np.uint8)
+    view.scene.upsert("lidar", "it", Points(xyz, colors, 0.03))
+    view.show()
+    view.wait_for(lambda: view.draw(1) or view.color_at((1.0, 3.0, 0.0)) == (200, 100, 50))
+    view.wait_for(lambda: view.draw(1) or view.color_at((-2.0, -2.0, 0.0)) == (0, 0, 255))
+    pace.rate = None

@@ -14,6 +14,8 @@ from webviz.data.images import ImageError, jpeg, render
 
 LONGEST_EDGE = 16_384
 """Pixels along an edge that browsers can show."""
+QUALITY = 75
+"""Of pictures that are encoded once more."""
 
 
 class File(NamedTuple):
@@ -38,12 +40,28 @@ def factor_for(picture: Picture, width: int) -> int:
 
 
 def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
-    """The file of a picture; what is encoded already is not touched."""
+    """The file of a picture, smaller by a factor; what is encoded is not touched with 1."""
     if isinstance(picture, Readout):
         return File("application/json", msgspec.json.encode(picture.tree()))
     if isinstance(picture, Pixels):
         return File("image/jpeg", jpeg(picture.image, picture.tone, factor))
-    return File(picture.mime, np.ascontiguousarray(picture.data).data)
+    return _smaller(File(picture.mime, np.ascontiguousarray(picture.data).data), factor)
+
+
+def _smaller(file: File, factor: int) -> File:
+    """A file as JPEG with 1 / `factor` of its edges; as it is with 1, or if it is damaged."""
+    if factor == 1:
+        return file
+    made = io.BytesIO()
+    try:
+        with Image.open(io.BytesIO(file.data)) as image:
+            size = max(1, image.width // factor), max(1, image.height // factor)
+            image.draft("RGB", size)  # decodes fewer pixels of a JPEG
+            smaller = image.convert("RGB").resize(size, Image.Resampling.BOX)
+        smaller.save(made, "JPEG", quality=QUALITY)
+    except (OSError, SyntaxError, ValueError):
+        return file  # the page says what is wrong with it
+    return File("image/jpeg", made.getvalue())
 
 
 def opened(picture: Pixels | Encoded) -> Image.Image:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import itertools
 import logging
 import secrets
 import threading
@@ -32,13 +31,11 @@ from webviz.edges.page.messages import (
     Watch,
     You,
 )
+from webviz.edges.page.outgoing import Outgoing
+from webviz.edges.page.pace import Pace, Stretch
 from webviz.edges.page.refusals import answer
-from webviz.edges.page.stores import Stores, Watched
+from webviz.edges.page.stores import Stores
 
-MAX_WAITING = 256
-"""Messages that may wait for one page; a page that takes none of them has to connect again."""
-MAX_WAITING_BYTES = 32 << 20
-"""Of these messages together; the largest are configs to download."""
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
 FAREWELL_S = 1.0
@@ -57,6 +54,8 @@ class Connection(Protocol):
     transport: Any
     is_expelled: bool
     """Whether nothing that it sends counts any more."""
+    stretch: Stretch
+    """What was sent and may not have arrived."""
     latency: float
     """Of the last ping in seconds, 0 before the first."""
 
@@ -76,6 +75,10 @@ class Connection(Protocol):
 
     async def send(self, message: str | bytes, /) -> None:
         """Sends a message, and waits while the page does not read."""
+        ...
+
+    async def send_in_time(self, message: bytes, /) -> None:
+        """Sends a message when there is room for it on the link."""
         ...
 
     async def close(self, code: int = 1000, reason: str = "") -> None:
@@ -99,7 +102,7 @@ class Channel:
         """Ends viser's connection of a browser."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
-        self._outboxes: dict[int, _Outbox] = {}
+        self._outboxes: dict[int, Outgoing] = {}
         self._visitors: dict[int, tuple[Visitor, Connection]] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
         self._stores = Stores()
@@ -139,6 +142,12 @@ class Channel:
         if (loop := self._loop) is not None:
             with contextlib.suppress(RuntimeError):  # the server has stopped
                 loop.call_soon_threadsafe(call)
+
+    def pace(self, browser: int) -> Pace | None:
+        """How fast a browser takes what it is sent; None if it is gone. From any thread."""
+        with self._lock:
+            outbox = self._outboxes.get(browser)
+        return None if outbox is None else outbox.pace
 
     def browsers(self) -> set[int]:
         """The ids of all pages."""
@@ -203,12 +212,17 @@ class Channel:
 
     # Called on the event loop
 
-    def join(self, browser: int) -> str:
-        """Expects the page of a browser, and returns the key that it has to name."""
+    def join(self, browser: int, pace: Pace) -> str:
+        """Expects the page of a browser, and returns the key that it has to name.
+
+        Args:
+            browser: viser's id of it.
+            pace: of its link.
+        """
         key = secrets.token_urlsafe(32)
         with self._lock:
             self._loop = asyncio.get_running_loop()
-            outbox = self._outboxes[browser] = _Outbox(key)
+            outbox = self._outboxes[browser] = Outgoing(key, pace)
             for message in self._kept.values():
                 outbox.put(message, msgspec.json.encode(message))
         return key
@@ -236,6 +250,7 @@ class Channel:
             await connection.close(1008, "This is no page of webviz")
             return
         outbox.abort = connection.transport.abort
+        connection.stretch.join(outbox.pace)
         grant = connection.grant
         visitor = Visitor(grant.name, grant.role, connection.address, time.time())
         with self._lock:
@@ -253,7 +268,7 @@ class Channel:
                 self._visitors.pop(browser, None)
             self.on_lost(browser)
 
-    async def _introduce(self, connection: Connection) -> tuple[int, _Outbox]:
+    async def _introduce(self, connection: Connection) -> tuple[int, Outgoing]:
         hello = msgspec.json.decode(await connection.recv(), type=Hello)
         with self._lock:
             keys = {outbox.key: browser for browser, outbox in self._outboxes.items()}
@@ -262,15 +277,18 @@ class Channel:
             outbox.key = None  # it serves once
         return browser, outbox
 
-    async def _write(self, connection: Connection, outbox: _Outbox) -> None:
+    async def _write(self, connection: Connection, outbox: Outgoing) -> None:
         with contextlib.suppress(ConnectionClosed):
             while True:
                 outbox.filled.clear()
                 while (message := self._next(outbox)) is not None:
-                    await connection.send(message)
+                    if isinstance(message, bytes):
+                        await connection.send_in_time(message)
+                    else:
+                        await connection.send(message)
                 await outbox.filled.wait()
 
-    def _next(self, outbox: _Outbox) -> str | bytes | None:
+    def _next(self, outbox: Outgoing) -> str | bytes | None:
         with self._lock:
             if (values := outbox.watched.next(self._stores)) is not None:
                 return msgspec.json.encode(values).decode()
@@ -340,37 +358,6 @@ class Channel:
                 outbox.abort()
             else:
                 outbox.filled.set()
-
-
-class _Outbox:
-    """The messages that wait for one page."""
-
-    def __init__(self, key: str) -> None:
-        self.key: str | None = key
-        self.abort: Callable[[], None] = lambda: None
-        """Ends the connection of the page, if it has one."""
-        self.waiting: dict[object, bytes] = {}
-        self.bulk: dict[str, bytes] = {}
-        """Bytes that wait until there are no messages, by key."""
-        self.watched = Watched()
-        self.is_full = False
-        """Whether something did not fit any more."""
-        self.filled = asyncio.Event()
-        self._numbers = itertools.count()
-
-    def put_first(self, message: ToPage) -> None:
-        """Send a message before all that waits."""
-        self.waiting = {type(message): msgspec.json.encode(message), **self.waiting}
-
-    def put(self, message: ToPage, data: bytes) -> None:
-        key = type(message) if message.kept else next(self._numbers)
-        self.waiting.pop(key, None)
-        size = len(data) + sum(map(len, self.waiting.values()))
-        if len(self.waiting) < MAX_WAITING and size <= MAX_WAITING_BYTES and not self.is_full:
-            self.waiting[key] = data
-        else:
-            self.waiting.clear()
-            self.is_full = True
 
 
 async def _nothing(browser: int) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from webviz.api.nodes import Pane
-from webviz.api.pictures import Pixels, Readout, Video
+from webviz.api.pictures import Encoded, Pixels, Video
 from webviz.api.stills import File, factor_for, file_of
 from webviz.data.images import ImageError
 from webviz.edges.page.channel import Channel
@@ -25,6 +25,9 @@ MAX_PANES = 64
 """That one page may show."""
 UNSEEN_S = 2.0
 """A page that is loaded again, or left for a moment, has its pictures at once."""
+PICTURE_S = 0.3
+"""Seconds of a slow link that one picture of each pane together may take."""
+MAX_SHRINK = 8
 
 log = logging.getLogger("webviz")
 
@@ -48,6 +51,7 @@ class _Look:
         waiting: numbers of pictures that were sent, and are not shown yet.
         is_busy: whether the next picture is being made.
         turn: alternates with each picture that is sent.
+        shrink: by how much pictures are made smaller because of the link.
     """
 
     width: int
@@ -56,6 +60,7 @@ class _Look:
     waiting: deque[int] = field(default_factory=deque)
     is_busy: bool = False
     turn: bool = False
+    shrink: int = 1
 
 
 class Pictures:
@@ -166,7 +171,8 @@ class Pictures:
             return
         if not look.is_busy and len(look.waiting) < MAX_IN_FLIGHT:
             look.is_busy = True
-            if isinstance(shown.pane.picture, Pixels | Readout):
+            is_direct = isinstance(shown.pane.picture, Encoded | Video)
+            if not is_direct or self._rate(browser) is not None:
                 self._pool.submit(self._send, browser, display, look)
             else:
                 self._channel.call_soon(partial(self._send, browser, display, look))
@@ -176,12 +182,15 @@ class Pictures:
         with self._lock:
             shown = self._shown.get(display)
             has = look.has
+            rate = self._rate(browser)
         data = b""
         if shown is not None:
             try:
-                data, has = frame(
-                    display, shown.number, shown.pane, self._file(shown, display, look), has
-                )
+                for _ in range(2):
+                    file = self._file(shown, display, look)
+                    data, has = frame(display, shown.number, shown.pane, file, has)
+                    if not self._fit(look, shown, len(data), rate):
+                        break
             except Exception:
                 log.exception("A picture of %r could not be made", display)
         with self._lock:
@@ -197,13 +206,36 @@ class Pictures:
                 self._channel.send_bytes(data, f"{display} {look.turn:d}", browser)
             self._continue(browser, display, look)
 
+    def _rate(self, browser: int) -> float | None:
+        """Bytes a second for each picture of a page; None on a link that is fast enough."""
+        looks = self._looks.get(browser, {})
+        pace = self._channel.pace(browser)
+        if pace is None:
+            return None
+        pace.shrink = max((look.shrink for look in looks.values()), default=1)
+        return None if pace.rate is None else pace.rate / max(1, len(looks))
+
+    @staticmethod
+    def _fit(look: _Look, shown: _Shown, size: int, rate: float | None) -> bool:
+        """Adapts how much smaller pictures are made; whether this one is much too large."""
+        if rate is None or not isinstance(shown.pane.picture, Pixels | Encoded):
+            look.shrink = 1
+            return False
+        excess = size / (rate * PICTURE_S)
+        before = look.shrink
+        while excess > 1.0 and look.shrink < MAX_SHRINK:
+            look.shrink, excess = look.shrink * 2, excess / 4
+        if look.shrink == before > 1 and excess < 0.15:
+            look.shrink //= 2
+        return look.shrink > before
+
     def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:
         """What a page decodes, None of a video; made once for all pages that show it as large."""
         picture = shown.pane.picture
         if isinstance(picture, Video):
             return None
-        factor = factor_for(picture, look.width)
-        if not isinstance(picture, Pixels):
+        factor = factor_for(picture, look.width) * look.shrink
+        if not isinstance(picture, Pixels) and factor == 1:
             return file_of(picture, factor)
         key = display, factor
         with self._lock:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 import resource
-from collections.abc import Callable, Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 from typing import Any
 
 import websockets.asyncio.server as websocket
+from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 from websockets.protocol import State
 
 from webviz.edges.access.access import EVERYBODY, Grant
 from webviz.edges.access.roles import LIMITS, Role
+from webviz.edges.page.pace import Mark, Pace, Stretch
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.edges.scene.listener import Handshakes
 from webviz.edges.scene.messages import objection
@@ -129,10 +132,14 @@ class Connection(websocket.ServerConnection):
 
     Args:
         gate: of the server.
+        rate: bytes a second that links to browsers are known to take; None to measure it.
     """
 
-    def __init__(self, gate: Gate, *arguments: Any, **options: Any) -> None:
+    def __init__(self, gate: Gate, rate: float | None, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
+        self.stretch = Stretch(Pace(rate))
+        """What was sent and may not have arrived."""
+        self._asking: asyncio.Task[None] | None = None
         # websockets fails, and logs it, if a browser is gone before it is answered.
         send_eof = self.protocol.send_eof
         self.protocol.send_eof = lambda: None if self.protocol.eof_sent else send_eof()
@@ -174,6 +181,7 @@ class Connection(websocket.ServerConnection):
     def connection_lost(self, exc: Exception | None) -> None:
         """Removes the connection from the gate."""
         self._gate.leave(self)
+        self.stretch.drop()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -222,10 +230,68 @@ class Connection(websocket.ServerConnection):
         # Whole messages wait in `recv`; other frames take effect, or memory, at once.
         is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
         is_request = not isinstance(event, Frame)
-        is_instant = not (is_whole or is_request)
+        is_answer = isinstance(event, Frame) and bytes(event.data) in self.pending_pings
+        is_instant = not (is_whole or is_request or is_answer)
         if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
             self.transport.abort()
         super().process_event(event)
+
+    async def send(self, message: Any, text: bool | None = None) -> None:
+        """Sends a message, or fragments of one as they come, and measures when it arrives."""
+        if isinstance(message, str | bytes):
+            self.stretch.send(len(message))
+        await super().send(message, text)
+        await self._ping()
+
+    def write(self, frame: bytes) -> None:
+        """Sends a whole frame without waiting, unless the connection is being closed."""
+        if self.state is not State.OPEN:
+            return
+        self.transport.write(frame)
+        self.stretch.send(len(frame))
+        if self.stretch.is_due and self._asking is None:
+            self._asking = self.loop.create_task(self._ask())
+
+    async def _ask(self) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            await self._ping()
+        self._asking = None
+
+    async def send_in_time(self, message: bytes) -> None:
+        """Sends a message in fragments, each when there is room for it on the link."""
+        piece = self.stretch.pace.piece()
+        if len(message) <= piece and self.stretch.pace.room() > 0:
+            await self.send(message)
+        else:
+            await self.send(self._fragments(message, piece))
+
+    async def _fragments(self, message: bytes, size: int) -> AsyncIterator[bytes]:
+        for start in range(0, len(message), size):
+            while self.stretch.pace.room() < 1:
+                await self.stretch.pace.wait()
+            fragment = message[start : start + size]
+            self.stretch.send(len(fragment))
+            yield fragment
+            await self._ping()
+
+    async def _ping(self) -> None:
+        """Asks the browser to say when it has got here, if that is worth asking."""
+        if (mark := self.stretch.end()) is None:
+            return
+        heard = functools.partial(self._heard, self.stretch.pace, mark)
+        try:
+            pong = await self.ping()
+        except ConnectionClosed:
+            self.stretch.pace.lose(mark)
+            raise
+        asyncio.ensure_future(pong).add_done_callback(heard)
+
+    @staticmethod
+    def _heard(pace: Pace, mark: Mark, pong: asyncio.Future[float]) -> None:
+        if pong.cancelled() or pong.exception() is not None:
+            pace.lose(mark)
+        else:
+            pace.hear(mark)
 
     async def recv(self, decode: bool | None = None) -> Any:
         """The next valid message, at the allowed rate."""

@@ -49,6 +49,7 @@ def guarded_serve(
     channel: Channel,
     modules: Modules,
     access: Access,
+    rate: float | None,
 ) -> Callable[..., Any]:
     """Wraps `websockets.asyncio.server.serve` as viser calls it.
 
@@ -63,6 +64,7 @@ def guarded_serve(
         channel: to the modules of the page.
         modules: of the page.
         access: knows who may connect.
+        rate: bytes a second that links to browsers are known to take; None to measure it.
     """
     port = listener.getsockname()[1]
     log = listener.log = sparing_log("webviz.server")
@@ -176,7 +178,7 @@ def guarded_serve(
         options |= {
             "process_request": functools.partial(process_request, options["process_request"]),
             "process_response": process_response,
-            "create_connection": functools.partial(Connection, gate),
+            "create_connection": functools.partial(Connection, gate, rate),
             "max_size": MAX_BYTES,
             "max_queue": MAX_WAITING_FRAMES,
             "logger": log,

@@ -39,6 +39,7 @@ def open_server(
     tls: ssl.SSLContext | None = None,
     trusted_proxies: Iterable[str] = (),
     access: Access | None = None,
+    link_rate: float | None = None,
 ) -> Server:
     """Opens a server with an empty, lit scene.
 
@@ -50,6 +51,7 @@ def open_server(
         tls: certificate and key; None for plain HTTP.
         trusted_proxies: IP addresses or networks of proxies whose forwarded headers are used.
         access: knows who may connect; None for everybody.
+        link_rate: bytes a second that the link to each browser takes; None to measure it.
 
     Returns:
         The running server; `stop()` ends its threads and frees the port.
@@ -67,7 +69,16 @@ def open_server(
     hosts, channel = HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
     serve = guarded_serve(
-        websocket.serve, listener, gate, hosts, proxies, tls, channel, modules, access or Access()
+        websocket.serve,
+        listener,
+        gate,
+        hosts,
+        proxies,
+        tls,
+        channel,
+        modules,
+        access or Access(),
+        link_rate,
     )
     with _opening, replaced(websocket, "serve", serve):
         server = Server(channel, modules, gate.close, host=host, port=port, verbose=False)

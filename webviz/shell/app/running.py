@@ -31,6 +31,7 @@ from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config
 from webviz.files.config.model import Name
+from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
 
@@ -78,6 +79,7 @@ class Running:
         certfile: str | os.PathLike[str] | None = None,
         keyfile: str | os.PathLike[str] | None = None,
         trust_proxies: Sequence[str] = (),
+        link: str = "",
         token: bool = False,
         journal: str | os.PathLike[str] | None = None,
         control: bool = True,
@@ -86,6 +88,7 @@ class Running:
         with contextlib.ExitStack() as stack:
             closing = _Closing(stack)
             _check_names(allow_publish)
+            link_rate = bytes_per_second(link) if link else None
             kept = None if journal is None else JournalFile(Path(journal))
             if kept is not None:
                 closing.add("The journal", kept.close)
@@ -115,6 +118,7 @@ class Running:
                 tls=tls,
                 trusted_proxies=trust_proxies,
                 access=self.access,
+                link_rate=link_rate,
             )
             closing.add("The server of the page", server.stop)
             make_missing(self.access)  # until then, nobody can connect

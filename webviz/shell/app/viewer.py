@@ -63,6 +63,7 @@ class Viewer(Running):
         certfile: PEM file with a certificate, to serve https.
         keyfile: PEM file with its private key; None if `certfile` contains it.
         trust_proxies: IP addresses or networks of proxies whose forwarded headers are used.
+        link: rate of the link to each browser, such as "5Mbit/s" or "500kbit/s"; "" to measure it.
         token: whether browsers of this machine need a link with a token, too. Without tokens in the
             file of this user or in the environment, one of each role is made: `webviz token`.
         journal: file to which it is appended who published, saved and opened what; 1 MB, and as
@@ -71,8 +72,8 @@ class Viewer(Running):
         read: reads a config file; called with None for the default config.
 
     Raises:
-        Error: the config, a plug-in or the certificate cannot be read, ROS is missing, or the port
-            is not available.
+        Error: the config, a plug-in or the certificate cannot be read, ROS is missing, the port is
+            not available, or `link` is not a rate.
     """
 
     def __enter__(self) -> Viewer:

@@ -65,6 +65,7 @@ def serve(
             certfile=options.certfile,
             keyfile=options.keyfile,
             trust_proxies=options.trust_proxy,
+            link=options.link,
             token=options.token,
             journal=options.journal,
             control=not options.no_control,

@@ -28,6 +28,8 @@ class ViewingOptions(ConfigOptions):
     """Private key of the certificate (default: in --certfile)."""
     trust_proxy: Annotated[Repeatable[str], Parameter(metavar="ADDRESS")] = ()
     """Use the X-Forwarded headers of a proxy at this IP address or network (repeatable)."""
+    link: Annotated[str, Parameter(metavar="RATE")] = ""
+    """Rate of the link to each browser, such as 5Mbit/s or 500kbit/s (default: measured)."""
     token: Flag = False
     """Also ask browsers on this machine for a link with a token, see `webviz token`."""
     journal: File | None = None

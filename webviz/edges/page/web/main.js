@@ -13,6 +13,7 @@ import * as lines from "./scene/lines.js";
 import * as mouse from "./scene/mouse.js";
 import * as overlay from "./overlay/overlay.js";
 import * as page from "./page.js";
+import * as pieces from "./scene/pieces.js";
 import * as saveImage from "./scene/save_image.js";
 import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
@@ -25,7 +26,7 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const early = [shell, page, inStep, tiles, labels, lines, shade, colors, contact, whole];
+  const early = [shell, page, inStep, tiles, labels, lines, shade, colors, contact, whole, pieces];
   for (const part of early) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();

@@ -9,15 +9,25 @@ import time
 import viser
 from viser import _messages as wire
 from viser.infra._infra import ClientId, WebsockClientConnection
+from websockets.asyncio.server import ServerConnection
 
 from webviz.edges.page.channel import Channel
+from webviz.edges.page.links import Links
 from webviz.edges.page.messages import Beat
 from webviz.edges.page.modules import Modules
+from webviz.edges.page.pace import Pace
+from webviz.edges.scene.connections import Connection
 
 FAREWELL_S = 1.0
 """For a page to close its connection when its visit is ended."""
 BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
+
+
+def pace_of(connection: ServerConnection) -> Pace:
+    """The pace of a browser, by its connection for viser."""
+    assert isinstance(connection, Connection)
+    return connection.stretch.pace
 
 
 def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
@@ -33,7 +43,8 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     socket = server._websock_server
 
     def join(client: WebsockClientConnection) -> None:
-        key = channel.join(client.client_id)
+        pace = pace_of(socket._live_connections[client.client_id])
+        key = channel.join(client.client_id, pace)
         source = modules.connect(client.client_id, key)
         client.queue_message(wire.RunJavascriptMessage(source=source))
 
@@ -52,8 +63,11 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     channel.end_scene = end_for_good
     loop = server.get_event_loop()
 
+    links = Links(channel)
+
     def beat() -> None:
         channel.send(Beat(time.time()))
+        links.tell()
         loop.call_later(BEAT_PERIOD, beat)
 
     loop.call_soon_threadsafe(beat)

@@ -11,6 +11,8 @@ import zstandard
 from viser.infra._infra import _append_aligned_buffers
 from viser.infra._messages import Message
 
+from webviz.edges.scene.pieces import Piece
+
 _BINARY = 0x82
 """First byte of a frame that is a whole binary message (RFC 6455, section 5.2)."""
 _packer = msgspec.msgpack.Encoder()
@@ -22,7 +24,7 @@ class Packer:
     def __init__(self) -> None:
         self._zstd = zstandard.ZstdCompressor(level=1)
 
-    def frame(self, messages: Sequence[Message]) -> bytes:
+    def frame(self, messages: Sequence[Message | Piece]) -> bytes:
         """A websocket frame without mask, which is the same for all browsers.
 
         It contains the size of the msgpack before and after compression, the msgpack, and the

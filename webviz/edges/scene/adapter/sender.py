@@ -10,10 +10,12 @@ from dataclasses import dataclass
 import websockets.asyncio.server as websocket
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
-from websockets.protocol import State
 
+from webviz.edges.page.pace import Pace
 from webviz.edges.scene.adapter.packing import Packer
-from webviz.edges.scene.outbox import Outbox, Progress
+from webviz.edges.scene.connections import Connection
+from webviz.edges.scene.outbox import URGENT, Outbox, Progress
+from webviz.edges.scene.pieces import Piece
 
 
 class Sender:
@@ -55,7 +57,8 @@ class Sender:
         """Serves a browser until it is gone, and leaves nothing for viser to send."""
         self._thread = threading.get_ident()
         connection = self._connections[client_id]
-        outbox = Outbox(self._last)
+        assert isinstance(connection, Connection)
+        outbox = Outbox(self._last, connection.stretch.pace)
         browser = _Browser(client_id, connection, outbox, backlog_last_id, backlog_done_message)
         self._browsers[client_id] = browser
         self._buffer.generator_cursors[client_id] = outbox.cursor
@@ -67,6 +70,8 @@ class Sender:
             self._buffer.generator_cursors.pop(client_id, None)
             if browser.draining is not None:
                 browser.draining.cancel()
+            if browser.resting is not None:
+                browser.resting.cancel()
         return
         yield ()  # makes it a generator
 
@@ -83,7 +88,7 @@ class Sender:
             self._due = None
         if self._buffer.done:
             return
-        shared: dict[Progress, _Step] = {}
+        shared: dict[tuple[Progress, bool], _Step] = {}
         is_more = False
         for browser in self._browsers.values():
             if browser.draining is None:
@@ -91,27 +96,48 @@ class Sender:
         if is_more:
             self._due = self._buffer.event_loop.call_soon(self._send)
 
-    def _serve(self, browser: _Browser, shared: dict[Progress, _Step]) -> bool:
+    def _serve(self, browser: _Browser, shared: dict[tuple[Progress, bool], _Step]) -> bool:
         """Sends a frame to a browser; whether there is another one that it can take now."""
+        if browser.pace.room(URGENT) < 1:
+            self._rest(browser)
+            return False
         outbox, before = browser.outbox, browser.outbox.progress
         is_live = browser.end_of_backlog is None
-        step = shared.get(before) if is_live else None
+        is_shared = is_live and outbox.is_common
+        key = before, browser.pace.room() > 0
+        step = shared.get(key) if is_shared else None
         if step is None:
             step = _Step(self._window(browser), outbox.progress)
-            if is_live:
-                shared[before] = step
+            if is_shared:
+                shared[key] = step
         outbox.progress = step.after
         # viser's garbage collector removes messages that all cursors have passed.
         self._buffer.generator_cursors[browser.id] = outbox.cursor
         if (frame := step.frame(self._packer, browser.id)) is not None:
-            browser.write(frame)
+            browser.connection.write(frame)
         if browser.connection.paused:
             browser.draining = asyncio.ensure_future(self._drain(browser))
             return False
         is_held = not step.window and step.after == before  # until an atomic block ends
+        if is_held and outbox.is_waiting():
+            self._rest(browser)
         return not is_held and (not is_live or outbox.is_waiting())
 
-    def _window(self, browser: _Browser) -> list[Message]:
+    def _rest(self, browser: _Browser) -> None:
+        """Serves a browser again when there may be room on its link."""
+        if browser.resting is None:
+            browser.resting = asyncio.ensure_future(self._resume(browser))
+
+    async def _resume(self, browser: _Browser) -> None:
+        await browser.pace.wait()
+        browser.resting = None
+        self._go_on()
+
+    def _go_on(self) -> None:
+        if self._due is None:
+            self._due = self._buffer.event_loop.call_soon(self._send)
+
+    def _window(self, browser: _Browser) -> list[Message | Piece]:
         """The next messages for a browser."""
         buffer, outbox = self._buffer, browser.outbox
         with buffer.buffer_lock:
@@ -119,9 +145,12 @@ class Sender:
             if buffer.atomic_counter:
                 return []
             if browser.end_of_backlog is None:
-                window = outbox.small(live, buffer.message_counter - 1, None)
-                return window + outbox.large(live)
-            window = outbox.small(live, browser.backlog, buffer.max_window_size)
+                return [
+                    *outbox.small(live, buffer.message_counter - 1, None),
+                    *outbox.large(live),
+                ]
+            window: list[Message | Piece] = []
+            window += outbox.small(live, browser.backlog, buffer.max_window_size)
             if outbox.cursor >= browser.backlog:
                 window.append(browser.end_of_backlog)
                 browser.end_of_backlog = None
@@ -133,8 +162,7 @@ class Sender:
         except OSError:
             return  # it is gone
         browser.draining = None
-        if self._due is None:
-            self._due = self._buffer.event_loop.call_soon(self._send)
+        self._go_on()
 
 
 @dataclass
@@ -148,19 +176,22 @@ class _Browser:
         backlog: number of the last message from before it joined.
         end_of_backlog: to be sent after that one; None once it was.
         draining: while it has more to take than the system's buffers hold.
+        resting: while something waits for room on its link.
     """
 
     id: int
-    connection: websocket.ServerConnection
+    connection: Connection
     outbox: Outbox
     backlog: int
     end_of_backlog: Message | None
     draining: asyncio.Future[None] | None = None
 
-    def write(self, frame: bytes) -> None:
-        """Sends a whole frame, unless the connection is being closed."""
-        if self.connection.state is State.OPEN:
-            self.connection.transport.write(frame)
+    resting: asyncio.Future[None] | None = None
+
+    @property
+    def pace(self) -> Pace:
+        """How fast it takes what it is sent."""
+        return self.connection.stretch.pace
 
 
 class _Step:
@@ -171,7 +202,7 @@ class _Step:
         after: the progress with it.
     """
 
-    def __init__(self, window: Sequence[Message], after: Progress) -> None:
+    def __init__(self, window: Sequence[Message | Piece], after: Progress) -> None:
         self.after = after
         self.window = window
         self._excluded = {message.excluded_self_client for message in window} - {None}

@@ -1,0 +1,210 @@
+"""How old the pose of a robot gets in a browser on a slow link, beside a scan and a cloud.
+
+With `tests/benchmarks` and the project in PYTHONPATH; the second needs root and Linux:
+
+    .venv/bin/python tests/benchmarks/bench_slow_links.py            # a proxy with rate and delay
+    .venv/bin/python tests/benchmarks/bench_slow_links.py --netem    # a network with tc netem
+
+Poses and scans of 1080 beams come at 20 Hz, a cloud of 100 000 points at 10 Hz. The age of the pose
+is that of what the client has right before it gets the next one: the delay of the link, what waits
+in queues, and 50 ms between two poses. With --netem the client is in a network namespace; both ends
+of the way to it have a rate, half of the round trip, and a queue of 1000 packets, as routers have.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.scene.conftest import Peer
+from tests.support.slow_link import SlowLink
+from webviz.api.nodes import Points, Pose
+from webviz.edges.page.links import reduced
+from webviz.edges.scene import ViserScene, open_server
+from webviz.edges.scene.quiet_server import Server
+
+PERIOD_S = 0.05
+CLOUD_POINTS = 100_000
+SETTLE_S = 4.0
+ROUND_TRIP_S = 0.2
+SPACE = "webviz-slow"
+HERE, THERE = "10.213.7.1", "10.213.7.2"
+
+
+@dataclass
+class Found:
+    """What a client got each second, and the ages of its pose in s."""
+
+    poses: float
+    p50: float
+    worst: float
+    scans: float
+    clouds: float
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """A server in another network."""
+
+    port: int
+
+    def get_port(self) -> int:
+        """Its port."""
+        return self.port
+
+
+class Robot(threading.Thread):
+    """Changes a scene until it is told to end: x of the robot is the time in seconds.
+
+    Args:
+        server: of the scene.
+    """
+
+    def __init__(self, server: Server) -> None:
+        super().__init__()
+        self._scene = ViserScene(server)
+        self._ended = threading.Event()
+
+    def run(self) -> None:
+        """Changes the scene."""
+        random = np.random.default_rng(1)
+        beams = random.random((1080, 3), np.float32)
+        points = random.random((CLOUD_POINTS, 3), np.float32)
+        colors = random.integers(0, 255, (CLOUD_POINTS, 3), np.uint8)
+        turn = 0
+        while not self._ended.wait(PERIOD_S):
+            turn += 1
+            moved = np.float32(turn)
+            self._scene.upsert("scan", "it", Points(beams + moved, colors[: len(beams)], 0.1))
+            if turn % 2:
+                self._scene.upsert("lidar", "it", Points(points + moved, colors, 0.1))
+            self._scene.set_pose("robot", Pose((time.monotonic(), 0.0, 0.0)))
+            self._scene.flush()
+
+    def end(self) -> None:
+        """Waits for the last change."""
+        self._ended.set()
+        self.join()
+
+
+def watch(peer: Peer, seconds: float) -> Found:
+    """Reads whatever comes, and counts it once the link has settled."""
+    ages: list[float] = []
+    counts = {"scan": 0, "lidar": 0}
+    newest: float | None = None
+    start = time.monotonic() + SETTLE_S
+    while time.monotonic() < start + seconds:
+        messages = peer.receive()
+        now = time.monotonic()
+        for message in messages:
+            if "position" in message and "robot" in message.get("name", ""):
+                if newest is not None and now > start:
+                    ages.append(now - newest)
+                newest = message["position"][0]
+            update = message.get("update", message)  # the last of pieces, or a whole one
+            if now > start and "points" in update.get("values", update.get("updates", {})):
+                kind = "scan" if "scan" in update["name"] else "lidar"
+                counts[kind] += update["name"].endswith("it")
+    rates = {kind: count / seconds for kind, count in counts.items()}
+    p50 = float(np.median(ages))
+    return Found(len(ages) / seconds, p50, max(ages), rates["scan"], rates["lidar"])
+
+
+@contextlib.contextmanager
+def network(mbit: float) -> Iterator[None]:
+    """A network namespace behind a link with rate and delay."""
+
+    def run(*command: str) -> None:
+        subprocess.run(command, check=True)
+
+    inside = ("ip", "netns", "exec", SPACE)
+    shape = ("netem", "rate", f"{mbit:g}mbit", "delay", f"{ROUND_TRIP_S / 2 * 1000:g}ms")
+    run("ip", "netns", "add", SPACE)
+    try:
+        run("ip", "link", "add", "wv-here", "type", "veth", "peer", "wv-there", "netns", SPACE)
+        run("ip", "addr", "add", f"{HERE}/30", "dev", "wv-here")
+        run(*inside, "ip", "addr", "add", f"{THERE}/30", "dev", "wv-there")
+        run("ip", "link", "set", "wv-here", "up")
+        run(*inside, "ip", "link", "set", "wv-there", "up")
+        run("tc", "qdisc", "add", "dev", "wv-here", "root", *shape, "limit", "1000")
+        run(*inside, "tc", "qdisc", "add", "dev", "wv-there", "root", *shape, "limit", "1000")
+        yield
+    finally:
+        run("ip", "netns", "del", SPACE)
+
+
+def behind_network(port: int, mbit: float, seconds: float) -> Found:
+    """What a client in the other network gets."""
+    with network(mbit):
+        command = [sys.executable, __file__, "--client", str(port), "--seconds", str(seconds)]
+        inside = ["ip", "netns", "exec", SPACE]
+        done = subprocess.run([*inside, *command], check=True, capture_output=True, text=True)
+    return Found(**json.loads(done.stdout))
+
+
+def behind_proxy(port: int, mbit: float, seconds: float) -> Found:
+    """What a client behind the proxy gets."""
+    link = SlowLink(port, mbit * 1e6 / 8, ROUND_TRIP_S / 2)
+    peer = Peer(link)
+    peer.look()
+    try:
+        return watch(peer, seconds)
+    finally:
+        peer.close()
+        link.close()
+
+
+def measure(mbit: float, seconds: float, is_netem: bool) -> None:
+    """Prints a row of the table."""
+    server = open_server("0.0.0.0" if is_netem else "127.0.0.1", 0, [HERE])
+    robot = Robot(server)
+    robot.start()
+    said = ""
+
+    def note() -> None:
+        nonlocal said
+        for browser in server.channel.browsers():
+            if (pace := server.channel.pace(browser)) is not None:
+                said = reduced(pace) or said
+
+    timer = threading.Timer(SETTLE_S + seconds / 2, note)
+    timer.start()
+    found = (behind_network if is_netem else behind_proxy)(server.get_port(), mbit, seconds)
+    timer.join()
+    robot.end()
+    server.stop()
+    ages = f"{1000 * found.p50:.0f} | {1000 * found.worst:.0f}"
+    rates = f"{found.poses:.1f} | {found.scans:.1f} | {found.clouds:.1f}"
+    print(f"| {mbit:g} Mbit/s | {ages} | {rates} | {said} |", flush=True)
+
+
+def main() -> None:
+    """Reads the command line."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--netem", action="store_true")
+    parser.add_argument("--mbit", type=float, nargs="*", default=[1.0, 5.0, 20.0])
+    parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--client", type=int, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.client is not None:
+        peer = Peer(Elsewhere(options.client), host=HERE)
+        peer.look()
+        print(json.dumps(watch(peer, options.seconds).__dict__))
+        return
+    print("| link | p50 ms | worst ms | poses /s | scans /s | clouds /s | says |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | --- |")
+    for mbit in options.mbit:
+        measure(mbit, options.seconds, options.netem)
+
+
+if __name__ == "__main__":
+    main()

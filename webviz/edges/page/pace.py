@@ -1,0 +1,252 @@
+"""How fast a browser takes what it is sent, and how much may be on its way to it.
+
+What is written to a socket cannot be overtaken any more: on a slow link it waits in buffers of the
+kernel, of routers and of tunnels, and everything after it waits as well. Hence only as much is on
+its way as the link takes in its own time plus `QUEUE_S`; the rest waits in webviz, where newer
+messages replace older ones.
+
+Each stretch of what is sent ends with a websocket ping, whose pong says that the browser has it.
+From the pongs follow the rate of delivery and the shortest round trip, as in BBR ("BBR:
+Congestion-Based Congestion Control", ACM Queue 14 (5), 2016). A link that never makes anybody wait
+is not measured, and costs a ping every five seconds.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+QUEUE_S = 0.1
+"""Seconds by which what is on its way may delay what comes after it."""
+FIRST_WINDOW = 1 << 16
+"""Bytes that may be on their way at first."""
+MIN_WINDOW = 1 << 13
+MAX_WINDOW = 1 << 26
+MEMORY_S = 2.0
+"""For how long a rate of delivery counts."""
+GOOD = 0.75
+"""Share of the rates of delivery that the assumed one exceeds: pauses of a busy browser, and pongs
+that come late, do not make a link slow."""
+FAST = 12.5e6
+"""Bytes a second from which on a link is none that anything is reduced for."""
+STALLED_S = 1.0
+"""A browser that does not answer for so long is sent nothing until it does."""
+REST_S = 5.0
+"""Seconds between pings while little is sent."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mark:
+    """A ping on its way.
+
+    Args:
+        size: bytes of its connection since the ping before.
+        began: when the first of them was sent.
+        sent: when it was sent.
+        in_flight: bytes on their way then, with these.
+        delivered: bytes that had arrived by then.
+        heard: when the last pong before came.
+        is_limited: whether somebody had to wait since the ping before.
+    """
+
+    size: int
+    began: float
+    sent: float
+    in_flight: int
+    delivered: int
+    heard: float
+    is_limited: bool
+
+
+class Pace:
+    """The link to one browser, over all of its connections; belongs to the event loop.
+
+    Only `rate`, `every` and `shrink` are for other threads, too.
+
+    Args:
+        limit: bytes a second that the link is known to take; None to measure it.
+        clock: the time in seconds.
+    """
+
+    def __init__(
+        self, limit: float | None = None, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._limit = limit
+        self.clock = clock
+        self.rate: float | None = limit
+        """Bytes a second that the link takes; None while it is fast enough, or not known."""
+        self.every = 1
+        """Of how many points of clouds one is sent."""
+        self.shrink = 1
+        """By how much images are made smaller because of the link."""
+        self.in_flight = 0
+        """Bytes that were sent and may not have arrived."""
+        self._window = float(FIRST_WINDOW if limit is None else limit * QUEUE_S)
+        self._is_starting = limit is None
+        self._paid_until = 0.0
+        self._marks: dict[Mark, None] = {}
+        self._delivered = 0
+        self._heard = 0.0
+        self._pinged = -REST_S
+        self._trip: float | None = None
+        self._rates: deque[tuple[float, float]] = deque()
+        self._is_limited = False
+        self._limited_at = 0.0
+        self._freed = asyncio.Event()
+
+    def room(self, share: float = 1.0) -> int:
+        """How many bytes may be sent now, none if that is less than 1.
+
+        Args:
+            share: of the usual window.
+        """
+        room = share * self._window - self.in_flight
+        if not self._marks:  # so that there will be a pong
+            room = max(room, MIN_WINDOW)
+        elif self.clock() - next(iter(self._marks)).sent > STALLED_S:
+            room = 0
+        if self._limit is not None:
+            room = min(
+                room, self._limit * (share * QUEUE_S - max(0.0, self._paid_until - self.clock()))
+            )
+        if room < 1:
+            self._is_limited = True
+        return int(room)
+
+    async def wait(self) -> None:
+        """Waits until there may be room again, at most a moment."""
+        self._freed.clear()
+        patience = QUEUE_S / 4 if self._limit is not None else QUEUE_S
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self._freed.wait(), patience)
+
+    def piece(self) -> int:
+        """Bytes that may be written at once: what the link takes in half of `QUEUE_S`."""
+        if self.rate is None:
+            return MAX_WINDOW
+        return max(MIN_WINDOW, int(self.rate * QUEUE_S / 2))
+
+    def send(self, size: int) -> None:
+        """Counts bytes that are being sent."""
+        self.in_flight += size
+        if self._limit is not None:
+            self._paid_until = max(self._paid_until, self.clock()) + size / self._limit
+
+    def wants_ping(self, size: int) -> bool:
+        """Whether a ping should follow, `size` bytes after the one before on its connection."""
+        return size > 0 and (
+            size >= self._window / 4
+            or self.in_flight >= self._window
+            or self.clock() - self._pinged >= REST_S
+        )
+
+    def mark(self, size: int, began: float) -> Mark:
+        """Notes a ping that is being sent; see `Mark`."""
+        now = self._pinged = self.clock()
+        mark = Mark(
+            size, began, now, self.in_flight, self._delivered, self._heard, self._is_limited
+        )
+        self._marks[mark] = None
+        self._is_limited = False
+        return mark
+
+    def lose(self, mark: Mark) -> None:
+        """Forgets a ping whose connection has ended."""
+        del self._marks[mark]
+        self.in_flight -= mark.size
+        self._freed.set()
+
+    def hear(self, mark: Mark) -> None:
+        """Learns from the pong of a ping."""
+        self.lose(mark)
+        now = self.clock()
+        self._delivered += mark.size
+        self._heard = now
+        trip = now - mark.sent
+        if self._trip is None or trip < self._trip:
+            self._trip = trip
+        elif mark.in_flight <= MIN_WINDOW:  # the way itself has become longer
+            self._trip += (trip - self._trip) / 8
+        if mark.is_limited:
+            rate = (self._delivered - mark.delivered) / max(now - mark.heard, 1e-4)
+        else:
+            rate = mark.size / max(now - mark.began, 1e-4)
+        queue_s = trip - self._trip
+        rate = self._limit or self._learn(rate, queue_s, mark)
+        fitting = min(max(MIN_WINDOW, rate * (self._trip + QUEUE_S)), MAX_WINDOW)
+        if self._is_starting:
+            self._is_starting = not (mark.is_limited and queue_s > QUEUE_S)
+        if self._is_starting:
+            grown = self._window + (mark.size if mark.is_limited else 0)
+            self._window = min(max(grown, fitting), MAX_WINDOW)
+        else:
+            self._window = fitting
+            self.rate = rate if rate < FAST else None
+
+    def _learn(self, rate: float, queue_s: float, mark: Mark) -> float:
+        """The rate of late; `queue_s` is by how much longer a pong took than the shortest."""
+        known = self._known()
+        if mark.is_limited:
+            self._limited_at = self._heard
+        elif (
+            self._heard - self._limited_at > MEMORY_S
+            and mark.in_flight > self._window / 4
+            and queue_s < QUEUE_S / 2
+        ):
+            rate = max(rate, known * 1.25)  # nobody waits: the link may have become faster
+        if mark.is_limited or rate > known:
+            while self._rates and self._rates[0][0] < self._heard - MEMORY_S:
+                self._rates.popleft()
+            self._rates.append((self._heard, rate))
+        return self._known()
+
+    def _known(self) -> float:
+        rates = sorted(rate for _, rate in self._rates)
+        return rates[int(GOOD * len(rates))] if rates else 0.0
+
+
+class Stretch:
+    """What one connection of a browser has sent since its last ping.
+
+    Args:
+        pace: of the browser.
+    """
+
+    def __init__(self, pace: Pace) -> None:
+        self.pace = pace
+        self._size = 0
+        self._began = 0.0
+
+    def join(self, pace: Pace) -> None:
+        """Counts for another pace from now on: that of all connections of its browser."""
+        pace.send(self._size)
+        self.pace = pace
+
+    def send(self, size: int) -> None:
+        """Counts bytes that are being sent."""
+        if not self._size:
+            self._began = self.pace.clock()
+        self._size += size
+        self.pace.send(size)
+
+    @property
+    def is_due(self) -> bool:
+        """Whether a ping should follow."""
+        return self.pace.wants_ping(self._size)
+
+    def end(self) -> Mark | None:
+        """Ends it if a ping should follow: what is to be heard with the pong."""
+        if not self.is_due:
+            return None
+        mark = self.pace.mark(self._size, self._began)
+        self._size = 0
+        return mark
+
+    def drop(self) -> None:
+        """Forgets what was sent, as the connection has ended."""
+        self.pace.in_flight -= self._size
+        self._size = 0

@@ -1,0 +1,16 @@
+// What the server has reduced because the link to this page is slow.
+
+import * as channel from "../channel.js";
+import { el, setText } from "../dom.js";
+
+export function build() {
+  const note = el("output", { class: "wv-card wv-slow-link", hidden: true });
+  channel.on("SlowLink", ({ text }) => show(text));
+  channel.onClose(() => show(""));
+
+  function show(text) {
+    setText(note, text);
+    note.hidden = text === "";
+  }
+  return note;
+}
