@@ -1,26 +1,17 @@
 """How old the pose of a robot gets in a browser on a slow link, beside a scan and a cloud.
 
-With `tests/benchmarks` and the project in PYTHONPATH; the second needs root and Linux:
+    PYTHONPATH=. .venv/bin/python tests/benchmarks/bench_slow_links.py
 
-    .venv/bin/python tests/benchmarks/bench_slow_links.py            # a proxy with rate and delay
-    .venv/bin/python tests/benchmarks/bench_slow_links.py --netem    # a network with tc netem
-
-Poses and scans of 1080 beams come at 20 Hz, a cloud of 100 000 points at 10 Hz. The age of the pose
-is that of what the client has right before it gets the next one: the delay of the link, what waits
-in queues, and 50 ms between two poses. With --netem the client is in a network namespace; both ends
-of the way to it have a rate, half of the round trip, and a queue of 1000 packets, as routers have.
+Poses and scans of 1080 beams come at 20 Hz, a cloud of 100 000 points at 10 Hz, through a proxy
+with a rate and a delay. The age of the pose is that of what the client has right before it gets
+the next one: the delay of the link, what waits in queues, and 50 ms between two poses.
 """
 
 from __future__ import annotations
 
 import argparse
-import contextlib
-import json
-import subprocess
-import sys
 import threading
 import time
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,8 +27,6 @@ PERIOD_S = 0.05
 CLOUD_POINTS = 100_000
 SETTLE_S = 4.0
 ROUND_TRIP_S = 0.2
-SPACE = "webviz-slow"
-HERE, THERE = "10.213.7.1", "10.213.7.2"
 
 
 @dataclass
@@ -49,17 +38,6 @@ class Found:
     worst: float
     scans: float
     clouds: float
-
-
-@dataclass(frozen=True)
-class Elsewhere:
-    """A server in another network."""
-
-    port: int
-
-    def get_port(self) -> int:
-        """Its port."""
-        return self.port
 
 
 class Robot(threading.Thread):
@@ -119,38 +97,6 @@ def watch(peer: Peer, seconds: float) -> Found:
     return Found(len(ages) / seconds, p50, max(ages), rates["scan"], rates["lidar"])
 
 
-@contextlib.contextmanager
-def network(mbit: float) -> Iterator[None]:
-    """A network namespace behind a link with rate and delay."""
-
-    def run(*command: str) -> None:
-        subprocess.run(command, check=True)
-
-    inside = ("ip", "netns", "exec", SPACE)
-    shape = ("netem", "rate", f"{mbit:g}mbit", "delay", f"{ROUND_TRIP_S / 2 * 1000:g}ms")
-    run("ip", "netns", "add", SPACE)
-    try:
-        run("ip", "link", "add", "wv-here", "type", "veth", "peer", "wv-there", "netns", SPACE)
-        run("ip", "addr", "add", f"{HERE}/30", "dev", "wv-here")
-        run(*inside, "ip", "addr", "add", f"{THERE}/30", "dev", "wv-there")
-        run("ip", "link", "set", "wv-here", "up")
-        run(*inside, "ip", "link", "set", "wv-there", "up")
-        run("tc", "qdisc", "add", "dev", "wv-here", "root", *shape, "limit", "1000")
-        run(*inside, "tc", "qdisc", "add", "dev", "wv-there", "root", *shape, "limit", "1000")
-        yield
-    finally:
-        run("ip", "netns", "del", SPACE)
-
-
-def behind_network(port: int, mbit: float, seconds: float) -> Found:
-    """What a client in the other network gets."""
-    with network(mbit):
-        command = [sys.executable, __file__, "--client", str(port), "--seconds", str(seconds)]
-        inside = ["ip", "netns", "exec", SPACE]
-        done = subprocess.run([*inside, *command], check=True, capture_output=True, text=True)
-    return Found(**json.loads(done.stdout))
-
-
 def behind_proxy(port: int, mbit: float, seconds: float) -> Found:
     """What a client behind the proxy gets."""
     link = SlowLink(port, mbit * 1e6 / 8, ROUND_TRIP_S / 2)
@@ -163,9 +109,9 @@ def behind_proxy(port: int, mbit: float, seconds: float) -> Found:
         link.close()
 
 
-def measure(mbit: float, seconds: float, is_netem: bool) -> None:
+def measure(mbit: float, seconds: float) -> None:
     """Prints a row of the table."""
-    server = open_server("0.0.0.0" if is_netem else "127.0.0.1", 0, [HERE])
+    server = open_server(port=0)
     robot = Robot(server)
     robot.start()
     said = ""
@@ -178,7 +124,7 @@ def measure(mbit: float, seconds: float, is_netem: bool) -> None:
 
     timer = threading.Timer(SETTLE_S + seconds / 2, note)
     timer.start()
-    found = (behind_network if is_netem else behind_proxy)(server.get_port(), mbit, seconds)
+    found = behind_proxy(server.get_port(), mbit, seconds)
     timer.join()
     robot.end()
     server.stop()
@@ -190,20 +136,13 @@ def measure(mbit: float, seconds: float, is_netem: bool) -> None:
 def main() -> None:
     """Reads the command line."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--netem", action="store_true")
     parser.add_argument("--mbit", type=float, nargs="*", default=[1.0, 5.0, 20.0])
     parser.add_argument("--seconds", type=float, default=10.0)
-    parser.add_argument("--client", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if options.client is not None:
-        peer = Peer(Elsewhere(options.client), host=HERE)
-        peer.look()
-        print(json.dumps(watch(peer, options.seconds).__dict__))
-        return
     print("| link | p50 ms | worst ms | poses /s | scans /s | clouds /s | says |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | --- |")
     for mbit in options.mbit:
-        measure(mbit, options.seconds, options.netem)
+        measure(mbit, options.seconds)
 
 
 if __name__ == "__main__":

@@ -112,13 +112,12 @@ class Peer:
 
     Args:
         server: whom to call.
-        host: its address.
         headers: more headers for the handshake.
     """
 
-    def __init__(self, server: HasPort, host: str = "127.0.0.1", **headers: str) -> None:
+    def __init__(self, server: HasPort, **headers: str) -> None:
         self._socket = websockets.sync.client.connect(
-            f"ws://{host}:{server.get_port()}",
+            f"ws://127.0.0.1:{server.get_port()}",
             subprotocols=[f"viser-v{viser.__version__}"],  # pyright: ignore[reportArgumentType]
             additional_headers=headers,
             compression=None,
