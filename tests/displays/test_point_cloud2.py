@@ -192,6 +192,8 @@ def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(la
     bench.turn()
     bench.turn()
     assert {key: len(node.xyz) for key, node in bench.nodes().items()} == {"points": 400}
+    bench.set("max_points", 0)
+    assert len(bench.xyz("points")) == 1000, "whatever browsers hold"
 
 
 def test_one_point_of_each_voxel_is_shown_and_it_is_said(lab: Benches) -> None:

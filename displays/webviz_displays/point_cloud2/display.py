@@ -28,6 +28,9 @@ F32 = NDArray[np.float32]
 DOTS_LIMIT = 50_000
 """The browser draws the style Points as lines, and slows down with more of them."""
 
+AS_HELD = -1
+"""A limit of as many points as browsers draw fast enough."""
+
 REST_NS = 3_000_000_000
 """Time after the drawing of a cloud after which none is expected to follow; by then, browsers have
 measured how many points they hold."""
@@ -76,12 +79,12 @@ class CloudDisplay(PointsDisplay):
     max_points: Annotated[
         int,
         Prop(
-            ge=0,
-            help="Limit of points shown, evenly sampled. 0 shows as many as all browsers draw 20 "
-            "times a second, and all of a cloud that no other follows. Clouds kept for the decay "
-            "time share it. Each point takes 15 bytes to send.",
+            ge=AS_HELD,
+            help="Limit of points shown, evenly sampled; 0 shows all. -1 shows as many as all "
+            "browsers draw 20 times a second, and all of a cloud that no other follows. Clouds "
+            "kept for the decay time share it. Each point takes 15 bytes to send.",
         ),
-    ] = 0
+    ] = AS_HELD
     voxel_size: Annotated[
         float, Prop(ge=0, unit="m", help="Show one point of each cube of this size; 0 shows all.")
     ] = 0.0
@@ -122,7 +125,7 @@ class CloudDisplay(PointsDisplay):
         if count > shares or count < shares // 4:
             shares = 1 << (count - 1).bit_length()
         state.shares = shares
-        if self.max_points or state.size * shares <= state.held:
+        if self.max_points != AS_HELD or state.size * shares <= state.held:
             return shares, 0, None
         return shares, state.held, state.resting
 
@@ -215,8 +218,8 @@ class CloudDisplay(PointsDisplay):
             count = left(
                 count, rows, f"in voxels of {self.voxel_size:g} m that already show a point"
             )
-        name, limit = f"max_points of {spaced(self.max_points)}", self.max_points
-        if not limit:
+        name, limit = f"max_points of {spaced(self.max_points)}", self.max_points or count
+        if limit == AS_HELD:
             limit = state.held
             name = f"the {spaced(limit)} that browsers hold at 20 frames a second"
         if self.style == "Points" and limit > DOTS_LIMIT:
@@ -224,7 +227,7 @@ class CloudDisplay(PointsDisplay):
         others = None
         if count > max(limit // shares, 1):
             kept = evenly(count, max(limit // shares, 1))
-            if rests and not self.max_points and self.style != "Points":
+            if rests and self.max_points == AS_HELD and self.style != "Points":
                 others = np.delete(np.arange(count) if rows is None else rows, kept)
                 others = others[in_blocks(xyz[others])]
             rows = kept if rows is None else rows[kept]

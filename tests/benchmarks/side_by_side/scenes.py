@@ -181,7 +181,7 @@ EVERYTHING = "".join(
     ]
 )
 ARRAY = "- {type: MarkerArray, topic: /markers}\n"
-ALL_POINTS = "- {type: PointCloud2, max_points: 10000000}\n"
+ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
 
 SCENES = {
     scene.name: scene
