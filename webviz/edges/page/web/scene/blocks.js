@@ -17,7 +17,8 @@ export function install() {
     const held = holding.points();
     thinned = thin(blocks(), camera, Math.max(held - others, LEAST_SHARE * held));
   });
-  viser.afterRender(() => (others = viser.gl().info.render.points - thinned));
+  // three.js may find blocks out of sight that were counted.
+  viser.afterRender(() => (others = Math.max(viser.gl().info.render.points - thinned, 0)));
 }
 
 function blocks() {
