@@ -54,6 +54,7 @@ setup(
             "Group = webviz.api.group:DisplayGroup",
             "Illuminance = webviz_displays.sensors:Illuminance",
             "Image = webviz_displays.image:Image",
+            "ImagePlane = webviz_displays.image_plane:ImagePlane",
             "Imu = webviz_displays.imu:Imu",
             "InteractiveMarkers = webviz_displays.interactive_markers:InteractiveMarkers",
             "LaserScan = webviz_displays.laser_scan:LaserScan",

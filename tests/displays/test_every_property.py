@@ -108,6 +108,16 @@ def images(bench: Any) -> None:
         bench.turn()
 
 
+def image_planes(bench: Any) -> None:
+    """Depth images, more than their range is the median of by default."""
+    bench.transform("map", "camera", (1.0, 0.0, 0.0))
+    for scale in (0.1, 0.2, 0.4, 0.8, 1.6, 0.2):
+        values = photos.raw(scale * photos.room(16, 12)[1], "32FC1")
+        bench.send(photos.RAW, values, frame="camera")
+        bench.turn()
+    bench.settle()
+
+
 def camera_infos(bench: Any) -> None:
     """A camera, and its image."""
     bench.transform("map", "camera", (1.0, 0.0, 0.0))
@@ -247,6 +257,7 @@ SCENES: dict[str, Callable[[Any], None]] = {
     "DepthCloud": depth_clouds,
     "Grid": robot_frame,
     "Image": images,
+    "ImagePlane": image_planes,
     "InteractiveMarkers": interactive_markers,
     "LaserScan": scans,
     "Map": maps,
@@ -273,6 +284,7 @@ OF_THE_FUTURE = {
     ("DepthCloud", "occlusion_compensation"),
     ("Camera", "median_window"),
     ("Image", "median_window"),
+    ("ImagePlane", "median_window"),
     ("OccupancyMap", "max_octree_depth"),
     ("OccupancyMapStamped", "max_octree_depth"),
     ("Odometry", "angle_tolerance"),
@@ -515,6 +527,7 @@ def test_every_display_is_tried() -> None:
     ("name", "path", "status"),
     [
         ("Grid", "alpha", "Grid"),
+        ("ImagePlane", "alpha", "Image"),
         ("LaserScan", "alpha", "Points"),
         ("Odometry", "shape.alpha", "Pose"),
         ("Path", "alpha", "Path"),

@@ -9,6 +9,7 @@ from dataclasses import fields as dataclass_fields
 from typing import Any
 
 import numpy as np
+import photos
 import pytest
 from clouds import CLOUD, xyz_cloud
 from hypothesis import HealthCheck, given, settings
@@ -27,6 +28,7 @@ from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
 from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.grid_map import GridMap
+from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
@@ -81,6 +83,7 @@ MESSAGES: dict[str, Values] = {
     "nav_msgs/msg/Path": {
         "poses": [{"pose": {"position": {"x": x}, "orientation": UNTURNED}} for x in (0.0, 1.0)]
     },
+    photos.RAW: photos.raw(photos.room(16, 12)[1], "32FC1"),
     CLOUD: xyz_cloud([(1, 0, 0), (2, 0, 1), (3, 1, 2)], {"intensity": [1, 2, 3]}),
     "std_msgs/msg/String": {
         "data": "<robot name='r'><link name='sensor'><visual><geometry><sphere radius='1'/>"
@@ -130,6 +133,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     OccupancyGrid,
     OccupancyMap,
     GridMap,
+    ImagePlane,
     lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
     lambda: VoxelGrid(show_unknown=True, show_free=True),
     Costmap,

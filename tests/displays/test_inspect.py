@@ -9,6 +9,7 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
+import photos
 import PIL.Image
 import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
@@ -26,6 +27,7 @@ from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.axes import Axes
 from webviz_displays.grid import Grid
 from webviz_displays.grid_map import GridMap
+from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
@@ -290,6 +292,16 @@ def cell_of_a_grid_map(bench: Benches) -> Details:
     return one_of(bench, GridMap(), GRID_MAP, values, "surface", None, (0.4, -0.7, 0.5))
 
 
+def pixel_of_a_depth_image(bench: Benches) -> Details:
+    """The third column and the second row from the top, of 4 x 3 pixels that are 0.5 m large."""
+    at = bench(ImagePlane(plane="XY", width=2.0))
+    depths = np.arange(12, dtype=np.float32).reshape(3, 4) / 4
+    at.send(photos.RAW, photos.raw(depths, "32FC1"), frame="map")
+    at.turn()
+    at.settle()
+    return pick(at, "image", None, (1.2, 0.6, 0.0))
+
+
 def voxel_of_a_costmap(bench: Benches) -> Details:
     return one_of(bench, VoxelGrid(), "nav2_msgs/msg/VoxelGrid", VOXEL_GRID, "marked", 1)
 
@@ -485,6 +497,7 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
     point: ("Point 0", {"Point in odom": {"fields": {"x": "1", "y": "2.5", "z": "0"}}}),
     last_side_of_a_polygon: ("Side 2", {"Length": "5 m", "Points in the polygon": "3"}),
     cell_of_a_grid: ("Cell 2", {"Size": "1 m x 0.5 m", "Cells in the message": "3"}),
+    pixel_of_a_depth_image: ("Pixel 2, 1", {"Value": "1.5"}),
     voxel_of_an_octree: (
         "Occupied voxel",
         {"Occupancy": "62.2%", "Log-odds": "0.5", "Size": "0.5 m", "Depth": "16",

@@ -13,6 +13,7 @@ from webviz_displays.camera import Camera
 from webviz_displays.camera_info import CameraInfo
 from webviz_displays.depth_cloud import DepthCloud
 from webviz_displays.grid import Grid
+from webviz_displays.image_plane import ImagePlane
 
 Stages = Callable[..., Stage]
 
@@ -29,6 +30,15 @@ def test_a_camera_has_a_pyramid_with_its_image(webviz_stage: Stages) -> None:
     seen.publish(camera.image_topic.name, photos.RAW, values, frame="camera")
     seen.turn()
     seen.check_picture("camera_info/default")
+
+
+def test_an_image_stands_at_its_frame(webviz_stage: Stages) -> None:
+    plane = ImagePlane(width=2.4, alpha=0.9)
+    seen = webviz_stage(plane, Grid(plane_cell_count=6), Axes(reference_frame="camera"), view=VIEW)
+    seen.transform("map", "camera", (1.5, 0.0, 1.0), FACING_X)
+    seen.publish(plane.topic.name, photos.COMPRESSED, photos.jpeg(photos.room()[0]), frame="camera")
+    seen.turn()
+    seen.check_picture("image_plane/default")
 
 
 def test_the_scene_is_over_the_image_of_its_camera(webviz_stage: Stages) -> None:

@@ -39,6 +39,7 @@ class Camera(ImageDisplay):
     """The scene over and under the image of a camera, as that camera sees it."""
 
     rviz = "rviz_default_plugins/Camera"
+    has_pane = True
 
     camera_info_topic: Annotated[
         Topic,
@@ -102,11 +103,11 @@ class Camera(ImageDisplay):
             picture = self.picture(image, ctx)
             if picture is None:
                 return
-            shown = state.decompressed.key
-            number = shown if isinstance(shown, int) and shown in state.poses else image.number
+            number = state.number if state.number in state.poses else image.number
             sight = self._sight(picture, image, state.poses[number], ctx)
         except ImageError as error:
             ctx.error("Image", str(error))
+            state.poses.clear()
             return
         state.poses = {n: pose for n, pose in state.poses.items() if n >= number}
         pane = Pane(picture, image.stamp_ns, ctx.order, sight)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Display, Image, Input, Pose, Prop, Sample, Topic
 from webviz.api.nodes import Mesh
 from webviz.api.pictures import Encoded, Pixels
-from webviz.api.stills import opened
 from webviz.data.images import (
     CameraModel,
     ImageError,
@@ -25,11 +24,10 @@ from webviz.data.images import (
 )
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
+from webviz_displays.image.texels import texels
 from webviz_displays.shared.colors import faded_color
 
 EDGE_M = 0.01
-MOST_TEXELS = 320
-"""Along an edge of the image in the scene."""
 
 _SIDES = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)], np.uint32)
 _END = np.array([(1, 3, 2), (1, 4, 3)], np.uint32)
@@ -181,7 +179,4 @@ def _cells(found: RawImage | Encoded | transports.Job) -> Cells:
         if image.layout.is_scaled:
             limits = value_range(values(image), image.layout.zero_is_invalid)
         picture = Pixels(image, Tone(*limits) if limits else Tone())
-    size = picture.size
-    shown = opened(picture)
-    factor = max(1, -(-max(size) // MOST_TEXELS))
-    return np.asarray(shown.reduce(factor).convert("RGBA")), size
+    return texels(picture), picture.size

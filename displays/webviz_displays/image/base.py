@@ -17,17 +17,21 @@ MAX_WINDOW = 100
 
 @dataclass
 class ImageState:
-    """Kept between images."""
+    """Kept between images.
 
-    decompressed: Newest[RawImage] = field(default_factory=Newest[RawImage])
+    Args:
+        number: of the message of the newest picture, which is older than the newest message while
+            that is decompressed.
+    """
+
+    number: int = 0
+    decompressed: Newest[tuple[int, RawImage]] = field(default_factory=Newest[tuple[int, RawImage]])
     range: RunningRange = field(default_factory=RunningRange)
     pane: Pane | None = None
 
 
 class ImageDisplay(Display):
-    """Base of displays with a picture in a pane."""
-
-    has_pane = True
+    """Base of displays of images."""
 
     topic: Annotated[
         Topic,
@@ -64,24 +68,31 @@ class ImageDisplay(Display):
     def picture(self, sample: Sample, ctx: Context) -> Pixels | Encoded | None:
         """What to show of the newest message of `topic`, None if there is nothing yet.
 
+        `ImageState.number` becomes that of its message.
+
         Raises:
             ImageError: it cannot be shown.
         """
-        found = transports.read(sample)
+        found, state, number = transports.read(sample), ctx.state, sample.number
+        state.number = number
         if isinstance(found, Encoded):
             ctx.ok("Image", f"{found.width} x {found.height}, {found.mime.partition('/')[2]}.")
             return found
-        is_job = isinstance(found, transports.Job)
-        image = ctx.state.decompressed.of(sample.number, found.run, ctx) if is_job else found
-        if image is None:
-            ctx.warn("Image", "Decompressing the first image.")
-            return None
-        remark = "" if is_job else remarks(sample.message, image)
+        image, remark = found, ""
+        if isinstance(image, transports.Job):
+            run = image.run
+            newest = state.decompressed.of(number, lambda: (number, run()), ctx)
+            if newest is None:
+                ctx.warn("Image", "Decompressing the first image.")
+                return None
+            state.number, image = newest
+        else:
+            remark = remarks(sample.message, image)
         if remark:
             ctx.warn("Image", remark)
         else:
             ctx.ok("Image", f"{image.width} x {image.height}, {image.encoding}.")
-        return Pixels(image, self._tone(sample.number, image, ctx))
+        return Pixels(image, self._tone(state.number, image, ctx))
 
     def _tone(self, number: int, image: RawImage, ctx: Context) -> Tone:
         """How measurements become colours."""

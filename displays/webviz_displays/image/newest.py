@@ -21,11 +21,6 @@ class Newest(Generic[T]):
         self._current: tuple[Hashable, Callable[[], T]] | None = None
         self._done: tuple[Hashable, T] | None = None
 
-    @property
-    def key(self) -> Hashable:
-        """Of the newest result, None without one."""
-        return self._done[0] if self._done else None
-
     def of(self, key: Hashable, run: Callable[[], T], ctx: Context) -> T | None:
         """The result of `run`, or until that is ready the newest before it; None without one.
 
