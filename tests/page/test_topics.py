@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from tests.page.conftest import Loop, Tab
+from tests.page.conftest import HEIGHT, Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
@@ -83,10 +83,8 @@ def test_a_topic_has_its_facts_in_a_row(loop: Loop, panel: Tab) -> None:
 
 def test_a_wide_panel_has_all_columns(loop: Loop, open_tab: Callable[..., Tab]) -> None:
     wide = open_tab(1300)
-    wide.page.evaluate("""async () => {
-      (await import("/webviz/remember.js")).remember("width", 850);
-      window.dispatchEvent(new Event("resize"));
-    }""")
+    wide.page.evaluate("async () => (await import('/webviz/remember.js')).remember('width', 850)")
+    wide.page.set_viewport_size({"width": 1310, "height": HEIGHT})
     wide.show_tab("Topics")
     loop.show(
         offers={"/scan": Offer((SCAN,), subscribers=1)},

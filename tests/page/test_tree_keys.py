@@ -114,6 +114,8 @@ def test_alt_and_arrows_move(
 ) -> None:
     tree.click(start)
     tree.press(keys)
+    if command:
+        tree.tab.wait_for_command(command)
     tree.tab.turn()
     assert loop.commands == ([command] if command else [])
 

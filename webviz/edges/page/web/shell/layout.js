@@ -15,7 +15,8 @@ export function install() {
   fold(narrow.matches || recall("folded", false));
   narrow.addEventListener("change", () => fold(narrow.matches || recall("folded", false)));
   setWidth(recall("width", 320));
-  window.addEventListener("resize", () => setWidth(recall("width", 320)));
+  // Not when `fit` says so, perhaps while the border is dragged.
+  window.addEventListener("resize", ({ isTrusted }) => isTrusted && setWidth(recall("width", 320)));
   setInterval(fit, FIT_MS);
 }
 
