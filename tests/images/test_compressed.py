@@ -83,6 +83,14 @@ def test_the_data_says_what_an_image_is(format_: str) -> None:
         assert not info.swaps_red_and_blue
 
 
+def test_of_a_jpeg_with_more_pictures_behind_it_the_first_counts() -> None:
+    first, second = (Image.new("RGB", (6, 4), color) for color in ("red", "blue"))
+    file = io.BytesIO()
+    first.save(file, "MPO", save_all=True, append_images=[second])
+    info = inspect_compressed("jpeg", np.frombuffer(file.getvalue(), np.uint8))
+    assert (info.mime, info.width, info.height) == ("image/jpeg", 6, 4)
+
+
 def test_what_publishers_say_of_the_pixels() -> None:
     grey16 = encoded(DEPTHS, "png")
     assert inspect_compressed("16UC1; png compressed ", grey16).is_16_bit

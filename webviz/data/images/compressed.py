@@ -14,6 +14,8 @@ from webviz.data.images.errors import ImageError
 from webviz.data.images.raw import MAX_PIXELS
 
 _MIME = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
+_STEREO = "MPO"
+"""What Pillow calls a JPEG that more pictures follow, of which browsers show the first."""
 _OTHERS = ("TIFF", "BMP", "GIF", "JPEG2000")
 _VIDEO = ("h264", "h265", "hevc", "av1", "vp9", "vp8")
 
@@ -52,7 +54,8 @@ def inspect_compressed(format_: str, data: NDArray[np.uint8]) -> CompressedInfo:
     if not len(data):
         raise ImageError("The compressed image is empty: the publisher sends no data.")
     opened = _open(data, format_)
-    mime = _MIME.get(str(opened.format))
+    kind = "JPEG" if opened.format == _STEREO else str(opened.format)
+    mime = _MIME.get(kind)
     if mime is None:
         raise ImageError(
             f"Browsers cannot show {opened.format} images. Set the format of the publisher to jpeg "
