@@ -41,7 +41,7 @@ class Found:
 
 
 class Robot(threading.Thread):
-    """Changes a scene until it is told to end: x of the robot is the time in seconds.
+    """Moves a robot until it is told to stop; its x is the time in seconds.
 
     Args:
         server: of the scene.

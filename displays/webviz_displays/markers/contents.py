@@ -62,7 +62,7 @@ class Memory:
         self._total = 0
 
     def take(self, row: int, size: int) -> bool:
-        """Reserve bytes for a row in place of its earlier ones; False if there is no room."""
+        """Reserve bytes for a row instead of those it had; False if there is no room."""
         total = self._total - self._sizes.get(row, 0) + size
         if total > self._limit:
             return False

@@ -125,6 +125,8 @@ class ViewReport(FromPage, frozen=True):
     height: float
 
 
+MAX_PANES = 64
+"""That one page may show."""
 Width = Annotated[int, msgspec.Meta(ge=0, le=1 << 16)]
 """Of a picture on a screen in pixels."""
 DisplayId = Annotated[str, msgspec.Meta(max_length=200)]
@@ -137,7 +139,7 @@ class ShowPictures(FromPage, frozen=True):
         widths: by id of the display, in pixels of the screen.
     """
 
-    widths: Annotated[dict[DisplayId, Width], msgspec.Meta(max_length=64)]
+    widths: Annotated[dict[DisplayId, Width], msgspec.Meta(max_length=MAX_PANES)]
 
 
 class FramesShown(FromPage, frozen=True):
@@ -147,7 +149,7 @@ class FramesShown(FromPage, frozen=True):
         numbers: of the newest picture it has shown, by id of the display.
     """
 
-    numbers: Annotated[dict[DisplayId, Number], msgspec.Meta(max_length=64)]
+    numbers: Annotated[dict[DisplayId, Number], msgspec.Meta(max_length=MAX_PANES)]
 
 
 class ReadPixel(FromPage, frozen=True):

@@ -33,7 +33,7 @@ class Outgoing:
         """Ends the connection of the page, if it has one."""
         self.waiting: dict[object, bytes] = {}
         self.bulk: dict[str, bytes] = {}
-        """Bytes that wait until there are no messages, by key."""
+        """Bytes to send once no message waits, by key."""
         self.watched = Watched()
         self.is_full = False
         """Whether something did not fit any more."""

@@ -21,8 +21,6 @@ from webviz.edges.page.pixel_values import pixel_text
 
 MAX_IN_FLIGHT = 2
 """Pictures of a pane that a page has not shown yet: one on its way, one being decoded."""
-MAX_PANES = 64
-"""That one page may show."""
 UNSEEN_S = 2.0
 """A page that is loaded again, or left for a moment, has its pictures at once."""
 PICTURE_S = 0.3
@@ -133,7 +131,7 @@ class Pictures:
             before = self._looks.pop(browser, {})
             looks = {
                 display: before.get(display) or _Look(width)
-                for display, width in list(message.widths.items())[:MAX_PANES]
+                for display, width in message.widths.items()
             }
             for gone in self._looks.keys() - self._channel.browsers():
                 del self._looks[gone]

@@ -230,7 +230,8 @@ class Connection(websocket.ServerConnection):
         # Whole messages wait in `recv`; other frames take effect, or memory, at once.
         is_whole = isinstance(event, Frame) and event.opcode in WHOLE and event.fin
         is_request = not isinstance(event, Frame)
-        is_answer = isinstance(event, Frame) and bytes(event.data) in self.pending_pings
+        is_pong = isinstance(event, Frame) and event.opcode is Opcode.PONG
+        is_answer = is_pong and bytes(event.data) in self.pending_pings
         is_instant = not (is_whole or is_request or is_answer)
         if is_instant and self._allowance.spend(1.0, self.loop.time()) > MAX_WAIT:
             self.transport.abort()

@@ -77,8 +77,8 @@ class Outbox:
     several parts that was begun is finished first, or a slow browser would never have a whole one.
 
     On a slow link clouds are thinned, and what is still too large for one frame is sent in pieces.
-    They take turns with scans, which go on beside a map. A message in
-    pieces is sent to its end even if there is a newer version, or none would ever be complete.
+    They take turns with scans, which go on beside a map. A message in pieces is sent to its end
+    even if there is a newer version, or none would ever be complete.
 
     Args:
         last: type of messages that must not overtake earlier ones.

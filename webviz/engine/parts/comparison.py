@@ -98,7 +98,7 @@ class Comparison:
     def _placed(self, hits: Hits, frame: str, origin: Pose) -> tuple[complex, float, C128] | None:
         """The sensor, its heading, and its points relative to it, in the plane of `origin`.
 
-        None if there is no transform, or the sensor is tilted against that plane.
+        Returns None without a transform, or if the sensor is tilted out of that plane.
         """
         try:
             pose = to_pose(self._core.buffer.lookup(frame, hits.frame, hits.stamp_ns))

@@ -60,7 +60,7 @@ class Origin:
 
     Args:
         path: of the config file, None for none.
-        report: on what of a .rviz file has no counterpart.
+        report: what the .rviz file has that webviz does not support.
         templates: see `webviz.files.config.Config`.
     """
 

@@ -185,7 +185,6 @@ class _Browser:
     backlog: int
     end_of_backlog: Message | None
     draining: asyncio.Future[None] | None = None
-
     resting: asyncio.Future[None] | None = None
 
     @property

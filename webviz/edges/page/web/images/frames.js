@@ -1,10 +1,10 @@
 // Pictures from the server: a header as JSON behind its length, and the files it describes.
 
 import * as channel from "../channel.js";
+import constants from "../constants.js";
 
 const COARSE = 64;
 const SETTLE_MS = 100;
-const MOST = 64; // the server takes no message about more
 
 const panes = new Map();
 const shown = new Map();
@@ -49,7 +49,7 @@ export function refresh() {
 
 function ask() {
   const all = document.hidden ? [] : [...panes].map(([display, pane]) => [display, pane.width()]);
-  const looked = all.filter(([, width]) => width > 0).slice(0, MOST);
+  const looked = all.filter(([, width]) => width > 0).slice(0, constants.MAX_PANES);
   const widths = Object.fromEntries(
     looked.map(([display, width]) => [display, Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16)]),
   );
