@@ -24,6 +24,7 @@ from webviz.files.opening import load, parse, save
 TYPES = display_types()
 FIXED = ("version", "rviz")
 """Settings with values that nobody chooses."""
+LIMITS = ("gt", "ge", "lt", "le", "pattern", "max_length")
 TEXTS = st.text(st.characters(exclude_categories=["Cs"]), max_size=12) | st.sampled_from(
     [
         "on",
@@ -51,7 +52,7 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
         hint, *marks = typing.get_args(hint)
         for mark in marks:
             if isinstance(mark, msgspec.Meta):
-                limits = {name: getattr(mark, name) for name in ("gt", "ge", "lt", "le", "pattern")}
+                limits = {name: getattr(mark, name) for name in LIMITS}
                 bounds = bounds | {
                     name: limit for name, limit in limits.items() if limit is not None
                 }
@@ -74,7 +75,8 @@ def values_of(hint: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
         case kind if kind is bool:
             return st.booleans()
         case kind if kind is str:
-            return st.from_regex(bounds["pattern"]) if "pattern" in bounds else TEXTS
+            texts = st.from_regex(bounds["pattern"]) if "pattern" in bounds else TEXTS
+            return texts.filter(lambda text: len(text) <= bounds.get("max_length", math.inf))
         case kind if kind in (int, float):
             return numbers(kind, bounds)
     return structs(hint)

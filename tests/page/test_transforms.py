@@ -27,6 +27,8 @@ def panel(tab: Tab) -> Iterator[Tab]:
         "['tf-between', 'tf-folded'].map((k) => localStorage.removeItem(`webviz.${k}`))"
     )
     tab.show_tab("TF")
+    # By then it gets what the others show.
+    tab.wait_for_command(InspectTransforms(tree=True))
     yield tab
     tab.show_tab("Displays")
 

@@ -88,11 +88,18 @@ class WebSocket:
                 return kind, memoryview(message)
 
     def send(self, data: bytes, opcode: Opcode = Opcode.TEXT) -> None:
-        """Send one message, masked with zeros."""
+        """Send one message, masked with zeros.
+
+        Raises:
+            Closed: the server is gone, or `close` was called.
+        """
         size = len(data)
         head = bytes([128 | opcode])
         head += bytes([128 | size]) if size < 126 else bytes([128 | 126]) + struct.pack("!H", size)
-        self._socket.sendall(head + bytes(4) + data)
+        try:
+            self._socket.sendall(head + bytes(4) + data)
+        except OSError as error:
+            raise Closed from error
 
     def close(self) -> None:
         """End the connection, from any thread."""
