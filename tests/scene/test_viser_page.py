@@ -6,22 +6,12 @@ import re
 from importlib import resources
 from pathlib import Path
 
-import playwright.sync_api as playwright
-import pytest
 import viser
 
-from webviz.edges.scene import ViserScene
-from webviz.shell.pictures.browser import Page
+from tests.scene.conftest import View
 
 FOLDER = Path(str(resources.files("webviz.edges.page"))) / "web"
 MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
-
-
-@pytest.fixture
-def page(browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene):
-    page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
-    yield page
-    page.close()
 
 
 MISSING = """async () => {
@@ -30,8 +20,8 @@ MISSING = """async () => {
 }"""
 
 
-def test_visers_page_has_all_that_is_accessed(page: Page) -> None:
-    version, lacks = page.evaluate(MISSING)
+def test_visers_page_has_all_that_is_accessed(view: View) -> None:
+    version, lacks = view.evaluate(MISSING)
     assert version == viser.__version__
     assert lacks == []
 
@@ -49,8 +39,8 @@ WITHOUT = """async (names) => {
 }"""
 
 
-def test_what_another_viser_lacks_is_reported_with_what_needs_it(page: Page) -> None:
-    assert page.evaluate(WITHOUT, ["sendCamera", "messageQueue"]) == [
+def test_what_another_viser_lacks_is_reported_with_what_needs_it(view: View) -> None:
+    assert view.evaluate(WITHOUT, ["sendCamera", "messageQueue"]) == [
         "viser's page has no messageQueue.push(), which is needed for controls that go, and "
         "noticing that the server is silent.",
         "viser's page has no sendCamera(), which is needed for telling the server where a camera "
@@ -58,30 +48,28 @@ def test_what_another_viser_lacks_is_reported_with_what_needs_it(page: Page) -> 
     ]
 
 
-@pytest.mark.parametrize("name", [name for name in MODULES if name != "viser_page.js"])
-def test_only_one_module_touches_visers_page(name: str) -> None:
-    assert not re.search(r"__viser|__r3f", (FOLDER / name).read_text())
+def test_only_one_module_touches_visers_page() -> None:
+    texts = {name: (FOLDER / name).read_text() for name in MODULES}
+    touching = {name for name, text in texts.items() if re.search(r"__viser|__r3f", text)}
+    assert touching == {"viser_page.js"}
 
 
-@pytest.mark.parametrize("name", MODULES)
-def test_a_module_is_valid_and_used(name: str, page_of_modules: playwright.Page) -> None:
-    """Chromium compiles it, with every name that it imports; and the page has loaded it."""
-    assert (
-        page_of_modules.evaluate("(name) => import(`/webviz/${name}`).then(() => '', String)", name)
-        == ""
-    )
-    others = "".join((FOLDER / other).read_text() for other in (*MODULES, "head.html"))
-    assert re.search(rf"[/\"]{re.escape(Path(name).name)}\"", others)
+IMPORT = """async (names) => {
+  const failures = {};
+  for (const name of names) {
+    await import(`/webviz/${name}`).catch((error) => { failures[name] = String(error); });
+  }
+  return failures;
+}"""
 
 
-@pytest.fixture(scope="module")
-def page_of_modules(browser: playwright.Browser):
-    from webviz.edges.scene import open_server
-
-    server = open_server(port=0)
-    context = browser.new_context()
-    page = context.new_page()
-    page.goto(f"http://127.0.0.1:{server.get_port()}")
-    yield page
-    context.close()
-    server.stop()
+def test_all_modules_are_valid_and_used(view: View) -> None:
+    """Chromium compiles them, with every name that they import; and the page has loaded them."""
+    assert view.evaluate(IMPORT, MODULES) == {}
+    texts = {name: (FOLDER / name).read_text() for name in (*MODULES, "head.html")}
+    unused = {
+        name
+        for name in MODULES
+        if not re.search(rf"[/\"]{re.escape(Path(name).name)}\"", "".join(texts.values()))
+    }
+    assert unused == set()
