@@ -23,6 +23,7 @@ from webviz import (
     compose,
 )
 from webviz_displays.point_cloud2.decimation import evenly
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
 
 MOST_VOXELS = 200_000
@@ -61,12 +62,9 @@ class VoxelGrid(Display):
         Color, Prop(when=("show_marked", True), help="Colour of voxels with an obstacle.")
     ] = (255, 0, 0)
     marked_alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
-            when=("show_marked", True),
-            help="Opacity of voxels with an obstacle; 0 is invisible.",
+            when=("show_marked", True), help="Opacity of voxels with an obstacle; 0 is invisible."
         ),
     ] = 1.0
     show_unknown: Annotated[bool, Prop(help="Draw voxels that no sensor has seen.")] = False
@@ -74,13 +72,7 @@ class VoxelGrid(Display):
         Color, Prop(when=("show_unknown", True), help="Colour of unknown voxels.")
     ] = (0, 0, 255)
     unknown_alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=("show_unknown", True),
-            help="Opacity of unknown voxels; 0 is invisible.",
-        ),
+        Alpha, Prop(when=("show_unknown", True), help="Opacity of unknown voxels; 0 is invisible.")
     ] = 0.5
     show_free: Annotated[bool, Prop(help="Draw voxels known to be free.")] = False
     free_color: Annotated[Color, Prop(when=("show_free", True), help="Colour of free voxels.")] = (
@@ -89,13 +81,7 @@ class VoxelGrid(Display):
         0,
     )
     free_alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=("show_free", True),
-            help="Opacity of free voxels; 0 is invisible.",
-        ),
+        Alpha, Prop(when=("show_free", True), help="Opacity of free voxels; 0 is invisible.")
     ] = 0.1
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -120,8 +106,7 @@ class VoxelGrid(Display):
         x, y, z = _indices(np.array([hit.id]), message)[0].tolist()
         center = np.add(_corner(message), _centers(np.array([hit.id]), message)[0])
         return Details(
-            f"Voxel {x}, {y}, {z}",
-            {"State": hit.key, f"Center in {hit.sample.frame}": center},
+            f"Voxel {x}, {y}, {z}", {"State": hit.key, f"Center in {hit.sample.frame}": center}
         )
 
     def _looks(self) -> dict[str, tuple[Rgb, float]]:

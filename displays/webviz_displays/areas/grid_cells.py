@@ -23,6 +23,7 @@ from webviz import (
 )
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import evenly
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
@@ -43,7 +44,7 @@ class GridCells(Display):
         Topic("/grid_cells")
     )
     color: Annotated[Color, Prop(help="Colour of the cells.")] = (25, 255, 0)
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

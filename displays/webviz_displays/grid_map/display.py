@@ -27,7 +27,7 @@ from webviz import (
 from webviz.data.words import listed
 from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_layers
 from webviz_displays.grid_map.surface import faces_of, lines_of, places
-from webviz_displays.shared.colors import RAINBOW, bounds, faded_color, ramp
+from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded_color, ramp
 from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.points_display import MaxColor, MaxIntensity, MinColor, MinIntensity
 
@@ -55,12 +55,10 @@ class GridMap(Display):
         Topic, Input("grid_map_msgs/msg/GridMap"), Prop(help="Topic of the grid maps.")
     ] = Topic("/grid_map")
     alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
             help="Opacity of the surface; lines are opaque in the browser and fade towards dark "
-            "grey.",
+            "grey."
         ),
     ] = 1.0
     history_length: Annotated[
@@ -84,8 +82,7 @@ class GridMap(Display):
         Literal["Layer", "Flat"], Prop(help="Take heights from a layer, or draw a flat surface.")
     ] = "Layer"
     height_layer: Annotated[
-        str,
-        Prop(when=("height_transformer", "Layer"), help="Name of the layer with heights in m."),
+        str, Prop(when=("height_transformer", "Layer"), help="Name of the layer with heights in m.")
     ] = "elevation"
     color_transformer: Annotated[
         Literal["IntensityLayer", "ColorLayer", "FlatColor", "None"],

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Color, Context, Details, Display, Group, Hit, Input, Pose, Prop, Sample, Topic
 from webviz.data.rotations import matrices, normalized
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, LONGEST
 from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows
@@ -41,13 +42,9 @@ class BoxSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         Color, Prop(rviz="Box color", when=("enable_box", True), help="Colour of the box.")
     ] = (255, 0, 0)
     box_alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
-            rviz="Box alpha",
-            when=("enable_box", True),
-            help="Opacity of the box; 0 is invisible.",
+            rviz="Box alpha", when=("enable_box", True), help="Opacity of the box; 0 is invisible."
         ),
     ] = 1.0
 
@@ -93,10 +90,8 @@ class AccelerationSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unk
         ),
     ] = (255, 0, 0)
     acc_vector_alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
             rviz="Acc. vector alpha",
             when=("enable_acceleration", True),
             help="Opacity of the acceleration; 0 is invisible.",

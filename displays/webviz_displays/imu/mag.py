@@ -7,6 +7,7 @@ from typing import Annotated
 import numpy as np
 
 from webviz import Color, Context, Details, Display, Hit, Input, Prop, Sample, Topic
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.rods import add_solid_arrows
 
@@ -29,7 +30,7 @@ class Mag(Display):
         float, Prop(gt=0, le=LONGEST, unit="m", help="Half the length of the arrow's shaft.")
     ] = 1.0
     color: Annotated[Color, Prop(help="Colour of the arrow.")] = (255, 0, 0)
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """An arrow along the field at the sensor, of the same length for every field."""

@@ -10,24 +10,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import (
-    Context,
-    Details,
-    Display,
-    Hit,
-    Image,
-    Input,
-    Pose,
-    Prop,
-    Sample,
-    Topic,
-    compose,
-)
+from webviz import Context, Details, Display, Hit, Image, Input, Pose, Prop, Sample, Topic, compose
 from webviz.api.evidence import Walls
 from webviz.data.words import counted
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated, window
+from webviz_displays.shared.colors import Alpha
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
@@ -106,7 +95,7 @@ class MapDisplay(Display):
     update_topic: Annotated[
         Topic, Prop(help="Topic of partial updates; empty means the map's topic + _updates.")
     ] = Topic()
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of the map; 0 is invisible.")] = 0.7
+    alpha: Annotated[Alpha, Prop(help="Opacity of the map; 0 is invisible.")] = 0.7
     color_scheme: Annotated[
         Literal["map", "costmap", "raw"],
         Prop(

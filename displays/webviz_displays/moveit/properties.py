@@ -9,6 +9,7 @@ import msgspec
 from webviz import Color, Input, Prop, Topic
 from webviz_displays.moveit.octomap import Coloring, Rendering
 from webviz_displays.robot_model.parts import LinkSettings
+from webviz_displays.shared.colors import Alpha
 
 RobotDescription = Annotated[
     Topic,
@@ -24,12 +25,11 @@ PlanningSceneTopic = Annotated[
     Prop(help="Topic of the scene and of its changes."),
 ]
 MoveGroupNamespace = Annotated[
-    str,
-    Prop(help="Namespace of the node move_group, which is asked for the scene at first."),
+    str, Prop(help="Namespace of the node move_group, which is asked for the scene at first.")
 ]
 ShowVisual = Annotated[bool, Prop(help="Draw the links' visual shapes.")]
 ShowCollision = Annotated[bool, Prop(help="Draw the links' collision shapes.")]
-RobotAlpha = Annotated[float, Prop(ge=0, le=1, help="Opacity of the links.")]
+RobotAlpha = Annotated[Alpha, Prop(help="Opacity of the links.")]
 AttachedBodyColor = Annotated[
     Color, Prop(help="Colour of the objects that the robot holds, if they have none.")
 ]
@@ -47,9 +47,7 @@ class SceneGeometry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     """How the objects of a scene look."""
 
     show_scene_geometry: Annotated[bool, Prop(help="Draw the objects of the scene.")] = True
-    scene_alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of objects without a colour.")] = (
-        0.9
-    )
+    scene_alpha: Annotated[Alpha, Prop(help="Opacity of objects without a colour.")] = 0.9
     scene_color: Annotated[Color, Prop(help="Colour of objects without one.")] = (50, 230, 50)
     voxel_rendering: Annotated[Rendering, Prop(help="Which voxels of the octomap to draw.")] = (
         "Occupied Voxels"
@@ -104,13 +102,7 @@ RobotColor = Annotated[
 ]
 Paused = Annotated[bool, Prop(help="Show one point of the path instead of the animation.")]
 Position = Annotated[
-    float,
-    Prop(
-        ge=0,
-        le=1,
-        when=("paused", True),
-        help="Which point: 0 is the first, 1 the last.",
-    ),
+    float, Prop(ge=0, le=1, when=("paused", True), help="Which point: 0 is the first, 1 the last.")
 ]
 
 
@@ -145,26 +137,14 @@ class PlanningRequest(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
         Prop(when=("query_start_state", True), help="Colour of the links that the plan moves."),
     ] = (0, 255, 0)
     start_state_alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=("query_start_state", True),
-            help="Opacity at the start.",
-        ),
+        Alpha, Prop(when=("query_start_state", True), help="Opacity at the start.")
     ] = 1.0
     goal_state_color: Annotated[
         Color,
         Prop(when=("query_goal_state", True), help="Colour of the links that the plan moves."),
     ] = (250, 128, 0)
     goal_state_alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=("query_goal_state", True),
-            help="Opacity at the goal.",
-        ),
+        Alpha, Prop(when=("query_goal_state", True), help="Opacity at the goal.")
     ] = 1.0
     joint_violation_color: Annotated[
         Color, Prop(help="Colour of links whose joint is outside its limits.")

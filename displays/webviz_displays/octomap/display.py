@@ -9,13 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic, compose
-from webviz_displays.octomap.octree import (
-    LEVELS,
-    SLOW_BYTES,
-    Octree,
-    OctreeFault,
-    read_octree,
-)
+from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
 from webviz_displays.octomap.seen import (
     MOST_VOXELS,
     Choice,
@@ -27,6 +21,7 @@ from webviz_displays.octomap.seen import (
     seen_of,
 )
 from webviz_displays.octomap.voxels import places_of, voxels_of
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, origin_near
 
 OCTOMAP = "octomap_msgs/msg/Octomap"
@@ -80,7 +75,7 @@ class OctreeDisplay(Display):
             "Cell Probability: red (free) to green (occupied)."
         ),
     ] = "Z-Axis"
-    voxel_alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
+    voxel_alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
     max_octree_depth: Annotated[
         int,
         Prop(

@@ -13,6 +13,7 @@ from webviz.api.nodes import Ids
 from webviz.data import messages
 from webviz.data.rotations import normalized
 from webviz.data.words import counted
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, origin_near
 from webviz_displays.shared.history import HistoryLength
 from webviz_displays.shared.pose_history import GrowingTrail, PoseOf, Trail, fault
@@ -31,15 +32,7 @@ class PoseDisplay(Display):
         Literal["Arrow", "Axes"], Prop(help="Draw an arrow along x, or all three axes.")
     ] = "Arrow"
     color: Annotated[Color, Prop(when=BY_ARROW, help="Colour of the arrow.")] = (255, 25, 0)
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=BY_ARROW,
-            help="Opacity of the arrow; 0 is invisible.",
-        ),
-    ] = 1.0
+    alpha: Annotated[Alpha, Prop(when=BY_ARROW, help="Opacity of the arrow; 0 is invisible.")] = 1.0
     shaft_length: Annotated[
         float, Prop(ge=0, le=LONGEST, unit="m", when=BY_ARROW, help="Length of the shaft.")
     ] = 1.0

@@ -14,7 +14,7 @@ from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.poses.pose_display import placed
-from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.colors import Alpha, faded_color
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
 from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows, rods
@@ -30,10 +30,8 @@ Shape = Annotated[
 _BY_ARROWS = ("shape", ("Arrow (Flat)", "Arrow (3D)"))
 ArrowColor = Annotated[Color, Prop(when=_BY_ARROWS, help="Colour of the arrows.")]
 ArrowAlpha = Annotated[
-    float,
+    Alpha,
     Prop(
-        ge=0,
-        le=1,
         when=_BY_ARROWS,
         help="Opacity of solid arrows; flat ones are opaque in the browser and fade towards dark "
         "grey.",

@@ -12,13 +12,7 @@ from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.robot_model.details import TRAIL, link_details
 from webviz_displays.robot_model.joint_states import Received
 from webviz_displays.robot_model.loading import last_written, load, progress
-from webviz_displays.robot_model.parts import (
-    GREY,
-    Choices,
-    JointSettings,
-    LinkSettings,
-    parts_of,
-)
+from webviz_displays.robot_model.parts import GREY, Choices, JointSettings, LinkSettings, parts_of
 from webviz_displays.robot_model.placing import ByJoints, ByTransforms, JointPlacer, Placing
 from webviz_displays.robot_model.state import Model, State
 from webviz_displays.robot_model.statuses import (
@@ -30,6 +24,7 @@ from webviz_displays.robot_model.statuses import (
     report_robot,
     report_strangers,
 )
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import prefixed
 from webviz_displays.shared.trails import Trails
 from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
@@ -94,7 +89,7 @@ class RobotModel(Display):
         float,
         Prop(ge=0, unit="s", help="Minimum time between moves; 0 moves as often as possible."),
     ] = 0.0
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity of the links.")] = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity of the links.")] = 1.0
     tf_prefix: Annotated[
         str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
     ] = ""

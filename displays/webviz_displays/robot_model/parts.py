@@ -11,6 +11,7 @@ import numpy as np
 
 from webviz import Arrows, Axes, Glb, Mesh, Node, Pose, Prop, Rgb
 from webviz_displays.robot_model.statuses import has_axis
+from webviz_displays.shared.colors import Alpha
 from webviz_urdf import Joint, Link, Robot, Shape, glb_with, inertia_box, mass_sphere
 
 OPAQUE = 0.9998
@@ -30,14 +31,9 @@ class LinkSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     """Settings of one link."""
 
     enabled: Annotated[bool, Prop(help="Draw this link.")] = True
-    alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            help="Opacity of the link, multiplied by that of the robot.",
-        ),
-    ] = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity of the link, multiplied by that of the robot.")] = (
+        1.0
+    )
     show_trail: Annotated[bool, Prop(help="Draw the link's last 2 m of travel.")] = False
     show_axes: Annotated[
         bool, Prop(help="Draw the axes of the link's frame and report its pose.")

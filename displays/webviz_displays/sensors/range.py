@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from webviz import Color, Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
 from webviz_displays.shared.rods import rods
 
@@ -23,7 +24,7 @@ class Range(Display):
         Topic("/range")
     )
     color: Annotated[Color, Prop(help="Colour of the cones.")] = (255, 255, 255)
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 0.5
+    alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 0.5
     buffer_length: Annotated[
         int, Prop(ge=1, le=10_000, help="How many of the newest ranges to show.")
     ] = 1

@@ -6,6 +6,7 @@ import functools
 import math
 from typing import Annotated
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -27,13 +28,11 @@ RAINBOW: tuple[Rgb, ...] = (
 )
 """From red to magenta: hue 0 to 300 degrees at full saturation and value."""
 
+Alpha = Annotated[float, msgspec.Meta(ge=0, le=1)]
+"""An opacity, for a `Prop` that says of what."""
+
 LineAlpha = Annotated[
-    float,
-    Prop(
-        ge=0,
-        le=1,
-        help="Lines are opaque in the browser; alpha fades them towards dark grey.",
-    ),
+    Alpha, Prop(help="Lines are opaque in the browser; alpha fades them towards dark grey.")
 ]
 """A property: what `faded` takes."""
 

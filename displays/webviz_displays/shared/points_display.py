@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
-from webviz_displays.shared.colors import RAINBOW, bounds, faded, faded_color, ramp
+from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded, faded_color, ramp
 from webviz_displays.shared.geometry import coordinate
 from webviz_displays.shared.point_sizes import by_size
 
@@ -69,12 +69,10 @@ class PointStyle(Display):
         ),
     ] = 3.0
     alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
             help="Opacity of Spheres and Boxes; flat styles stay opaque in the browser and fade "
-            "towards dark grey.",
+            "towards dark grey."
         ),
     ] = 1.0
     decay_time: Annotated[

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 import msgspec
 
 from webviz import Color, Prop
+from webviz_displays.shared.colors import Alpha
 
 
 class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -21,13 +22,7 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         0,
     )
     alpha: Annotated[
-        float,
-        Prop(
-            ge=0,
-            le=1,
-            when=("value", "Arrow"),
-            help="Opacity of the arrows; 0 is invisible.",
-        ),
+        Alpha, Prop(when=("value", "Arrow"), help="Opacity of the arrows; 0 is invisible.")
     ] = 1.0
     shaft_length: Annotated[
         float, Prop(ge=0, unit="m", when=("value", "Arrow"), help="Length of the shaft.")
@@ -58,10 +53,7 @@ class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
         51,
         204,
     )
-    alpha: Annotated[
-        float,
-        Prop(ge=0, le=1, when=("value", True), help="Opacity; 0 is invisible."),
-    ] = 0.3
+    alpha: Annotated[Alpha, Prop(when=("value", True), help="Opacity; 0 is invisible.")] = 0.3
     scale: Annotated[
         float, Prop(gt=0, when=("value", True), help="Size in standard deviations.")
     ] = 1.0
@@ -85,10 +77,7 @@ class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     color: Annotated[
         Color, Prop(when=("color_style", "Unique"), help="Colour of the wedges and discs.")
     ] = (255, 255, 127)
-    alpha: Annotated[
-        float,
-        Prop(ge=0, le=1, when=("value", True), help="Opacity; 0 is invisible."),
-    ] = 0.5
+    alpha: Annotated[Alpha, Prop(when=("value", True), help="Opacity; 0 is invisible.")] = 0.5
     offset: Annotated[
         float,
         Prop(

@@ -14,6 +14,7 @@ import webviz_urdf
 from webviz import Context, Details, Display, Frames, Hit, Input, Keep, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.words import counted, listed
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import prefixed
 from webviz_displays.shared.geometry import LONGEST, origin_near
 from webviz_displays.shared.history import HistoryLength
@@ -72,12 +73,9 @@ class Effort(Display):
         Prop(help="Topic of the robot's URDF, which gives the axes and the largest efforts."),
     ] = Topic("/robot_description")
     alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
-            help="Opacity of the heads; rings are opaque in the browser and fade towards "
-            "dark grey.",
+            help="Opacity of the heads; rings are opaque in the browser and fade towards dark grey."
         ),
     ] = 1.0
     width: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Width of the rings.")] = 0.02
@@ -123,8 +121,7 @@ class Effort(Display):
         if not descriptions:
             topic = self.robot_description.name
             ctx.warn(
-                "URDF",
-                f"No robot description received on {topic}. Start robot_state_publisher.",
+                "URDF", f"No robot description received on {topic}. Start robot_state_publisher."
             )
             return
         try:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
 from webviz.data import messages
 from webviz.data.rotations import matrices
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, LONGEST, origin_near
 from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
 
@@ -39,17 +40,14 @@ class VectorDisplay(Display):
 
     topic: Annotated[Topic, Prop(help="Topic of the vectors.")] = Topic()
     alpha: Annotated[
-        float,
+        Alpha,
         Prop(
-            ge=0,
-            le=1,
             help="Opacity of the arrows; circles are opaque in the browser and fade towards "
-            "dark grey.",
+            "dark grey."
         ),
     ] = 1.0
     arrow_width: Annotated[
-        float,
-        Prop(gt=0, le=LONGEST, unit="m", help="Width of the arrows; a head takes 0.2 of it."),
+        float, Prop(gt=0, le=LONGEST, unit="m", help="Width of the arrows; a head takes 0.2 of it.")
     ] = 0.5
 
     def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
