@@ -7,6 +7,7 @@ from typing import Annotated
 
 from webviz import Context, Details, Display, Hit, Prop, Sample
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
+from webviz_displays.shared.geometry import Metres
 
 
 class Axes(Display):
@@ -17,8 +18,8 @@ class Axes(Display):
     reference_frame: Annotated[str, Prop(widget="frame", help="Frame whose axes are drawn.")] = (
         FIXED_FRAME
     )
-    length: Annotated[float, Prop(gt=0, unit="m", help="Length of each axis.")] = 1.0
-    radius: Annotated[float, Prop(gt=0, unit="m", help="Radius of each axis.")] = 0.1
+    length: Annotated[Metres, Prop(help="Length of each axis.")] = 1.0
+    radius: Annotated[Metres, Prop(help="Radius of each axis.")] = 0.1
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Axes that follow the reference frame."""

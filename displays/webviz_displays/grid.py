@@ -14,6 +14,7 @@ from webviz import Color, Context, Details, Display, Hit, Prop, Sample
 from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import LineAlpha, faded_color
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
+from webviz_displays.shared.geometry import Metres
 
 MOST_LINES = 200_000
 """More lines would make the browser unresponsive."""
@@ -34,16 +35,14 @@ class Grid(Display):
     normal_cell_count: Annotated[
         int, Prop(ge=0, help="Cells along the plane's normal; 0 makes a flat grid.")
     ] = 0
-    cell_size: Annotated[float, Prop(gt=0, unit="m", help="Edge length of a cell.")] = 1.0
+    cell_size: Annotated[Metres, Prop(help="Edge length of a cell.")] = 1.0
     line_style: Annotated[
         Literal["Lines", "Billboards"],
         Prop(help="Lines are one pixel wide, Billboards have a width in metres."),
     ] = "Lines"
     line_width: Annotated[
-        float,
+        Metres,
         Prop(
-            gt=0,
-            unit="m",
             rviz="Line Style/Line Width",
             when=("line_style", "Billboards"),
             help="Width of the lines.",

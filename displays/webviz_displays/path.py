@@ -28,7 +28,7 @@ from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import Rows, evenly
 from webviz_displays.shared.colors import LineAlpha, faded_color
-from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
+from webviz_displays.shared.geometry import Metres, along_x, is_drawable, origin_near, transformed
 
 F64 = NDArray[np.float64]
 
@@ -62,12 +62,8 @@ class Path(Display):
     pose_style: Annotated[
         Literal["None", "Axes", "Arrows"], Prop(help="How to draw each pose of the path.")
     ] = "None"
-    length: Annotated[
-        float, Prop(gt=0, unit="m", when=("pose_style", "Axes"), help="Length of the axes.")
-    ] = 0.3
-    radius: Annotated[
-        float, Prop(gt=0, unit="m", when=("pose_style", "Axes"), help="Radius of the axes.")
-    ] = 0.03
+    length: Annotated[Metres, Prop(when=("pose_style", "Axes"), help="Length of the axes.")] = 0.3
+    radius: Annotated[Metres, Prop(when=("pose_style", "Axes"), help="Radius of the axes.")] = 0.03
     pose_color: Annotated[
         Color, Prop(when=("pose_style", "Arrows"), help="Colour of the arrows.")
     ] = (255, 85, 255)
@@ -76,14 +72,13 @@ class Path(Display):
         Prop(ge=0, unit="m", when=("pose_style", "Arrows"), help="Length of the arrows' shafts."),
     ] = 0.1
     head_length: Annotated[
-        float,
-        Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Length of the arrows' heads."),
+        Metres, Prop(when=("pose_style", "Arrows"), help="Length of the arrows' heads.")
     ] = 0.2
     shaft_diameter: Annotated[
-        float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the shafts.")
+        Metres, Prop(when=("pose_style", "Arrows"), help="Diameter of the shafts.")
     ] = 0.1
     head_diameter: Annotated[
-        float, Prop(gt=0, unit="m", when=("pose_style", "Arrows"), help="Diameter of the heads.")
+        Metres, Prop(when=("pose_style", "Arrows"), help="Diameter of the heads.")
     ] = 0.3
 
     def history(self) -> Keep:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Details, Display, Group, Hit, Input, Pose, Prop, Sample, Topic
 from webviz.data.rotations import matrices, normalized
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import FARTHEST, LONGEST
+from webviz_displays.shared.geometry import FARTHEST, LONGEST, Length
 from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows
 
@@ -22,7 +22,6 @@ SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 0.25, 1.0, 0.5
 """Of the acceleration in scales; rviz_imu_plugin gives the diameters."""
 
 F64 = NDArray[np.float64]
-Extent = Annotated[float, msgspec.Meta(gt=0, le=LONGEST)]
 
 
 class BoxSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -30,13 +29,13 @@ class BoxSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
     enable_box: Annotated[bool, Prop(rviz="Enable box", help="Draw a box.")] = False
     x_scale: Annotated[
-        Extent, Prop(rviz="x_scale", unit="m", when=("enable_box", True), help="Extent along x.")
+        Length, Prop(rviz="x_scale", when=("enable_box", True), help="Extent along x.")
     ] = 1.0
     y_scale: Annotated[
-        Extent, Prop(rviz="y_scale", unit="m", when=("enable_box", True), help="Extent along y.")
+        Length, Prop(rviz="y_scale", when=("enable_box", True), help="Extent along y.")
     ] = 1.0
     z_scale: Annotated[
-        Extent, Prop(rviz="z_scale", unit="m", when=("enable_box", True), help="Extent along z.")
+        Length, Prop(rviz="z_scale", when=("enable_box", True), help="Extent along z.")
     ] = 1.0
     box_color: Annotated[
         Color, Prop(rviz="Box color", when=("enable_box", True), help="Colour of the box.")
@@ -54,8 +53,7 @@ class AxesSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
     enable_axes: Annotated[bool, Prop(rviz="Enable axes", help="Draw axes.")] = True
     axes_scale: Annotated[
-        Extent,
-        Prop(rviz="Axes scale", unit="m", when=("enable_axes", True), help="Length of the axes."),
+        Length, Prop(rviz="Axes scale", when=("enable_axes", True), help="Length of the axes.")
     ] = 1.0
 
 
@@ -74,8 +72,10 @@ class AccelerationSettings(msgspec.Struct, frozen=True, kw_only=True, forbid_unk
         ),
     ] = True
     acc_vector_scale: Annotated[
-        Extent,
+        float,
         Prop(
+            gt=0,
+            le=LONGEST,
             rviz="Acc. vector scale",
             when=("enable_acceleration", True),
             help="Metres per m/s², and the length of the arrow's head in m.",

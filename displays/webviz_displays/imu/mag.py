@@ -8,7 +8,7 @@ import numpy as np
 
 from webviz import Color, Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.geometry import Length
 from webviz_displays.shared.rods import add_solid_arrows
 
 SHAFT_LENGTH, SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 2.0, 0.05, 0.2, 0.05
@@ -26,9 +26,7 @@ class Mag(Display):
     is_2d: Annotated[
         bool, Prop(rviz="2D-visual", help="Draw the direction in the x-y plane of the sensor.")
     ] = True
-    scale: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", help="Half the length of the arrow's shaft.")
-    ] = 1.0
+    scale: Annotated[Length, Prop(help="Half the length of the arrow's shaft.")] = 1.0
     color: Annotated[Color, Prop(help="Colour of the arrow.")] = (255, 0, 0)
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
 

@@ -16,7 +16,7 @@ from webviz_displays.poses.pose_set import (
     pose_details,
     pose_set,
 )
-from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.geometry import Length
 from webviz_displays.shared.history import HistoryLength
 
 SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 0.0435 / 2, 0.3043, 0.1304 / 2
@@ -41,12 +41,8 @@ class ParticleCloud(Display):
     shape: Shape = "Arrow (Flat)"
     color: ArrowColor = (255, 25, 0)
     alpha: ArrowAlpha = 1.0
-    min_arrow_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", help="Length of a particle without weight.")
-    ] = 0.02
-    max_arrow_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", help="Length of a particle of weight 1.")
-    ] = 0.3
+    min_arrow_length: Annotated[Length, Prop(help="Length of a particle without weight.")] = 0.02
+    max_arrow_length: Annotated[Length, Prop(help="Length of a particle of weight 1.")] = 0.3
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

@@ -11,7 +11,7 @@ from webviz import Color, Context, Details, Display, Hit, Input, Keep, Pose, Pro
 from webviz.data.rotations import matrices
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
+from webviz_displays.shared.geometry import Length, is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
 
@@ -25,7 +25,7 @@ class PointStamped(Display):
     ] = Topic("/clicked_point")
     color: Annotated[Color, Prop(help="Colour of the spheres.")] = (204, 41, 204)
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
-    radius: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Radius of the spheres.")] = 0.2
+    radius: Annotated[Length, Prop(help="Radius of the spheres.")] = 0.2
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

@@ -14,7 +14,7 @@ from webviz_displays.poses.pose_set import (
     pose_details,
     pose_set,
 )
-from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.geometry import LONGEST, Length
 from webviz_displays.shared.history import HistoryLength
 
 BY_FLAT = ("shape", "Arrow (Flat)")
@@ -34,27 +34,15 @@ class PoseArray(Display):
     shape: Shape = "Arrow (Flat)"
     color: ArrowColor = (255, 25, 0)
     alpha: ArrowAlpha = 1.0
-    arrow_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_FLAT, help="Length of flat arrows.")
-    ] = 0.3
+    arrow_length: Annotated[Length, Prop(when=BY_FLAT, help="Length of flat arrows.")] = 0.3
     shaft_length: Annotated[
         float, Prop(ge=0, le=LONGEST, unit="m", when=BY_SOLID, help="Length of the shafts.")
     ] = 0.23
-    shaft_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Radius of the shafts.")
-    ] = 0.01
-    head_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Length of the heads.")
-    ] = 0.07
-    head_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_SOLID, help="Radius of the heads.")
-    ] = 0.03
-    axes_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Length of each axis.")
-    ] = 0.3
-    axes_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Radius of each axis.")
-    ] = 0.01
+    shaft_radius: Annotated[Length, Prop(when=BY_SOLID, help="Radius of the shafts.")] = 0.01
+    head_length: Annotated[Length, Prop(when=BY_SOLID, help="Length of the heads.")] = 0.07
+    head_radius: Annotated[Length, Prop(when=BY_SOLID, help="Radius of the heads.")] = 0.03
+    axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 0.3
+    axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.01
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

@@ -14,7 +14,7 @@ from webviz.data import messages
 from webviz.data.rotations import normalized
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import LONGEST, origin_near
+from webviz_displays.shared.geometry import LONGEST, Length, origin_near
 from webviz_displays.shared.history import HistoryLength
 from webviz_displays.shared.pose_history import GrowingTrail, PoseOf, Trail, fault
 from webviz_displays.shared.pose_marks import draw_poses, report_orientations
@@ -36,21 +36,11 @@ class PoseDisplay(Display):
     shaft_length: Annotated[
         float, Prop(ge=0, le=LONGEST, unit="m", when=BY_ARROW, help="Length of the shaft.")
     ] = 1.0
-    shaft_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_ARROW, help="Radius of the shaft.")
-    ] = 0.05
-    head_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_ARROW, help="Length of the head.")
-    ] = 0.3
-    head_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_ARROW, help="Radius of the head.")
-    ] = 0.1
-    axes_length: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Length of each axis.")
-    ] = 1.0
-    axes_radius: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", when=BY_AXES, help="Radius of each axis.")
-    ] = 0.1
+    shaft_radius: Annotated[Length, Prop(when=BY_ARROW, help="Radius of the shaft.")] = 0.05
+    head_length: Annotated[Length, Prop(when=BY_ARROW, help="Length of the head.")] = 0.3
+    head_radius: Annotated[Length, Prop(when=BY_ARROW, help="Radius of the head.")] = 0.1
+    axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 1.0
+    axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.1
     history_length: HistoryLength = 1
 
     def history(self) -> Keep:

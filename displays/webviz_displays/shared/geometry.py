@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Pose
+from webviz import Pose, Prop
 from webviz.data.rotations import matrices
 
 F64 = NDArray[np.float64]
@@ -18,6 +18,12 @@ FARTHEST = 1e9
 
 LONGEST = 1e6
 """Metres; larger sizes of arrows and other marks would overflow float32 with their scales."""
+
+Metres = Annotated[float, Prop(gt=0, unit="m")]
+"""A size, for a `Prop` that says of what."""
+
+Length = Annotated[Metres, Prop(le=LONGEST)]
+"""The same of marks that grow with their scales."""
 
 
 def transformed(pose: Pose, xyz: ArrayLike) -> F64:

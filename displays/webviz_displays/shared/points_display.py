@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from webviz import Color, ColorScale, Context, Display, Group, Keep, Pose, Prop, Rgb, Topic
 from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded, faded_color, ramp
-from webviz_displays.shared.geometry import coordinate
+from webviz_displays.shared.geometry import Metres, coordinate
 from webviz_displays.shared.point_sizes import by_size
 
 U8 = NDArray[np.uint8]
@@ -55,9 +55,7 @@ class PointStyle(Display):
         Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"],
         Prop(help="Shape of each point; Squares and Tiles face the camera here."),
     ] = "Flat Squares"
-    size: Annotated[
-        float, Prop(gt=0, unit="m", rviz="Size (m)", help="Edge or diameter of each point.")
-    ] = 0.01
+    size: Annotated[Metres, Prop(rviz="Size (m)", help="Edge or diameter of each point.")] = 0.01
     size_pixels: Annotated[
         float,
         Prop(

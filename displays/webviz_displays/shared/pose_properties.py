@@ -8,6 +8,7 @@ import msgspec
 
 from webviz import Color, Prop
 from webviz_displays.shared.colors import Alpha
+from webviz_displays.shared.geometry import Metres
 
 
 class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -27,21 +28,13 @@ class PoseShape(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     shaft_length: Annotated[
         float, Prop(ge=0, unit="m", when=("value", "Arrow"), help="Length of the shaft.")
     ] = 1.0
-    shaft_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=("value", "Arrow"), help="Radius of the shaft.")
-    ] = 0.05
-    head_length: Annotated[
-        float, Prop(gt=0, unit="m", when=("value", "Arrow"), help="Length of the head.")
-    ] = 0.3
-    head_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=("value", "Arrow"), help="Radius of the head.")
-    ] = 0.1
-    axes_length: Annotated[
-        float, Prop(gt=0, unit="m", when=("value", "Axes"), help="Length of each axis.")
-    ] = 1.0
-    axes_radius: Annotated[
-        float, Prop(gt=0, unit="m", when=("value", "Axes"), help="Radius of each axis.")
-    ] = 0.1
+    shaft_radius: Annotated[Metres, Prop(when=("value", "Arrow"), help="Radius of the shaft.")] = (
+        0.05
+    )
+    head_length: Annotated[Metres, Prop(when=("value", "Arrow"), help="Length of the head.")] = 0.3
+    head_radius: Annotated[Metres, Prop(when=("value", "Arrow"), help="Radius of the head.")] = 0.1
+    axes_length: Annotated[Metres, Prop(when=("value", "Axes"), help="Length of each axis.")] = 1.0
+    axes_radius: Annotated[Metres, Prop(when=("value", "Axes"), help="Radius of each axis.")] = 0.1
 
 
 class PositionCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -79,13 +72,7 @@ class OrientationCovariance(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     ] = (255, 255, 127)
     alpha: Annotated[Alpha, Prop(when=("value", True), help="Opacity; 0 is invisible.")] = 0.5
     offset: Annotated[
-        float,
-        Prop(
-            gt=0,
-            unit="m",
-            when=("value", True),
-            help="Distance from the position at which it is drawn.",
-        ),
+        Metres, Prop(when=("value", True), help="Distance from the position at which it is drawn.")
     ] = 1.0
     scale: Annotated[
         float, Prop(gt=0, when=("value", True), help="Size in standard deviations.")

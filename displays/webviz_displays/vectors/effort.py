@@ -16,7 +16,7 @@ from webviz.data import messages
 from webviz.data.words import counted, listed
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import prefixed
-from webviz_displays.shared.geometry import LONGEST, origin_near
+from webviz_displays.shared.geometry import Length, origin_near
 from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.rings import Rings, add_rings
 from webviz_urdf import RobotDescriptionError, TurningJoint
@@ -78,10 +78,8 @@ class Effort(Display):
             help="Opacity of the heads; rings are opaque in the browser and fade towards dark grey."
         ),
     ] = 1.0
-    width: Annotated[float, Prop(gt=0, le=LONGEST, unit="m", help="Width of the rings.")] = 0.02
-    scale: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", help="Diameter of the ring of the largest effort.")
-    ] = 1.0
+    width: Annotated[Length, Prop(help="Width of the rings.")] = 0.02
+    scale: Annotated[Length, Prop(help="Diameter of the ring of the largest effort.")] = 1.0
     tf_prefix: Annotated[
         str, Prop(rviz="TF Prefix", help="Prefix of the robot's frame names, as in prefix/link.")
     ] = ""

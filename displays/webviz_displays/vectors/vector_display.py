@@ -12,7 +12,7 @@ from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sam
 from webviz.data import messages
 from webviz.data.rotations import matrices
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.geometry import FARTHEST, LONGEST, origin_near
+from webviz_displays.shared.geometry import FARTHEST, Length, origin_near
 from webviz_displays.vectors.marks import Vectors, add_straight, add_turning
 
 F64 = NDArray[np.float64]
@@ -46,9 +46,7 @@ class VectorDisplay(Display):
             "dark grey."
         ),
     ] = 1.0
-    arrow_width: Annotated[
-        float, Prop(gt=0, le=LONGEST, unit="m", help="Width of the arrows; a head takes 0.2 of it.")
-    ] = 0.5
+    arrow_width: Annotated[Length, Prop(help="Width of the arrows; a head takes 0.2 of it.")] = 0.5
 
     def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
         """The linear and the angular vector of a message."""
