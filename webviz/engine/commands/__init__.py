@@ -4,6 +4,7 @@ from webviz.engine.commands.command import PROGRAM, Command, Sender
 from webviz.engine.commands.displays import (
     AddDisplay,
     DuplicateDisplay,
+    GripHandle,
     MoveDisplay,
     RemoveDisplay,
     ResetDisplay,
@@ -11,9 +12,6 @@ from webviz.engine.commands.displays import (
     TraceDisplay,
 )
 from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
-from webviz.engine.commands.goals import CancelGoal, DismissGoal
-from webviz.engine.commands.handles import GripHandle
-from webviz.engine.commands.history import Redo, Undo
 from webviz.engine.commands.panel import (
     AddPanel,
     OpenPanels,
@@ -21,14 +19,26 @@ from webviz.engine.commands.panel import (
     RemovePanel,
     SetPanelProperty,
 )
-from webviz.engine.commands.plugins import ReloadPlugin
-from webviz.engine.commands.ports import CallService, Publish
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
-from webviz.engine.commands.settings import SetBackground, SetFixedFrame, SetFrameRate
-from webviz.engine.commands.time import Pause, Reset
-from webviz.engine.commands.tools import SetToolProperty, UseTool
-from webviz.engine.commands.topics import InspectTopic, InspectTopics
-from webviz.engine.commands.transforms import InspectTransforms
+from webviz.engine.commands.settings import (
+    Pause,
+    Redo,
+    ReloadPlugin,
+    Reset,
+    SetBackground,
+    SetFixedFrame,
+    SetFrameRate,
+    Undo,
+)
+from webviz.engine.commands.tools import (
+    CallService,
+    CancelGoal,
+    DismissGoal,
+    Publish,
+    SetToolProperty,
+    UseTool,
+)
+from webviz.engine.commands.topics import InspectTopic, InspectTopics, InspectTransforms
 from webviz.engine.commands.views import (
     ChangeView,
     FocusDisplay,

@@ -1,4 +1,4 @@
-"""Commands for displays."""
+"""Commands for displays and their handles."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Any
 
+from webviz.api.handles import Grip
 from webviz.engine.commands.command import Command, ignore
 from webviz.engine.trace import Trace
 
@@ -90,3 +91,16 @@ class TraceDisplay(Command):
 
     display: str
     answer: Future[Trace]
+
+
+@dataclass(frozen=True)
+class GripHandle(Command):
+    """Do something with a handle; see `webviz.api.handles.Grip`.
+
+    Args:
+        display: id of the display that has it.
+        grip: what is done.
+    """
+
+    display: str
+    grip: Grip

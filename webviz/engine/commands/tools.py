@@ -1,4 +1,4 @@
-"""Commands for tools."""
+"""Commands for tools, and for all that is sent to other nodes."""
 
 from __future__ import annotations
 
@@ -43,3 +43,57 @@ class SetToolProperty(Command):
     tool: str
     path: str
     value: Any
+
+
+@dataclass(frozen=True)
+class CancelGoal(Command):
+    """Ask the server of a goal to end it; see `webviz.engine.state.GoalProgress`."""
+
+    goal: str
+
+
+@dataclass(frozen=True)
+class DismissGoal(Command):
+    """Stop showing a goal that has ended."""
+
+    goal: str
+
+
+@dataclass(frozen=True)
+class Publish(Command):
+    """Publish a message.
+
+    Args:
+        topic: its name; remapped.
+        type: such as "std_msgs/msg/String".
+        values: of the message by field; missing fields have their defaults.
+        report: called with the result from any thread; must not block.
+    """
+
+    topic: str
+    type: str
+    values: Mapping[str, Any]
+    report: Callable[[Status], None] = ignore
+
+
+@dataclass(frozen=True)
+class CallService(Command):
+    """Call a service.
+
+    Args:
+        service: its name; remapped like a topic.
+        type: such as "std_srvs/srv/Trigger".
+        request: values by field; missing fields have their defaults.
+        definition: text of the .srv file, for types unknown to webviz.
+        answered: called with the response from another thread; must not block.
+        failed: called with a sentence in the same way if there is none.
+        timeout_s: for service and response to appear.
+    """
+
+    service: str
+    type: str
+    request: Mapping[str, Any]
+    definition: str = ""
+    answered: Callable[[Any], object] = ignore
+    failed: Callable[[str], object] = ignore
+    timeout_s: float = 5.0

@@ -1,4 +1,4 @@
-"""Commands for topics."""
+"""Commands for reports on topics and transforms."""
 
 from __future__ import annotations
 
@@ -22,3 +22,16 @@ class InspectTopics(Command):
     """Follow exactly these topics for all pages; the viewer itself keeps count of who looks."""
 
     topics: frozenset[str]
+
+
+@dataclass(frozen=True)
+class InspectTransforms(Command):
+    """Report on the transforms while they are shown.
+
+    Args:
+        tree: whether on the tree of all frames.
+        between: pairs of frames, target and source, between which transforms are read out.
+    """
+
+    tree: bool = True
+    between: frozenset[tuple[str, str]] = frozenset()
