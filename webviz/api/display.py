@@ -119,8 +119,11 @@ class Display(Declared, kw_only=True):
         return ()
 
     def history(self) -> Keep:
-        """How much history to hold; all held samples stay drawn."""
-        return Keep()
+        """How much history to hold; all held samples stay drawn.
+
+        By default as many as a property `history_length` says, else the newest.
+        """
+        return Keep(count=getattr(self, "history_length", 1))
 
     def listens(self, name: str) -> bool:
         """Whether to subscribe to the input `name`, given the properties.

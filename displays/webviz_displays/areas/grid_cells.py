@@ -13,7 +13,6 @@ from webviz import (
     Display,
     Hit,
     Input,
-    Keep,
     Mesh,
     Pose,
     Prop,
@@ -46,10 +45,6 @@ class GridCells(Display):
     color: Annotated[Color, Prop(help="Colour of the cells.")] = (25, 255, 0)
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest grids."""
-        return Keep(count=self.history_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """A flat rectangle for each cell, in the frame and at the stamp of the header."""

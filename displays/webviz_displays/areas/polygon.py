@@ -13,7 +13,6 @@ from webviz import (
     Display,
     Hit,
     Input,
-    Keep,
     Pose,
     Prop,
     Sample,
@@ -38,10 +37,6 @@ class Polygon(Display):
     color: Annotated[Color, Prop(help="Colour of the outline.")] = (25, 255, 0)
     alpha: LineAlpha = 1.0
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest polygons."""
-        return Keep(count=self.history_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One closed line, in the frame and at the stamp of its header."""

@@ -17,7 +17,6 @@ from webviz import (
     Group,
     Hit,
     Input,
-    Keep,
     Mesh,
     Prop,
     Sample,
@@ -115,10 +114,6 @@ class GridMap(Display):
     ] = True
     min_intensity: MinIntensity = 0.0
     max_intensity: MaxIntensity = 10.0
-
-    def history(self) -> Keep:
-        """The newest maps."""
-        return Keep(count=self.history_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One map, in the frame and at the stamp of its header."""

@@ -18,6 +18,7 @@ from webviz_displays.markers.assets import Assets
 from webviz_displays.markers.batch import Batch, batch_of
 from webviz_displays.markers.faults import faults_of
 from webviz_displays.markers.nodes import nodes_of
+from webviz_displays.shared.geometry import inverse
 from webviz_urdf import LoadRequest
 
 TITLE_AT = 1.4
@@ -183,7 +184,7 @@ class Shown:
             self.lost = frames.why_not(frame, stamp_ns)
             return None
         wxyz = orientation(part, place.pose, marker.turned.get(part.control.name, 0.0))
-        return compose(_inverse(compose(base, Pose(place.pose.position, wxyz))), at)
+        return compose(inverse(compose(base, Pose(place.pose.position, wxyz))), at)
 
 
 def has_own_group(part: Part) -> bool:
@@ -209,12 +210,6 @@ def _around_texts(batch: Batch) -> Instances:
     sizes = np.column_stack((widths, widths, heights)).astype(np.float32)
     xyz = batch.positions[rows].astype(np.float32)
     return Instances(xyz, np.abs(sizes), (0, 0, 0), "sphere", opacity=0.0)
-
-
-def _inverse(pose: Pose) -> Pose:
-    w, x, y, z = pose.wxyz
-    px, py, pz = (-matrices(pose.wxyz).T @ pose.position).tolist()
-    return Pose((px, py, pz), (w, -x, -y, -z))
 
 
 def _opaque(batch: Batch) -> Batch:

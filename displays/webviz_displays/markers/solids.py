@@ -13,6 +13,7 @@ from webviz.data.messages.markers import Marker
 from webviz.data.rotations import matrices, multiply_many
 from webviz_displays.markers.batch import F32, F64, Batch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
+from webviz_displays.shared.rods import from_z
 
 HEAD_SHARE = 0.23
 """Of the length of an arrow that does not give that of its head, as in RViz."""
@@ -190,7 +191,7 @@ def _arrows_between(batch: Batch, rows: Rows) -> Iterator[Solids]:
     head = np.minimum(np.where(head_length > 0.0, head_length, share * length), length)
     shaft = length - head
     axis = ways / np.where(length > 0.0, length, 1.0)[:, None]
-    wxyzs = _from_z(axis)
+    wxyzs = from_z(axis)
     parts: tuple[tuple[Solid, F64, F64, F64], ...] = (
         ("cylinder", shaft / 2.0, shaft, shaft_width),
         ("cone", shaft + head / 2.0, head, head_width),
@@ -202,12 +203,3 @@ def _arrows_between(batch: Batch, rows: Rows) -> Iterator[Solids]:
         owners = of[some]
         colors, ids = batch.colors[owners], batch.ids[owners]
         yield Solids(shape, positions[some], wxyzs[some], scales[some], colors, ids)
-
-
-def _from_z(directions: F64) -> F64:
-    """The shortest rotations (N, 4) of z to unit vectors (N, 3)."""
-    x, y, z = directions.T
-    wxyzs = np.stack((1.0 + z, -y, x, np.zeros_like(x)), axis=1)
-    is_down = 1.0 + z < 1e-9
-    wxyzs[is_down] = _HALF_ABOUT_X
-    return wxyzs / np.linalg.norm(wxyzs, axis=1, keepdims=True)

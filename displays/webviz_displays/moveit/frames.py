@@ -10,10 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from webviz import Frames, Pose, compose
-from webviz.data.rotations import conjugate
 from webviz_displays.moveit.bodies import Body
 from webviz_displays.moveit.scene import Scene
-from webviz_displays.shared.geometry import transformed
+from webviz_displays.shared.geometry import inverse
 
 Links = Mapping[str, Pose]
 """Poses of a robot's links in the frame of the scene, by name."""
@@ -87,13 +86,6 @@ class Places:
                 return inner and compose(pose, inner)
         here, there = frames.latest(frame), frames.latest(name)
         return compose(inverse(here), there) if here and there else None
-
-
-def inverse(pose: Pose) -> Pose:
-    """The pose of the frame that `pose` is given in, relative to it."""
-    turn = Pose(wxyz=tuple(conjugate(pose.wxyz).tolist()))
-    x, y, z = (-transformed(turn, pose.position)).tolist()
-    return Pose((x, y, z), turn.wxyz)
 
 
 def _still(

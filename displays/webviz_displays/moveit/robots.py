@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+import msgspec
+
 from webviz import Context, Details, Frames, Hit, Pose, Rgb, compose
 from webviz_displays.moveit.joints import Poser
 from webviz_displays.robot_model.details import TRAIL, link_details
@@ -60,7 +62,7 @@ class Look:
         links = dict(self.links)
         for link, (_, alpha) in self.colors.items():
             before = links.get(link) or LinkSettings(enabled=self.all_links)
-            links[link] = replace_alpha(before, before.alpha * alpha)
+            links[link] = msgspec.structs.replace(before, alpha=before.alpha * alpha)
         return Choices(
             self.visual, self.collision, False, False, self.alpha, links, {}, self.all_links
         )
@@ -68,16 +70,6 @@ class Look:
     def color_of(self, link: str) -> Rgb | None:
         """The colour of a link, None for its own."""
         return self.colors[link][0] if link in self.colors else self.color
-
-
-def replace_alpha(settings: LinkSettings, alpha: float) -> LinkSettings:
-    """Settings with another opacity."""
-    return LinkSettings(
-        enabled=settings.enabled,
-        alpha=alpha,
-        show_trail=settings.show_trail,
-        show_axes=settings.show_axes,
-    )
 
 
 @dataclass

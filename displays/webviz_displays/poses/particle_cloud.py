@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz.data.messages import PoseSequence
 from webviz_displays.poses.pose_set import (
     ArrowAlpha,
@@ -44,10 +44,6 @@ class ParticleCloud(Display):
     min_arrow_length: Annotated[Length, Prop(help="Length of a particle without weight.")] = 0.02
     max_arrow_length: Annotated[Length, Prop(help="Length of a particle of weight 1.")] = 0.3
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest clouds."""
-        return Keep(count=self.history_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame and at the stamp of its header."""

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from webviz import Color, Context, Details, Display, Hit, Input, Keep, Pose, Prop, Sample, Topic
+from webviz import Color, Context, Details, Display, Hit, Input, Pose, Prop, Sample, Topic
 from webviz.data.rotations import matrices
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
@@ -27,10 +27,6 @@ class PointStamped(Display):
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
     radius: Annotated[Length, Prop(help="Radius of the spheres.")] = 0.2
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest points."""
-        return Keep(count=self.history_length)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Spheres, each where its frame was at its stamp."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from webviz import Context, Details, Display, Hit, Input, Keep, Prop, Sample, Topic
+from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz.data import messages
 from webviz_displays.poses.pose_set import (
     ArrowAlpha,
@@ -44,10 +44,6 @@ class PoseArray(Display):
     axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 0.3
     axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.01
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest arrays."""
-        return Keep(count=self.history_length)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One array, in the frame and at the stamp of its header."""

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from webviz import Color, Context, Details, Display, Group, Hit, Keep, Pose, Prop, Sample, Topic
+from webviz import Color, Context, Details, Display, Group, Hit, Pose, Prop, Sample, Topic
 from webviz.api.nodes import Ids
 from webviz.data import messages
 from webviz.data.rotations import normalized
@@ -42,10 +42,6 @@ class PoseDisplay(Display):
     axes_length: Annotated[Length, Prop(when=BY_AXES, help="Length of each axis.")] = 1.0
     axes_radius: Annotated[Length, Prop(when=BY_AXES, help="Radius of each axis.")] = 0.1
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest poses."""
-        return Keep(count=self.history_length)
 
     def new_state(self) -> GrowingTrail:
         """No poses."""

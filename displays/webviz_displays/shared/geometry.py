@@ -38,6 +38,13 @@ def coordinate(pose: Pose, xyz: NDArray[np.floating[Any]], axis: int) -> F64:
     return np.add(functools.reduce(np.add, columns), pose.position[axis], dtype=np.float64)
 
 
+def inverse(pose: Pose) -> Pose:
+    """The pose of the frame that `pose` is given in, relative to it."""
+    w, x, y, z = pose.wxyz
+    px, py, pz = (-matrices(pose.wxyz).T @ pose.position).tolist()
+    return Pose((px, py, pz), (w, -x, -y, -z))
+
+
 def is_drawable(xyz: ArrayLike) -> NDArray[np.bool_]:
     """Which points (N, 3) have finite coordinates that a screen can show."""
     return np.all(np.abs(np.asarray(xyz, dtype=np.float64)) < FARTHEST, axis=-1)

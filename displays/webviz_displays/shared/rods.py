@@ -34,13 +34,18 @@ def rods(tails: ArrayLike, tips: ArrayLike, diameters: ArrayLike) -> Rods:
     tails, tips = np.asarray(tails, np.float64), np.asarray(tips, np.float64)
     ways = tips - tails
     lengths = np.linalg.norm(ways, axis=1)
-    dx, dy, dz = (ways / np.maximum(lengths, _LEAST_LENGTH)[:, None]).T
-    # The shortest turn from z to d is (1 + z·d, z x d), normalised; to -z any half turn will do.
-    wxyzs = np.stack((1.0 + dz, -dy, dx, np.zeros_like(dz)), axis=1)
-    norms = np.linalg.norm(wxyzs, axis=1, keepdims=True)
-    wxyzs = np.where(norms > 1e-6, wxyzs / np.maximum(norms, 1e-6), (0.0, 1.0, 0.0, 0.0))
+    wxyzs = from_z(ways / np.maximum(lengths, _LEAST_LENGTH)[:, None])
     widths = np.broadcast_to(np.asarray(diameters, np.float64), lengths.shape)
     return Rods((tails + tips) / 2, np.stack((widths, widths, lengths), axis=1), wxyzs)
+
+
+def from_z(directions: F64) -> F64:
+    """The shortest rotations (N, 4) of z to unit vectors (N, 3), or to vectors of length zero."""
+    x, y, z = directions.T
+    # It is (1 + z·d, z x d), normalised; to -z any half turn will do.
+    wxyzs = np.stack((1.0 + z, -y, x, np.zeros_like(z)), axis=1)
+    norms = np.linalg.norm(wxyzs, axis=1, keepdims=True)
+    return np.where(norms > 1e-6, wxyzs / np.maximum(norms, 1e-6), (0.0, 1.0, 0.0, 0.0))
 
 
 def add_solid_arrows(

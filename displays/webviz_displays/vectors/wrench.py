@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any
 
-from webviz import Color, Input, Keep, Prop, Topic
+from webviz import Color, Input, Prop, Topic
 from webviz.data import messages
 from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.vector_display import Look, VectorDisplay
@@ -32,10 +32,6 @@ class Wrench(VectorDisplay):
         Prop(gt=0, unit="m/Nm", help="Length of the shaft per Nm."),
     ] = 2.0
     history_length: HistoryLength = 1
-
-    def history(self) -> Keep:
-        """The newest messages."""
-        return Keep(count=self.history_length)
 
     def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
         """Force and torque."""
