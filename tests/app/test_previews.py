@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +51,9 @@ def viewer() -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
-    page = Page(browser, viewer.url, 900, 600)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(browser, "new_context", partial(browser.new_context, smooth=True))  # pyright: ignore[reportCallIssue]
+        page = Page(browser, viewer.url, 900, 600)
     if not page.tab.evaluate(HAS_FONT):
         pytest.skip(f"needs the font {FONT}: install fonts-dejavu-core")
     page.tab.emulate_media(color_scheme="dark")

@@ -38,6 +38,7 @@ from webviz_displays.robot_model import RobotModel
 from webviz_sim.pose import Pose2D
 
 DESK, PHONE = (1280, 800), (390, 844)
+FINE: dict[str, Any] = {"timezone_id": "UTC", "locale": "en-US", "smooth": True}
 TOLERANCE = 0.0001
 """Share of pixels that may differ: less than the dot of a row that has another colour."""
 FONT = "DejaVu Sans"
@@ -152,8 +153,7 @@ def open_still(open_tab: Callable[..., Tab]) -> Callable[..., Tab]:
     """Opens tabs in which no time passes."""
 
     def open_still(size: tuple[int, int], **options: Any) -> Tab:
-        tab = open_tab(*size, timezone_id="UTC", locale="en-US", resolution=1, **options)
-        return still(tab)
+        return still(open_tab(*size, **FINE, **options, resolution=1))
 
     return open_still
 
@@ -236,8 +236,8 @@ def test_a_lost_connection_greys_the_page_and_says_so(
 ) -> None:
     server = open_server(port=0)
     draw(server)
-    options = {"color_scheme": "dark", "timezone_id": "UTC", "locale": "en-US"}
-    tab = Tab(open_page(browser, *DESK, **options), server, Loop(server), resolution=1)
+    page = open_page(browser, *DESK, **FINE, color_scheme="dark")
+    tab = Tab(page, server, Loop(server), resolution=1)
     still(tab)
     tab.wait_for(lambda: tab.page.get_by_role("treeitem").count() == 7)
     tab.page.wait_for_timeout(1500)  # until the server was heard in the frozen time

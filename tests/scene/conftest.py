@@ -42,6 +42,17 @@ def tab(browser: playwright.Browser) -> Iterator[View]:
     server.stop()
 
 
+@pytest.fixture(scope="session")
+def still(browser: playwright.Browser) -> Iterator[View]:
+    """A tab that draws only when it is looked at, which costs less."""
+    server = open_server(port=0)
+    view = View(browser, ViserScene(server))
+    view.hold()
+    yield view
+    view.close()
+    server.stop()
+
+
 @pytest.fixture
 def view(tab: View) -> Iterator[View]:
     """A tab with an empty scene that looks down on the origin from 10 m."""
