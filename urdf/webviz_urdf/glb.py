@@ -1,25 +1,17 @@
-"""Binary glTF 2.0: written from plain arrays, recoloured without touching the geometry.
-
-Layout and constants are those of the Khronos glTF 2.0 specification, sections 3 and 4.4.
-"""
+"""Binary glTF 2.0: written from plain arrays, recoloured without touching the geometry."""
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import F32, U8, Rgb
+from webviz.data.gltf import Buffer, pack, pack_with, unpack
 
-_MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
-_FLOAT, _UINT, _UBYTE = 5126, 5125, 5121
-_VERTICES, _INDICES = 34962, 34963
-_WIDTH = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 OPAQUE = 0.9998
 """Alphas from this value on are drawn opaque, as in RViz."""
 
@@ -78,8 +70,7 @@ def write_glb(parts: Sequence[MeshPart]) -> bytes:
     """One mesh of several parts as a binary glTF; a part without a surface is white."""
     writer = _Writer()
     primitives = [writer.primitive(part) for part in parts]
-    writer.json["meshes"] = [{"primitives": primitives}]
-    return _join(writer.json, b"".join(writer.chunks))
+    return writer.buffer.packed(primitives, materials=writer.materials, **writer.more)
 
 
 def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) -> bytes:
@@ -93,7 +84,7 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
     Raises:
         ValueError: `data` is not a binary glTF.
     """
-    document, binary = _split(data)
+    document, rest = unpack(data)
     for material in document.setdefault("materials", [{}]):
         pbr = material.setdefault("pbrMetallicRoughness", {})
         r, g, b, a = pbr.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))
@@ -112,7 +103,7 @@ def glb_with(data: bytes, alpha: float | None = None, color: Rgb | None = None) 
             primitive.setdefault("material", 0)
             if color is not None:
                 primitive["attributes"].pop("COLOR_0", None)
-    return _join(document, binary)
+    return pack(document, rest)
 
 
 def glb_parts(data: bytes) -> tuple[bytes, ...]:
@@ -124,11 +115,11 @@ def glb_parts(data: bytes) -> tuple[bytes, ...]:
     Raises:
         ValueError: `data` is not a binary glTF.
     """
-    document, binary = _split(data)
+    document, rest = unpack(data)
     primitives = [part for mesh in document.get("meshes", []) for part in mesh["primitives"]]
     if len(primitives) <= 1:
         return (data,)
-    return tuple(_part(document, binary, primitive) for primitive in primitives)
+    return tuple(_part(document, rest[8:], primitive) for primitive in primitives)
 
 
 def _part(document: dict[str, Any], binary: bytes, primitive: dict[str, Any]) -> bytes:
@@ -151,7 +142,7 @@ def _part(document: dict[str, Any], binary: bytes, primitive: dict[str, Any]) ->
     }
     parts = {"accessors": accessors, "bufferViews": views, "meshes": [{"primitives": [one]}]}
     parts |= {"images": images} if images else {}
-    return _join({**document, **parts}, b"".join(chunks))
+    return pack_with({**document, **parts}, b"".join(chunks))
 
 
 def srgb_to_linear(srgb: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -160,43 +151,36 @@ def srgb_to_linear(srgb: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 class _Writer:
-    """Collects the JSON and the binary chunk of one file."""
+    """Collects the parts of one file."""
 
     def __init__(self) -> None:
-        self.chunks: list[bytes] = []
-        self._size = 0
-        self._materials: dict[Surface, int] = {}
+        self.buffer = Buffer()
+        self.materials: list[dict[str, Any]] = []
+        self.more: dict[str, list[dict[str, Any]]] = {}
+        """Images and textures, if there are any."""
+        self._surfaces: dict[Surface, int] = {}
         self._textures: dict[bytes, int] = {}
-        self.json: dict[str, Any] = {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0}],
-            "accessors": [],
-            "bufferViews": [],
-            "materials": [],
-        }
 
     def primitive(self, part: MeshPart) -> dict[str, Any]:
-        attributes = {"POSITION": self._accessor(part.vertices, _FLOAT, bounds=True)}
+        attributes = {"POSITION": self.buffer.add(part.vertices, bounds=True)}
         if part.normals is not None:
-            attributes["NORMAL"] = self._accessor(part.normals, _FLOAT)
+            attributes["NORMAL"] = self.buffer.add(part.normals)
         if part.uvs is not None:
             # glTF counts v from the upper edge.
             u, v = part.uvs.T
-            attributes["TEXCOORD_0"] = self._accessor(np.stack((u, 1.0 - v), axis=1), _FLOAT)
+            attributes["TEXCOORD_0"] = self.buffer.add(np.stack((u, 1.0 - v), axis=1))
         if part.colors is not None:
             linear = part.colors / 255.0
             linear[:, :3] = srgb_to_linear(linear[:, :3])
-            attributes["COLOR_0"] = self._accessor(linear.astype(np.float32), _FLOAT)
+            attributes["COLOR_0"] = self.buffer.add(linear.astype(np.float32))
         return {
             "attributes": attributes,
-            "indices": self._accessor(part.faces.reshape(-1, 1), _UINT, target=_INDICES),
+            "indices": self.buffer.add(part.faces),
             "material": self._material(part.surface or Surface()),
         }
 
     def _material(self, surface: Surface) -> int:
-        if surface not in self._materials:
+        if surface not in self._surfaces:
             r, g, b = srgb_to_linear(np.array(surface.rgba[:3])).tolist()
             pbr: dict[str, Any] = {
                 "baseColorFactor": (r, g, b, surface.rgba[3]),
@@ -211,58 +195,16 @@ class _Writer:
             material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": is_double_sided}
             if not is_opaque or surface.is_clear:
                 material["alphaMode"] = "BLEND"
-            self._materials[surface] = len(self._materials)
-            self.json["materials"].append(material)
-        return self._materials[surface]
+            self._surfaces[surface] = len(self._surfaces)
+            self.materials.append(material)
+        return self._surfaces[surface]
 
     def _texture(self, image: bytes) -> int:
         if image not in self._textures:
             mime = "image/png" if image.startswith(b"\x89PNG") else "image/jpeg"
             index = len(self._textures)
             self._textures[image] = index
-            self.json.setdefault("images", []).append(
-                {"bufferView": self._view(image), "mimeType": mime}
-            )
-            self.json.setdefault("textures", []).append({"source": index})
+            view = self.buffer.add_bytes(image)
+            self.more.setdefault("images", []).append({"bufferView": view, "mimeType": mime})
+            self.more.setdefault("textures", []).append({"source": index})
         return self._textures[image]
-
-    def _accessor(
-        self, array: NDArray[Any], component: int, target: int = _VERTICES, bounds: bool = False
-    ) -> int:
-        view = self._view(np.ascontiguousarray(array).tobytes(), target)
-        accessor: dict[str, Any] = {
-            "bufferView": view,
-            "componentType": component,
-            "count": len(array),
-            "type": _WIDTH[array.shape[1]],
-        }
-        if bounds:
-            accessor["min"] = array.min(axis=0).tolist()
-            accessor["max"] = array.max(axis=0).tolist()
-        self.json["accessors"].append(accessor)
-        return len(self.json["accessors"]) - 1
-
-    def _view(self, data: bytes, target: int | None = None) -> int:
-        view = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
-        if target is not None:
-            view["target"] = target
-        self.json["bufferViews"].append(view)
-        self.chunks.append(data + bytes(-len(data) % 4))
-        self._size += len(self.chunks[-1])
-        return len(self.json["bufferViews"]) - 1
-
-
-def _join(document: dict[str, Any], binary: bytes) -> bytes:
-    document["buffers"] = [{"byteLength": len(binary)}]
-    text = msgspec.json.encode(document)
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(binary)
-    head = struct.pack("<5I", _MAGIC, 2, total, len(text), _JSON)
-    return b"".join((head, text, struct.pack("<2I", len(binary), _BIN), binary))
-
-
-def _split(data: bytes) -> tuple[dict[str, Any], bytes]:
-    if len(data) < 28 or struct.unpack_from("<2I", data) != (_MAGIC, 2):
-        raise ValueError("This is not a binary glTF 2.0 file.")
-    (length,) = struct.unpack_from("<I", data, 12)
-    return msgspec.json.decode(data[20 : 20 + length]), data[28 + length :]

@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import struct
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from webviz.api.nodes import Rgb
+from webviz.data.gltf import Buffer, pack, unpack
 from webviz.edges.scene.lines import linear
 from webviz.edges.scene.solids import Solid
-
-_FLOAT, _UINT, _UBYTE = 5126, 5125, 5121
-_VERTICES, _INDICES = 34962, 34963
-
-
-def pack(content: dict[str, Any], rest: bytes = b"") -> bytes:
-    """A binary glTF from its JSON and the following chunks (4.4)."""
-    text = json.dumps(content).encode()
-    text += b" " * (-len(text) % 4)
-    length = 20 + len(text) + len(rest)
-    return struct.pack("<4sIII4s", b"glTF", 2, length, len(text), b"JSON") + text + rest
 
 
 def matte(glb: bytes) -> bytes:
@@ -35,10 +22,7 @@ def matte(glb: bytes) -> bytes:
     Raises:
         ValueError: `glb` is not a binary glTF 2.0.
     """
-    if len(glb) < 20 or glb[:8] != b"glTF\x02\0\0\0" or glb[16:20] != b"JSON":
-        raise ValueError("The data is not a binary glTF 2.0.")
-    end = 20 + int.from_bytes(glb[12:16], "little")
-    content = json.loads(glb[20:end])
+    content, rest = unpack(glb)
     materials = content.setdefault("materials", [])
     plain = len(materials)
     for mesh in content.get("meshes", []):
@@ -47,7 +31,7 @@ def matte(glb: bytes) -> bytes:
     materials.append({})
     for material in materials:
         material.setdefault("pbrMetallicRoughness", {})["metallicFactor"] = 0.0
-    return pack(content, glb[end:])
+    return pack(content, rest)
 
 
 def colored_glb(parts: Sequence[tuple[Solid, Rgb]]) -> bytes:
@@ -58,37 +42,16 @@ def colored_glb(parts: Sequence[tuple[Solid, Rgb]]) -> bytes:
     faces = np.concatenate([solid.faces + n for (solid, _), n in zip(parts, first, strict=True)])
     rgb = np.repeat(linear(np.array([color for _, color in parts], np.uint8)), counts, axis=0)
     rgba = np.concatenate((rgb, np.full((len(rgb), 1), 255, np.uint8)), axis=1)
-    accessors: list[dict[str, Any]] = []
-    views: list[dict[str, int]] = []
-    data = b""
-    for array, component, kind, target, more in (
-        (vertices, _FLOAT, "VEC3", _VERTICES, _bounds(vertices)),
-        (_normals(vertices, faces), _FLOAT, "VEC3", _VERTICES, {}),
-        (rgba, _UBYTE, "VEC4", _VERTICES, {"normalized": True}),
-        (faces.reshape(-1).astype(np.uint32), _UINT, "SCALAR", _INDICES, {}),
-    ):
-        view = {"buffer": 0, "byteOffset": len(data), "byteLength": array.nbytes, "target": target}
-        accessor = {"componentType": component, "count": len(array), "type": kind}
-        accessors.append({"bufferView": len(views), **accessor, **more})
-        views.append(view)
-        data += array.tobytes()  # each a multiple of four bytes
-    attributes = {"POSITION": 0, "NORMAL": 1, "COLOR_0": 2}
-    content = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": attributes, "indices": 3, "material": 0}]}],
-        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0.0}}],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": len(data)}],
+    buffer = Buffer()
+    attributes = {
+        "POSITION": buffer.add(vertices, bounds=True),
+        "NORMAL": buffer.add(_normals(vertices, faces)),
+        "COLOR_0": buffer.add(rgba, normalized=True),
     }
-    return pack(content, struct.pack("<I4s", len(data), b"BIN\0") + data)
-
-
-def _bounds(vertices: NDArray[np.float32]) -> dict[str, list[float]]:
-    return {"min": vertices.min(axis=0).tolist(), "max": vertices.max(axis=0).tolist()}
+    indices = buffer.add(faces.astype(np.uint32))
+    materials = [{"pbrMetallicRoughness": {"metallicFactor": 0.0}}]
+    primitive = {"attributes": attributes, "indices": indices, "material": 0}
+    return buffer.packed([primitive], materials=materials)
 
 
 def _normals(vertices: NDArray[np.float32], faces: NDArray[np.uint32]) -> NDArray[np.float32]:

@@ -6,8 +6,9 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, U8, Glb, Mesh, Models
+from webviz.data.gltf import pack
 from webviz.edges.scene.drawn import Props, SingleNode, finite, finite_rows
-from webviz.edges.scene.glb import matte, pack
+from webviz.edges.scene.glb import matte
 
 COLORFUL = "toon5"
 """viser's material of meshes with a colour for each vertex, of which only the name is left."""
