@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,11 +26,11 @@ from webviz.api.nodes import (
     Shape,
     Solid,
 )
+from webviz.data.gltf import unpack
 from webviz.data.rotations import matrices
 
 F64 = NDArray[np.float64]
 
-_GLB_HEADER, _CHUNK_HEADER = 12, 8
 _DEEPEST = 64
 _CORNERS = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, 8).T
 
@@ -102,9 +100,7 @@ def _of_models(node: Models) -> Extents:
 
 
 def _of_model(data: bytes) -> Extents:
-    (length,) = struct.unpack_from("<I", data, _GLB_HEADER)
-    start = _GLB_HEADER + _CHUNK_HEADER
-    document = msgspec.json.decode(data[start : start + length])
+    document, _ = unpack(data)
     scene = document.get("scenes", [{}])[document.get("scene", 0)]
     corners = list(_corners(document, scene.get("nodes", []), np.eye(4), 0))
     return np.concatenate(corners) if corners else np.zeros((0, 3)), 0.0

@@ -175,20 +175,9 @@ class ToolContext:
         """
         parts = interfaces.service(type, definition)
 
-        def finish(response: Future[bytes]) -> None:
-            try:
-                message = decode(parts.response, response.result())
-                if answered is None:
-                    self.ok(f"{service} responded.")
-                else:
-                    answered(message)
-            except CancelledError:
-                self.error("The viewer has ended.")
-            except Exception as error:  # of the service, or of a plug-in
-                self.error(str(error) or f"{service}: {builtins.type(error).__name__}.")
-
+        take = answered or (lambda _: self.ok(f"{service} responded."))
         sent = self._call(service, type, encode(parts.request, request), timeout_s)
-        sent.add_done_callback(finish)
+        sent.add_done_callback(taker(service, parts.response, take, self.error))
 
     def send_goal(
         self,
@@ -258,6 +247,29 @@ class ToolContext:
     def error(self, text: str) -> None:
         """Report an error, with its remedy."""
         self._report(Status(Level.ERROR, text))
+
+
+def taker(
+    service: str, type: str, answered: Callable[[Any], object], failed: Callable[[str], object]
+) -> Callable[[Future[bytes]], None]:
+    """What takes the response of a service when it is there.
+
+    Args:
+        service: its name.
+        type: of its response.
+        answered: called with the response.
+        failed: called with a sentence if there is none, or `answered` raises.
+    """
+
+    def take(response: Future[bytes]) -> None:
+        try:
+            answered(decode(type, response.result()))
+        except CancelledError:
+            failed("The viewer has ended.")
+        except Exception as error:  # of the service, its message, or a plug-in
+            failed(str(error) or f"{service}: {builtins.type(error).__name__}.")
+
+    return take
 
 
 class Tool(Declared, kw_only=True):

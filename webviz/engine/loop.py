@@ -125,7 +125,7 @@ class FrameLoop:
         files = self._files = FilesPart(
             core, displays, settings, views, tools.list, panels.list, config, path
         )
-        history = HistoryPart(core, displays, settings, views, tools.list, panels.list, files)
+        history = HistoryPart(core, files)
         all_parts = [
             transforms,
             self._time,

@@ -62,11 +62,11 @@ class FilesPart(Part):
         path: Path | None = None,
     ) -> None:
         super().__init__(core)
-        self._displays = displays
-        self._settings = settings
-        self._views = views
-        self._tools = tools
-        self._panels = panels
+        self.displays = displays
+        self.settings = settings
+        self.views = views
+        self.tools = tools
+        self.panels = panels
         self._path: Path | None = None
         self._folder = path.absolute().parent if path else Path.cwd()
         self._report: list[str] = []
@@ -93,9 +93,9 @@ class FilesPart(Part):
 
     def config(self) -> Config:
         """The current config: a snapshot, for any thread."""
-        displays, tools, panels = self._displays.list, self._tools, self._panels
+        displays, tools, panels = self.displays.list, self.tools, self.panels
         return Config(
-            self._settings.settings,
+            self.settings.settings,
             displays.items(),
             tools.items(),
             panels.items(),
@@ -164,7 +164,7 @@ class FilesPart(Part):
 
         def then(config: Config) -> str:
             self._show(config, wanted)
-            self._views.open(config.settings.view)
+            self.views.open(config.settings.view)
             return f"Opened {wanted.name}."
 
         return Job(work, then)
@@ -177,7 +177,7 @@ class FilesPart(Part):
             self._show(config, None)
             self._is_changed = True
             self._saved = {}
-            self._views.open(config.settings.view)
+            self.views.open(config.settings.view)
             return f"Opened {name} (not yet saved on this machine)."
 
         return Job(lambda: opening.parse(text, name), then)
@@ -210,15 +210,15 @@ class FilesPart(Part):
         return Job(lambda: opening.text_of(config, command.name), then)
 
     def _write_displays(self, command: WriteDisplays, sender: Sender) -> Job[str]:
-        items = self._displays.list.written(command.displays)
+        items = self.displays.list.written(command.displays)
         return Job(lambda: config_file.dump_displays(items), lambda text: text)
 
     def _show(self, config: Config, path: Path | None) -> None:
-        self._displays.list.clear()
-        self._displays.list.add(config.displays)
-        self._settings.settings = config.settings
-        self._tools.show(config.tools)
-        self._panels.show(config.panels)
+        self.displays.list.clear()
+        self.displays.list.add(config.displays)
+        self.settings.settings = config.settings
+        self.tools.show(config.tools)
+        self.panels.show(config.panels)
         self._path = path
         self._report = config.report
         self._templates = config.templates

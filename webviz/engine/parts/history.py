@@ -7,16 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from webviz.api.panel import Panel
-from webviz.api.tool import Tool
 from webviz.engine.commands import Command, Redo, Sender, Undo
-from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.parts.plugin_list import PluginList
-from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Difference, Moment, difference
-from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import Step, UndoHistory
 from webviz.files.config import ConfigError
@@ -41,27 +35,13 @@ class HistoryPart(Part):
 
     Args:
         core: what all parts share.
-        displays, settings, views, tools, panels, files: what is brought back.
+        files: has what is brought back.
     """
 
     name = "History"
 
-    def __init__(
-        self,
-        core: Core,
-        displays: DisplaysPart,
-        settings: SettingsPart,
-        views: ViewsPart,
-        tools: PluginList[Tool],
-        panels: PluginList[Panel],
-        files: FilesPart,
-    ) -> None:
+    def __init__(self, core: Core, files: FilesPart) -> None:
         super().__init__(core)
-        self._displays = displays
-        self._settings = settings
-        self._views = views
-        self._tools = tools
-        self._panels = panels
         self._files = files
         self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._redo: list[_Done] = []
@@ -154,19 +134,20 @@ class HistoryPart(Part):
         )
 
     def _moment(self) -> Moment:
-        before = self._now
+        before, files = self._now, self._files
         return Moment(
-            self._settings.settings,
-            self._displays.list.kept(before.displays),
-            self._tools.kept(before.tools),
-            self._panels.kept(before.panels),
-            self._files.origin(),
+            files.settings.settings,
+            files.displays.list.kept(before.displays),
+            files.tools.kept(before.tools),
+            files.panels.kept(before.panels),
+            files.origin(),
         )
 
     def _show(self, moment: Moment) -> None:
-        self._displays.list.restore(moment.displays)
-        self._tools.restore(moment.tools)
-        self._panels.restore(moment.panels)
-        self._settings.settings = moment.settings
-        self._views.start_with(moment.settings.view)
-        self._files.set_origin(moment.origin)
+        files = self._files
+        files.displays.list.restore(moment.displays)
+        files.tools.restore(moment.tools)
+        files.panels.restore(moment.panels)
+        files.settings.settings = moment.settings
+        files.views.start_with(moment.settings.view)
+        files.set_origin(moment.origin)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
-from concurrent.futures import CancelledError, Future
 from typing import Any
 
 import msgspec
@@ -13,6 +12,7 @@ from webviz.api.declared import Topic, make
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types, type_name
 from webviz.api.status import Status
+from webviz.api.tool import taker
 from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.engine.commands import (
     AddPanel,
@@ -148,18 +148,8 @@ class PanelsPart(Part):
         except ValueError as error:  # the name, the type or a value
             raise ConfigError(f"Not called: {error}") from error
 
-        def finish(response: Future[bytes]) -> None:
-            try:
-                answer = decode(parts.response, response.result())
-            except CancelledError:
-                command.failed("The viewer has ended.")
-            except Exception as error:  # of the service or its message
-                command.failed(str(error) or f"{name}: {type(error).__name__}.")
-            else:
-                command.answered(answer)
-
         sent = self.core.gate.call(name, command.type, request, command.timeout_s)
-        sent.add_done_callback(finish)
+        sent.add_done_callback(taker(name, parts.response, command.answered, command.failed))
 
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
