@@ -6,14 +6,13 @@ import math
 import signal
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from program import Program
-from side import Side
+from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
@@ -28,13 +27,13 @@ from rclpy.node import Node
 
 # Seen from straight above, with colours that tell the displays apart.
 CONFIG = """\
-fixed_frame: {fixed_frame}
-view: {{distance: 9.0, yaw: -1.570796, pitch: 1.5697}}
+fixed_frame: map
+view: {distance: 9.0, yaw: -1.570796, pitch: 1.5697}
 displays:
-- {{type: Map, alpha: 1.0}}
-- {{type: Axes, reference_frame: base_link, length: 0.01, radius: 0.001}}
-- {{type: RobotModel}}
-- {{type: LaserScan, size: 0.04, color_transformer: FlatColor, color: [255, 0, 255]}}
+- {type: Map, alpha: 1.0}
+- {type: Axes, reference_frame: base_link, length: 0.01, radius: 0.001}
+- {type: RobotModel}
+- {type: LaserScan, size: 0.04, color_transformer: FlatColor, color: [255, 0, 255]}
 """
 SPEED, SECONDS = 0.4, 2.5
 
@@ -150,20 +149,32 @@ def simulator(start: Callable[..., Program]) -> Program:
     return start("webviz_sim", "--ros-args", "-p", "tour:=false", "-p", pose)
 
 
-@contextmanager
-def viewer(start: Callable, folder: Path, fixed_frame: str) -> Iterator[str]:
-    config = folder / "top.yaml"
-    config.write_text(CONFIG.format(fixed_frame=fixed_frame))
+@pytest.fixture(scope="module")
+def page(
+    simulator: Program,
+    start: Callable[..., Program],
+    browser: playwright.Browser,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Iterator[Page]:
+    """A page that draws only when it is looked at: a graphics card in software is slow."""
+    config = tmp_path_factory.mktemp("config") / "top.yaml"
+    config.write_text(CONFIG)
     program = start("webviz", "-d", str(config), "--port", "0")
-    yield program.url()
+    page = Page(browser, program.url(), 900, 500)
+    page.hold()
+    yield page
+    assert page.errors == []
+    page.close()
     assert program.end() == 0, program.output()
 
 
-def opened(open_page: Callable[..., Page], url: str) -> Page:
-    """A page that draws only when it is looked at: a graphics card in software is slow."""
-    page = open_page(url)
-    page.hold()
-    return page
+def choose_fixed_frame(page: Page, frame: str) -> None:
+    side = Side(page)
+    side.select(GLOBAL_OPTIONS)
+    field = side.field("fixed_frame")
+    field.fill(frame)
+    field.press("Enter")
+    side.wait_for("Fixed Frame: OK")
 
 
 def settled(page: Page) -> Seen:
@@ -218,30 +229,26 @@ def check_drive_in_base(page: Page, driver: Driver) -> None:
 
 
 def test_robot_and_scan_move_by_the_commanded_amount_and_the_map_stands(
-    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
+    page: Page, driver: Driver
 ) -> None:
-    with viewer(start, tmp_path, "map") as url:
-        check_drive_in_map(opened(open_page, url), driver)
+    check_drive_in_map(page, driver)
 
 
-def test_seen_from_the_robot_the_map_moves(
-    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
-) -> None:
-    with viewer(start, tmp_path, "base_link") as url:
-        check_drive_in_base(opened(open_page, url), driver)
+def test_seen_from_the_robot_the_map_moves(page: Page, driver: Driver) -> None:
+    choose_fixed_frame(page, "base_link")
+    check_drive_in_base(page, driver)
 
 
 def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
-    simulator: Program, start: Callable, open_page: Callable, driver: Driver, tmp_path: Path
+    page: Page, simulator: Program, driver: Driver
 ) -> None:
-    with viewer(start, tmp_path, "map") as url:
-        page = opened(open_page, url)
-        settled(page)
-        side = Side(page)
-        side.select("LaserScan")
-        side.wait_for("from /sim (best effort, volatile)")
-        simulator.end(signal.SIGKILL)
-        side.wait_for("No publisher on /scan any more")
-        driver.patience_s = 2.0
-        with pytest.raises(AssertionError, match="no /odom"):
-            check_drive_in_map(page, driver)
+    choose_fixed_frame(page, "map")
+    settled(page)
+    side = Side(page)
+    side.select("LaserScan")
+    side.wait_for("from /sim (best effort, volatile)")
+    simulator.end(signal.SIGKILL)
+    side.wait_for("No publisher on /scan any more")
+    driver.patience_s = 2.0
+    with pytest.raises(AssertionError, match="no /odom"):
+        check_drive_in_map(page, driver)
