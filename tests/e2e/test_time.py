@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from program import Program
 from side import GLOBAL_OPTIONS, Side
@@ -52,26 +52,45 @@ def make_robot(ros_env: dict[str, str]) -> Iterator[Callable[..., Robot]]:
         robot.close()
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def view(
-    start: Callable[..., Program], open_page: Callable[..., Page], tmp_path: Path
+    start: Callable[..., Program],
+    browser: playwright.Browser,
+    tmp_path_factory: pytest.TempPathFactory,
 ) -> Iterator[Callable[..., Page]]:
     """Starts a viewer with ROS arguments and opens its page."""
     programs: list[Program] = []
+    pages: list[Page] = []
 
     def view(*ros: str) -> Page:
-        config = tmp_path / "time.yaml"
+        config = tmp_path_factory.mktemp("config") / "time.yaml"
         config.write_text(CONFIG)
         programs.append(start("webviz", "-d", str(config), "--port", "0", *ros))
-        page = open_page(programs[-1].url())
-        page.hold()
-        Side(page).select(GLOBAL_OPTIONS)
-        return page
+        pages.append(Page(browser, programs[-1].url(), 900, 500))
+        pages[-1].hold()
+        Side(pages[-1]).select(GLOBAL_OPTIONS)
+        return pages[-1]
 
     yield view
-    for program in programs:
+    assert [page.errors for page in pages] == [[]] * len(pages)
+    for page, program in zip(pages, programs, strict=True):
+        page.close()
         assert program.end() == 0, program.output()
         assert "Traceback" not in program.output()
+
+
+@pytest.fixture(scope="module")
+def lasting(view: Callable[..., Page]) -> Page:
+    """The page of all tests whose viewer goes by the computer's clock."""
+    return view()
+
+
+@pytest.fixture
+def page(lasting: Page) -> Page:
+    """The page of a viewer that has heard nothing yet."""
+    lasting.tab.get_by_role("button", name="Reset", exact=True).click()
+    Side(lasting).select(GLOBAL_OPTIONS)
+    return lasting
 
 
 class Bag:
@@ -149,9 +168,8 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
 
 
 def test_a_bag_that_loops_without_a_clock_is_reset_by_itself(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
+    make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    page = view()
     bag = Bag(make_robot("player"), 1_700_000_000, with_clock=False)
     page.wait_for(lambda: has_map(page), "the map")
     bag.play(0.0, 4.0, 2.0)
@@ -166,9 +184,8 @@ def test_a_bag_that_loops_without_a_clock_is_reset_by_itself(
 
 
 def test_a_machine_whose_clock_is_two_seconds_ahead_is_named_until_it_is_set_right(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
+    make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    page = view()
     robot, camera = make_robot("base"), make_robot("camera")
     robot.links = {("map", "base_link"): 0.0}
     camera.links = {("base_link", "camera"): 2.0}
@@ -182,9 +199,8 @@ def test_a_machine_whose_clock_is_two_seconds_ahead_is_named_until_it_is_set_rig
 
 
 def test_two_static_publishers_of_one_frame_are_reported_with_both_parents_and_their_nodes(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
+    make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    page = view()
     first, second = make_robot("first"), make_robot("second")
     first.links = {("map", "base_link"): 0.0, ("map", "mast"): 0.0}
     first.static("base_link", "laser")
@@ -197,9 +213,8 @@ def test_two_static_publishers_of_one_frame_are_reported_with_both_parents_and_t
 
 
 def test_a_static_publisher_that_restarts_with_another_pose_is_followed_without_a_word(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
+    make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    page = view()
     first = make_robot("mount")
     first.static("map", "laser", 1.0)
     wait_for(page, "Fixed Frame: OK")
@@ -216,9 +231,8 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_followed_without_
 
 
 def test_two_moving_publishers_with_different_parents_are_reported_until_one_stops(
-    make_robot: Callable[..., Robot], view: Callable[..., Page]
+    make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    page = view()
     first, second = make_robot("amcl"), make_robot("slam")
     first.links = {("map", "odom"): 0.0}
     second.links = {("world", "odom"): 0.0}

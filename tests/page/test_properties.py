@@ -199,7 +199,7 @@ def test_what_means_nothing_is_not_sent(pane: Pane, path: str, text: str, reason
 
 
 def test_a_text_without_end_is_refused(pane: Pane) -> None:
-    pane.field("channel").evaluate("(field) => { field.value = 'x'.repeat(10_000_000) }")
+    pane.field("channel").evaluate("(field) => { field.value = 'x'.repeat(1_000_000) }")
     pane.field("channel").press("End")
     pane.keyboard.type("x")
     pane.keyboard.press("Enter")
