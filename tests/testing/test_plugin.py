@@ -38,11 +38,20 @@ def package(pytester: pytest.Pytester) -> pytest.Pytester:
     return pytester
 
 
+@pytest.fixture(autouse=True)
+def other_plugins(monkeypatch: pytest.MonkeyPatch) -> None:
+    """None: to import hypothesis takes longer than most of these runs."""
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+
+
 def run(package: pytest.Pytester, *arguments: str) -> pytest.RunResult:
-    return package.runpytest_subprocess("-p", "no:cacheprovider", *arguments, timeout=120)
+    options = ("-p", "no:cacheprovider", "-p", "webviz")
+    return package.runpytest_subprocess(*options, *arguments, timeout=120)
 
 
-def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) -> None:
+def test_pictures_are_made_pass_fail_and_are_masked(
+    package: pytest.Pytester,
+) -> None:
     result = run(package)
     result.assert_outcomes(failed=2)
     result.stdout.fnmatch_lines(
@@ -54,13 +63,15 @@ def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) ->
     pictures = package.path / "test/pictures"
     assert sorted(path.name for path in pictures.iterdir()) == ["axes.png", "masked.png"]
 
+    pictures.rename(package.path / "reference")
+    package.makeini("[pytest]\nwebviz_pictures = reference\n")
     config = package.path / "test/robot.yaml"
     config.write_text(CONFIG.replace("length: 2.0", "length: 1.0"))
     result = run(package)
     result.assert_outcomes(failed=1, passed=1)
     result.stdout.fnmatch_lines(
         [
-            "E *AssertionError: * % of the picture differ from test/pictures/axes.png. See "
+            "E *AssertionError: * % of the picture differ from reference/axes.png. See "
             "picture_output/axes.png and picture_output/axes.difference.png.*"
         ]
     )
@@ -68,12 +79,6 @@ def test_pictures_are_made_pass_fail_and_are_masked(package: pytest.Pytester) ->
     assert made == ["axes.difference.png", "axes.png"]
     # The message stands below the line of the test that asked, without the inside of webviz.
     assert "webviz/testing" not in result.stdout.str()
-
-
-def test_the_folders_can_be_chosen(package: pytest.Pytester) -> None:
-    package.makeini("[pytest]\nwebviz_pictures = reference\nwebviz_output = out\n")
-    run(package, "--update-pictures", "-k", "masked").assert_outcomes(passed=1, deselected=1)
-    assert (package.path / "reference/masked.png").exists()
 
 
 def test_without_a_browser_scenes_are_read_and_failures_are_one_sentence(
@@ -115,6 +120,7 @@ def test_who_does_not_use_it_does_not_pay_for_it(tmp_path: Path) -> None:
         "    assert 'webviz.shell.pytest_plugin' in sys.modules\n"
         "    assert heavy & sys.modules.keys() == set()\n"
     )
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)]
+    options = ["-q", "-p", "no:cacheprovider", "-p", "webviz"]
+    command = [sys.executable, "-m", "pytest", *options, str(tmp_path)]
     finished = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert finished.returncode == 0, finished.stdout
