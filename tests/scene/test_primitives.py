@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
 import struct
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import PIL.Image
 import playwright.sync_api as playwright
 import pytest
 
@@ -31,6 +33,7 @@ from webviz.edges.scene import set_background
 from webviz.edges.scene.holding import FEWEST_POINTS
 from webviz.edges.scene.points import PART
 from webviz.edges.scene.server import BACKGROUND
+from webviz_urdf.glb import MeshPart, Surface, write_glb
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
@@ -296,6 +299,24 @@ def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
         view.show()
         seen.append([view.color_at(tuple(each[0].tolist())) for each in at.values()])
     assert seen == [[RED, RED], [GREEN, GREEN]]
+
+
+def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> None:
+    file = io.BytesIO()
+    PIL.Image.new("RGB", (4, 4), COLOR).save(file, "PNG")
+    corners, faces = square(1.0)
+    count = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.memory.textures"
+    before = view.evaluate(count)
+    for x in (-1.0, 0.0, 1.0):
+        look = Surface(texture=file.getvalue())
+        part = MeshPart(corners + floats(x, 0, 0), faces, look, uvs=corners[:, :2])
+        view.scene.upsert("g", f"at {x}", Glb(write_glb([part])))
+    view.show()
+    view.settle()
+    view.draw()
+    for x in (-1.0, 0.0, 1.0):
+        assert view.color_at((x, 0.0, 0.0)) == pytest.approx(COLOR, abs=2)
+    assert view.evaluate(count) == before + 1
 
 
 def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:

@@ -17,6 +17,7 @@ import * as pieces from "./scene/pieces.js";
 import * as saveImage from "./scene/save_image.js";
 import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
+import * as textures from "./scene/textures.js";
 import * as tiles from "./scene/tiles.js";
 import * as toolbar from "./shell/toolbar.js";
 import * as view from "./scene/view.js";
@@ -26,8 +27,8 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const early = [shell, page, inStep, tiles, labels, lines, shade, colors, contact, whole, pieces];
-  for (const part of early) part.install();
+  const ofScene = [textures, tiles, labels, lines, shade, colors, whole, pieces];
+  for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
   toolbar.install(shell.places);

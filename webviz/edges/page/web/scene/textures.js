@@ -1,0 +1,59 @@
+// Textures of models: equal ones are decoded once, and are once in the graphics card.
+//
+// The parts of a robot often have the same pictures, and each model brings its own.
+
+import * as viser from "../viser_page.js";
+
+const SEED = 0x811c9dc5;
+const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a has them by bytes
+
+const decoded = new Map(); // promises of weak references to pictures, by their content
+const gone = new FinalizationRegistry((content) => decoded.delete(content));
+const sources = new WeakMap(); // by picture, what three.js uploads
+const shared = new WeakSet(); // materials
+let isShared = false;
+
+export function install() {
+  const decode = window.createImageBitmap.bind(window);
+  window.createImageBitmap = (image, ...rest) => {
+    const isOfModel = image instanceof Blob && rest[0]?.premultiplyAlpha === "none"; // by three.js
+    return isOfModel ? once(image, rest[0], decode) : decode(image, ...rest);
+  };
+  viser.beforeEveryRender((gl, scene) => isShared && scene.traverse(share));
+}
+
+async function once(image, options, decode) {
+  const content = `${await hash(image)} ${image.type} ${JSON.stringify(options)}`;
+  const known = (await decoded.get(content))?.deref();
+  isShared ||= Boolean(known);
+  if (known) return known;
+  const made = decode(image, options);
+  const kept = made.then((bitmap) => new WeakRef(bitmap)).catch(() => decoded.delete(content));
+  decoded.set(content, kept);
+  const bitmap = await made;
+  gone.register(bitmap, content);
+  return bitmap;
+}
+
+async function hash(image) {
+  const bytes = await image.arrayBuffer();
+  const words = new Uint32Array(bytes, 0, bytes.byteLength >> 2);
+  let [a, b] = [SEED, SEED];
+  for (const word of words) {
+    a = Math.imul(a ^ word, PRIMES[0]);
+    b = Math.imul(b ^ word, PRIMES[1]);
+  }
+  return [bytes.byteLength, a, b].join();
+}
+
+// Textures of one picture have one source, which three.js uploads once.
+function share({ material }) {
+  if (!material || shared.has(material)) return;
+  shared.add(material);
+  for (const texture of Object.values(material)) {
+    const picture = texture?.isTexture && texture.image;
+    if (!(picture instanceof ImageBitmap)) continue;
+    if (!sources.has(picture)) sources.set(picture, texture.source);
+    texture.source = sources.get(picture);
+  }
+}
