@@ -94,6 +94,18 @@ def test_opacity_of_all_or_of_each_shows_what_is_behind(view: Any) -> None:
     assert view.color_at((1.0, 0.0, 0.0))[0] > 230
 
 
+def test_solids_that_fade_leave_nothing_in_the_graphics_card(view: Any) -> None:
+    memory = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.memory.geometries"
+    counts = []
+    for opacity in (0.9, 0.8, 0.7, 0.6, 0.5):
+        each = np.full(1, opacity, np.float32)
+        view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, COLOR, "box", opacity=each))
+        view.show()
+        view.draw()
+        counts.append(view.evaluate(memory))
+    assert counts[-1] == counts[0]
+
+
 def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(view: Any) -> None:
     places = floats((0, 0, np.nan), (1, 0, 0))
     colors = np.array((RED, GREEN), np.uint8)

@@ -1,5 +1,6 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
+import * as batches from "./scene/batches.js";
 import * as blocks from "./scene/blocks.js";
 import * as channel from "./channel.js";
 import * as colors from "./scene/colors.js";
@@ -27,7 +28,7 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const ofScene = [textures, tiles, labels, lines, shade, colors, whole, pieces];
+  const ofScene = [batches, textures, tiles, labels, lines, shade, colors, whole, pieces];
   for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();

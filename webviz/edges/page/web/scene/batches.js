@@ -1,0 +1,16 @@
+// Frees what batches that are gone have in the graphics card.
+//
+// viser makes a new batch for each change of its opacities, and frees the old one before it is drawn
+// for the last time, which has it uploaded again.
+
+import * as viser from "../viser_page.js";
+
+export function install() {
+  let before = new Set();
+  viser.afterRender(() => {
+    const drawn = new Set();
+    viser.scene().traverse((object) => object.isInstancedMesh2 && drawn.add(object));
+    for (const batch of before) if (!drawn.has(batch)) batch.geometry.dispose();
+    before = drawn;
+  });
+}
