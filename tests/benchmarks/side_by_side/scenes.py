@@ -181,6 +181,7 @@ EVERYTHING = "".join(
     ]
 )
 ARRAY = "- {type: MarkerArray, topic: /markers}\n"
+HELD_POINTS = "- {type: PointCloud2}\n"
 ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
 
 SCENES = {
@@ -199,6 +200,9 @@ SCENES = {
         Scene("E100k", "100 000 points, 10 Hz", _cloud(100_000, 10), ALL_POINTS),
         Scene("E1M3", "1 000 000 points, 3 Hz", _cloud(1_000_000, 3), ALL_POINTS),
         Scene("E1M10", "1 000 000 points, 10 Hz", _cloud(1_000_000, 10), ALL_POINTS),
+        Scene("E5M1", "5 000 000 points, 1 Hz", _cloud(5_000_000, 1), ALL_POINTS),
+        Scene("held1M3", "1 000 000 points, 3 Hz, as held", _cloud(1_000_000, 3), HELD_POINTS),
+        Scene("held5M1", "5 000 000 points, 1 Hz, as held", _cloud(5_000_000, 1), HELD_POINTS),
         Scene(
             "E300k",
             "1 000 000 points, 10 Hz; webviz shows 300 000",

@@ -9,7 +9,6 @@ told otherwise), so that a viewer can go back in time; that is what it is for.
 
 from __future__ import annotations
 
-import socket
 import sys
 import threading
 from typing import Any
@@ -21,6 +20,7 @@ from rclpy.node import Node
 
 from side_by_side.rerun_wire import timeline_value
 from side_by_side.systems.arguments import LATCHED, parsed
+from side_by_side.systems.ports import free_port
 from side_by_side.systems.shades import picture, rainbow
 from side_by_side.systems.typed import subscribe
 
@@ -153,12 +153,6 @@ def at(header: Any) -> None:
     stamp_ns = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
     rr.set_time("ros", timestamp=np.datetime64(stamp_ns, "ns"))
     rr.set_time("publication", sequence=timeline_value(stamp_ns))
-
-
-def free_port() -> int:
-    """Rerun wants to be told one."""
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        return listener.getsockname()[1]
 
 
 def main(*topics: str) -> None:
