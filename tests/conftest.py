@@ -14,9 +14,11 @@ from hypothesis import settings
 
 from webviz.shell.pictures.browser import PATIENCE_S, NoBrowser, launched
 
-# An example is not wrong because the machine was busy.
-settings.register_profile("untimed", deadline=None)
-settings.load_profile("untimed")
+# An example is not wrong because the machine was busy, and what fails must fail for everybody. New
+# examples are looked for with --hypothesis-profile=explore.
+settings.register_profile("explore", deadline=None, max_examples=1000)
+settings.register_profile("same", deadline=None, derandomize=True)
+settings.load_profile("same")
 
 EXPECTED = (
     "WebSocket connection to",
