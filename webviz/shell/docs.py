@@ -25,6 +25,7 @@ from webviz.api.properties import FIRST, Property, properties_of, value_at
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
 from webviz.files.rviz import docs as rviz
+from webviz.files.rviz.docs import table
 from webviz.shell.cli import schema
 
 ROOT = Path(__file__).parents[2]
@@ -288,12 +289,6 @@ def topic_fields() -> list[inspect.Field]:
     info = inspect.type_info(Topic)
     assert isinstance(info, inspect.StructType)
     return [field for field in info.fields if field.name != "name"]
-
-
-def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
-    """Lines of a Markdown table."""
-    lines = [head, ("---",) * len(head), *rows]
-    return [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines]
 
 
 def write_small_pictures() -> None:

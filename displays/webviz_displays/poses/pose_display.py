@@ -91,17 +91,8 @@ class PoseDisplay(Display):
         )
 
     def _look(self) -> PoseShape:
-        return PoseShape(
-            value=self.shape,
-            color=self.color,
-            alpha=self.alpha,
-            shaft_length=self.shaft_length,
-            shaft_radius=self.shaft_radius,
-            head_length=self.head_length,
-            head_radius=self.head_radius,
-            axes_length=self.axes_length,
-            axes_radius=self.axes_radius,
-        )
+        _, *names = PoseShape.__struct_fields__
+        return PoseShape(value=self.shape, **{name: getattr(self, name) for name in names})
 
 
 def placed(pose: messages.Pose) -> Pose:

@@ -8,7 +8,7 @@ import re
 import secrets
 from collections.abc import Iterable
 from datetime import datetime, timedelta
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import msgspec
 
@@ -24,6 +24,8 @@ MAX_NAME = 40
 SECRET = re.compile(rf"[A-Za-z0-9_-]{{{MIN_CHARACTERS},{MAX_CHARACTERS}}}")
 NAME = rf"^[\w.@+-](?:[\w .@+-]{{0,{MAX_NAME - 2}}}[\w.@+-])?\Z"
 """Letters, digits and some signs; no control characters, since logs show it."""
+
+RoleName = Literal["watcher", "operator", "owner"]
 
 _PURPOSE = b"webviz cookie"
 
@@ -44,7 +46,7 @@ class Token(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     name: Annotated[str, msgspec.Meta(pattern=NAME)]
-    role: Literal["watcher", "operator", "owner"]
+    role: RoleName
     secret: Annotated[str, msgspec.Meta(pattern=rf"^{SECRET.pattern}\Z")]
     made: Annotated[datetime, msgspec.Meta(tz=True)]
     expires: Annotated[datetime, msgspec.Meta(tz=True)] | None = None
@@ -87,14 +89,9 @@ def make(name: str, role: Role, now: datetime, days: float | None = None) -> Tok
     return Token(name, role_name(role), secrets.token_urlsafe(SECRET_BYTES), now, expires)
 
 
-def role_name(role: Role) -> Literal["watcher", "operator", "owner"]:
+def role_name(role: Role) -> RoleName:
     """The role as tokens have it."""
-    names: dict[Role, Literal["watcher", "operator", "owner"]] = {
-        Role.WATCHER: "watcher",
-        Role.OPERATOR: "operator",
-        Role.OWNER: "owner",
-    }
-    return names[role]
+    return cast(RoleName, role.label)
 
 
 def role_of(token: Token) -> Role:

@@ -175,28 +175,16 @@ class SaveImage(ToPage, frozen=True):
     name: str
 
 
-class ToolButton(msgspec.Struct, frozen=True):
-    """A button of the toolbar; see `webviz.engine.state.ToolButton`."""
-
-    id: str
-    name: str
-    tooltip: str
-    shortcut: str
-    gesture: str
-    icon: str
-    surface: bool
-    stays: bool
-    asks: bool
-    refusal: str
-    several: tuple[str, ...]
-
-
 class Tools(ToPage, frozen=True):
-    """The toolbar, in order."""
+    """The toolbar, in order.
+
+    Args:
+        tools: fields of `webviz.engine.state.ToolButton`, but for `tool`.
+    """
 
     kept = True
 
-    tools: tuple[ToolButton, ...]
+    tools: tuple[dict[str, Any], ...]
 
 
 class Result(ToPage, frozen=True):

@@ -7,18 +7,21 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from dataclasses import fields
 from typing import Any
 
 import msgspec
 
 from webviz.api.status import Level, Status
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import Published, Result, StrokeDone, ToolButton, Tools
+from webviz.edges.page.messages import Published, Result, StrokeDone, Tools
 from webviz.engine.commands import Command, Sender, UseTool
-from webviz.engine.state import State
+from webviz.engine.state import State, ToolButton
 
 MOST = 20
 """Strokes of a browser within a second; people make one or two."""
+
+_SENT = [field.name for field in fields(ToolButton) if field.name != "tool"]
 
 
 class Toolbar:
@@ -49,7 +52,7 @@ class Toolbar:
 
     def update(self, state: State) -> None:
         """Show the tools of a viewer; sends only what is new."""
-        tools = Tools(msgspec.convert(state.tools, tuple[ToolButton, ...], from_attributes=True))
+        tools = Tools(tuple({name: getattr(each, name) for name in _SENT} for each in state.tools))
         if tools != self._shown:
             self._shown = tools
             self._channel.send(tools)

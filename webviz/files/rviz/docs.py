@@ -54,16 +54,17 @@ def page(paths: Iterable[Path]) -> str:
         whole.carried += report.carried
     kinds = list(next(iter(reports.values())).total) if reports else []
     lines = [INTRO, "## Carried over", "", f"Of {len(reports)} public files:", ""]
-    lines += _table(("file", *kinds), [_counts(name, r, kinds) for name, r in reports.items()])
-    lines.append(_row((*_counts("**all**", whole, kinds),)))
-    lines.append(_row(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds))))
+    rows = [_counts(name, report, kinds) for name, report in reports.items()]
+    rows.append(_counts("**all**", whole, kinds))
+    rows.append(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds)))
+    lines += table(("file", *kinds), rows)
     classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
     classes += [cls.rviz for cls in plugin_types(Tool).values() if cls.rviz]
     lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:
         rows = [(f"`{cls}`", str(count)) for cls, count in sorted(missing.items())]
-        lines += [*_table(("unsupported display", "count"), rows), ""]
+        lines += [*table(("unsupported display", "count"), rows), ""]
     return "\n".join([*lines, f"Written by {COMMAND}.", ""])
 
 
@@ -71,9 +72,7 @@ def _counts(name: str, report: Report, kinds: Sequence[str]) -> tuple[str, ...]:
     return name, *(f"{report.carried[kind]} of {report.total[kind]}" for kind in kinds)
 
 
-def _table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str]:
-    return [_row(head), _row(("---",) * len(head)), *map(_row, rows)]
-
-
-def _row(cells: tuple[str, ...]) -> str:
-    return f"| {' | '.join(cells)} |"
+def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str]:
+    """Lines of a Markdown table."""
+    lines = [head, ("---",) * len(head), *rows]
+    return [f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines]

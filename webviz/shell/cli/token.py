@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 from datetime import UTC, datetime
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import App, Parameter
 
@@ -12,7 +12,7 @@ from webviz.edges.access import token_file
 from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.token_file import Tokens
-from webviz.edges.access.tokens import Token, TokenError, make
+from webviz.edges.access.tokens import RoleName, Token, TokenError, make
 from webviz.files.config import nearest
 from webviz.shell.cli.links import lines_of, qr_code
 from webviz.shell.cli.options import Flag
@@ -31,7 +31,6 @@ A viewer that runs notices changes within two seconds.
 
 Url = Annotated[str, Parameter(metavar="URL", show_default=False)]
 Days = Annotated[float | None, Parameter(metavar="DAYS")]
-RoleName = Literal["watcher", "operator", "owner"]
 
 app = App("token", usage="Usage: webviz token COMMAND [OPTIONS]", help_epilogue=EXAMPLES)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -13,11 +13,11 @@ from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
-from webviz.edges.page.content.visibility import hidden_in
+from webviz.edges.page.content.visibility import enabled, hidden_in
 from webviz.engine.loop import FrameLoop
 from webviz.engine.sources import Source
 from webviz.engine.sources.bag import BagSource
-from webviz.engine.state import Row, State
+from webviz.engine.state import State
 from webviz.files.config import Config, nearest
 from webviz.shell.pictures.studio import Studio
 from webviz.shell.pictures.times import seconds_from_start
@@ -154,7 +154,9 @@ class OfflineViewer:
 
     def _statuses(self, state: State) -> dict[str, Status]:
         result: dict[str, Status] = {}
-        for row in _enabled(state.rows):
+        for row in enabled(state.rows):
+            if isinstance(row.display, DisplayGroup):
+                continue
             name, number = row.name, 2
             while name in result:
                 name, number = f"{row.name} ({number})", number + 1
@@ -173,13 +175,3 @@ def summary(statuses: Mapping[str, Status]) -> Status:
     level = max((status.level for status in statuses.values()), default=Level.OK)
     texts = [status.text for status in statuses.values() if status.level is level]
     return Status(level, "\n".join(texts))
-
-
-def _enabled(rows: Collection[Row]) -> Iterator[Row]:
-    hidden_below: int | None = None
-    for row in rows:
-        if hidden_below is not None and row.depth > hidden_below:
-            continue
-        hidden_below = None if row.enabled else row.depth
-        if row.enabled and not isinstance(row.display, DisplayGroup):
-            yield row

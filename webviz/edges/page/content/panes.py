@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.status import Level
 from webviz.edges.page.content.forms import brief, sendable
-from webviz.edges.page.content.visibility import hidden_in
+from webviz.edges.page.content.visibility import enabled, hidden_in
 from webviz.engine.state import Row, State
 
 
@@ -17,22 +17,11 @@ def panes(state: State, _: str) -> Mapping[str, Any]:
     Each has a "name", the first "problem" of the worst, and whether it "has_picture"; one that
     draws the scene, too, the ids of displays that are "hidden" in it.
     """
-    rows = list(_visible(state.rows))
+    rows = [row for row in enabled(state.rows) if row.display and type(row.display).has_pane]
     about = {row.id: _about(row) for row in rows}
     for display, ids in hidden_in(rows, state.rows).items():
         about[display]["hidden"] = ids
     return {"order": [row.id for row in rows], **about}
-
-
-def _visible(rows: tuple[Row, ...]) -> Iterator[Row]:
-    """Those with a pane that are on, and not in a group that is off."""
-    off: int | None = None
-    for row in rows:
-        if off is not None and row.depth > off:
-            continue
-        off = None if row.enabled else row.depth
-        if row.enabled and row.display is not None and type(row.display).has_pane:
-            yield row
 
 
 def _about(row: Row) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 from webviz.api.views import type_of
@@ -43,13 +44,7 @@ def frames(state: State, _: str) -> Mapping[str, Any]:
 
 def file(state: State, _: str) -> Mapping[str, Any]:
     """The config file."""
-    file = state.file
-    return {
-        "path": file.path,
-        "is_changed": file.is_changed,
-        "folder": file.folder,
-        "others": file.others,
-    }
+    return asdict(state.file)
 
 
 def graph(state: State, _: str) -> Mapping[str, Any]:

@@ -20,6 +20,16 @@ def paths(rows: tuple[Row, ...]) -> Iterator[tuple[Row, str]]:
         yield row, PATH.join(groups)
 
 
+def enabled(rows: Iterable[Row]) -> Iterator[Row]:
+    """Those that are on, and not in a group that is off."""
+    off: int | None = None
+    for row in rows:
+        if off is None or row.depth <= off:
+            off = None if row.enabled else row.depth
+            if row.enabled:
+                yield row
+
+
 def names(rows: tuple[Row, ...], own: Row) -> Mapping[str, str]:
     """The names of switches, and the type of each display; its own display has none."""
     found = {path: row.type for row, path in paths(rows) if row is not own}
