@@ -39,8 +39,7 @@ class Teleop(Tool):
     ] = "base_link"
     linear: Annotated[float, Prop(ge=0, le=50, unit="m/s", help="Highest speed ahead.")] = 0.5
     lateral: Annotated[
-        float,
-        Prop(ge=0, le=50, unit="m/s", help="Highest speed sideways; 0 if the robot cannot."),
+        float, Prop(ge=0, le=50, unit="m/s", help="Highest speed sideways; 0 if the robot cannot.")
     ] = 0.0
     angular: Annotated[float, Prop(ge=0, le=50, unit="rad/s", help="Highest turn rate.")] = 1.0
     acceleration: Annotated[float, Prop(gt=0, le=500, unit="m/s²", help="When speeding up.")] = 1.0

@@ -68,12 +68,7 @@ class Shown:
         self._groups: dict[str, Group] = {}
 
     def draw(
-        self,
-        marker: Tracked,
-        place: Place,
-        look: Look,
-        arrived: Set[LoadRequest],
-        ctx: Context,
+        self, marker: Tracked, place: Place, look: Look, arrived: Set[LoadRequest], ctx: Context
     ) -> None:
         """Add the groups to a context; `arrived` are files that were loaded since the last call."""
         if not arrived.isdisjoint(self.requests):

@@ -79,8 +79,7 @@ class Octomap:
         if pose is None:
             name = message.header.frame_id
             ctx.error(
-                "Octomap",
-                f"The frame '{name:.80}' is unknown. {ctx.frames.why_not(name[:80])}",
+                "Octomap", f"The frame '{name:.80}' is unknown. {ctx.frames.why_not(name[:80])}"
             )
             return
         choice = Choice(rendering, LEVELS, -FARTHEST, FARTHEST)

@@ -110,8 +110,7 @@ class Robots:
         before, self.loading = self.loading, {}
         if text is None:
             ctx.warn(
-                "URDF",
-                f"No robot description received on {topic}. Start robot_state_publisher.",
+                "URDF", f"No robot description received on {topic}. Start robot_state_publisher."
             )
             return None
         request = LoadRequest(text=text)

@@ -36,14 +36,7 @@ class Trail:
     _made: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = field(default_factory=dict)
 
     def draw(
-        self,
-        robots: Robots,
-        path: Path,
-        step: int,
-        last: int,
-        look: Look,
-        frame: str,
-        ctx: Context,
+        self, robots: Robots, path: Path, step: int, last: int, look: Look, frame: str, ctx: Context
     ) -> None:
         """Draw every `step`th state and the last one, as far as `last`.
 

@@ -163,8 +163,7 @@ def report_names(
     if strangers:
         names = listed([named(name) for name in strangers], NAMED)
         ctx.warn(
-            "Joints",
-            f"The robot has no joint {names}. Check that its URDF is that of the message.",
+            "Joints", f"The robot has no joint {names}. Check that its URDF is that of the message."
         )
     elif assumed:
         ctx.warn(

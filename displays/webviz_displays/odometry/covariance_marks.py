@@ -41,12 +41,7 @@ _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def draw_covariances(
-    look: Covariance,
-    newest: Sequence[F64],
-    poses: Trail,
-    group: Group,
-    ctx: Context,
-    ids: Ids,
+    look: Covariance, newest: Sequence[F64], poses: Trail, group: Group, ctx: Context, ids: Ids
 ) -> None:
     """Draw the covariances of the newest poses, if they are switched on, and report invalid ones.
 

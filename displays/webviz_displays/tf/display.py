@@ -10,18 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import (
-    Context,
-    Details,
-    Display,
-    FramePoses,
-    Group,
-    Hit,
-    Pose,
-    Prop,
-    Sample,
-    Status,
-)
+from webviz import Context, Details, Display, FramePoses, Group, Hit, Pose, Prop, Sample, Status
 from webviz.data.transforms import distinct
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade

@@ -28,8 +28,7 @@ class Wrench(VectorDisplay):
         float, Prop(gt=0, unit="m/N", help="Length of the shaft per N.")
     ] = 2.0
     torque_arrow_scale: Annotated[
-        float,
-        Prop(gt=0, unit="m/Nm", help="Length of the shaft per Nm."),
+        float, Prop(gt=0, unit="m/Nm", help="Length of the shaft per Nm.")
     ] = 2.0
     history_length: HistoryLength = 1
 

@@ -18,13 +18,7 @@ from webviz.api.views.placement import (
     camera_of,
     view_of,
 )
-from webviz.api.views.types import (
-    FPS,
-    Orbit,
-    ThirdPersonFollower,
-    TopDownOrtho,
-    View,
-)
+from webviz.api.views.types import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View
 from webviz.data.rotations import to_rpy
 
 NEAREST = 1e-3

@@ -8,12 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz.api.views.types import (
-    FPS,
-    Orbit,
-    TopDownOrtho,
-    View,
-)
+from webviz.api.views.types import FPS, Orbit, TopDownOrtho, View
 
 FIELD_OF_VIEW = math.pi / 4
 """Vertical, as in RViz (Ogre's default)."""

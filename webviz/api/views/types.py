@@ -25,11 +25,7 @@ Point = tuple[Length, Length, Length]
 
 
 class _View(
-    msgspec.Struct,
-    frozen=True,
-    kw_only=True,
-    forbid_unknown_fields=True,
-    tag_field="type",
+    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="type"
 ):
     target_frame: str = FIXED_FRAME
 

@@ -25,13 +25,7 @@ Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
 
 _ABSENT = object()
-_SEQUENCES = (
-    Sequence,
-    np.ndarray,
-    PoseSequence,
-    PoseStampedSequence,
-    JointTrajectoryPointSequence,
-)
+_SEQUENCES = (Sequence, np.ndarray, PoseSequence, PoseStampedSequence, JointTrajectoryPointSequence)
 _COUNT = Struct("<I").pack
 
 
