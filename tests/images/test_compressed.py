@@ -6,13 +6,20 @@ import contextlib
 import io
 import struct
 import zlib
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from webviz.data.images import ImageError, decode_depth, inspect_compressed
+from webviz.data.images import (
+    ImageError,
+    decode_depth,
+    inspect_compressed,
+    open_compressed,
+    read_png16,
+)
 
 DEPTHS = np.random.default_rng(4).integers(0, 4000, (48, 64)).astype(np.uint16)
 DEPTHS[10:20] = 0
@@ -91,6 +98,34 @@ def test_of_a_jpeg_with_more_pictures_behind_it_the_first_counts() -> None:
     assert (info.mime, info.width, info.height) == ("image/jpeg", 6, 4)
 
 
+@pytest.mark.parametrize("more", [{}, {"lossless": True}, {"exif": b"Exif\0\0"}])
+def test_each_kind_of_webp_has_its_size(more: dict[str, Any]) -> None:
+    file = io.BytesIO()
+    Image.new("RGB", (300, 7), "red").save(file, "WEBP", **more)
+    info = inspect_compressed("webp", np.frombuffer(file.getvalue(), np.uint8))
+    assert (info.width, info.height) == (300, 7)
+
+
+def test_odd_parts_of_a_png_do_not_matter() -> None:
+    """Pillow warns about them, and warnings are errors in tests."""
+    png = encoded(DEPTHS, "png").tobytes()
+    odd = b"acTL" + struct.pack(">II", 0, 0)
+    chunk = struct.pack(">I", 8) + odd + struct.pack(">I", zlib.crc32(odd))
+    data = np.frombuffer(png[:33] + chunk + png[33:], np.uint8)
+    assert inspect_compressed("png", data).is_16_bit
+    np.testing.assert_array_equal(read_png16(data), DEPTHS)
+
+
+def test_a_jpeg_is_not_decoded_at_another_size_than_it_has_in_front() -> None:
+    jpeg = encoded(np.zeros((20, 30, 3), np.uint8), "jpeg").tobytes()
+    at = jpeg.index(b"\xff\xc0")
+    huge = jpeg[at : at + 5] + struct.pack(">HH", 60_000, 60_000) + jpeg[at + 9 : at + 19]
+    data = np.frombuffer(jpeg[: at + 19] + huge + jpeg[at + 19 :], np.uint8)
+    assert inspect_compressed("jpeg", data).width == 30
+    with pytest.raises(ImageError, match="damaged"):
+        open_compressed(data)
+
+
 def test_what_publishers_say_of_the_pixels() -> None:
     grey16 = encoded(DEPTHS, "png")
     assert inspect_compressed("16UC1; png compressed ", grey16).is_16_bit
@@ -108,6 +143,11 @@ def test_what_publishers_say_of_the_pixels() -> None:
         ("16UC1; compressedDepth png", b"\x00" * 40, "This is a depth image"),
         ("tiff", encoded(np.zeros((2, 2, 3), np.uint8), "tiff").tobytes(), "cannot show TIFF"),
         ("png", bomb(65535), "million"),
+        ("png", bomb(0), "The PNG is damaged: its header has no size."),
+        ("png", bomb(9)[:20], "The PNG is damaged"),
+        ("jpeg", b"\xff\xd8" + b"\xff\xe0\0\2" * 10_000, "The JPEG is damaged"),
+        ("jpeg", b"\xff\xd8" + b"\xff" * 100_000, "The JPEG is damaged"),
+        ("webp", b"RIFF\0\0\0\0WEBPVP8X", "The WEBP is damaged"),
     ],
 )  # fmt: skip
 def test_what_browsers_cannot_show_is_named(format_: str, data: bytes, told: str) -> None:
@@ -169,7 +209,7 @@ def test_an_rvl_stream_of_empty_runs_is_refused_at_once() -> None:
 
 
 def test_a_depth_png_that_claims_too_many_pixels_is_not_decompressed() -> None:
-    with pytest.raises(ImageError, match="million pixels"):
+    with pytest.raises(ImageError, match="more than 67 million"):
         decode_depth("16UC1; compressedDepth png", depth_message(bomb(65535)))
 
 

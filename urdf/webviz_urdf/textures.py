@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import io
-import warnings
 from pathlib import Path
 
 from PIL import Image, UnidentifiedImageError
 from trimesh.resolvers import Resolver as TrimeshResolver
 
+from webviz.data.images import ImageError, read_header
 from webviz_urdf.files import read_file
 from webviz_urdf.resolve import ResolveError, Resolver
 
@@ -107,26 +107,30 @@ def parse_image(data: bytes, path: Path) -> Image.Image:
             return image
     except UnidentifiedImageError as error:
         raise TextureError(f"{path} is not a readable picture.") from error
-    except (OSError, ValueError, SyntaxError) as error:
+    except (OSError, ValueError, SyntaxError, Warning) as error:
         reason = getattr(error, "strerror", None) or error
         raise TextureError(f"{path} is not a readable picture: {reason}.") from error
 
 
 def _open(path: Path, data: bytes) -> Image.Image:
     """A picture of acceptable size, of which only the header was decoded."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-        try:
-            image = Image.open(io.BytesIO(data), formats=_FORMATS)
-        except Image.DecompressionBombError as error:
-            raise TextureError(f"{path} has more than {_megapixels(MAX_PIXELS)}.") from error
-    width, height = image.size
+    with contextlib.suppress(ImageError):  # Pillow says what is wrong with it
+        if header := read_header(memoryview(data)):
+            _check_size(path, *header.size)  # of large ones Pillow warns, and not this thread alone
+    try:
+        image = Image.open(io.BytesIO(data), formats=_FORMATS)
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise TextureError(f"{path} has more than {_megapixels(MAX_PIXELS)}.") from error
+    _check_size(path, *image.size)
+    return image
+
+
+def _check_size(path: Path, width: int, height: int) -> None:
     if width * height > MAX_PIXELS:
         raise TextureError(
             f"{path} has {_megapixels(width * height)}; the limit is {_megapixels(MAX_PIXELS)}. "
             "Save it smaller."
         )
-    return image
 
 
 def _megapixels(pixels: int) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 from webviz.api.pictures import Encoded, Picture, Pixels, Readout
-from webviz.data.images import ImageError, jpeg, render
+from webviz.data.images import ImageError, jpeg, open_compressed, render
 
 LONGEST_EDGE = 16_384
 """Pixels along an edge that browsers can show."""
@@ -45,21 +45,22 @@ def file_of(picture: Pixels | Encoded | Readout, factor: int) -> File:
         return File("application/json", msgspec.json.encode(picture.tree()))
     if isinstance(picture, Pixels):
         return File("image/jpeg", jpeg(picture.image, picture.tone, factor))
-    return _smaller(File(picture.mime, np.ascontiguousarray(picture.data).data), factor)
+    return _smaller(picture, factor)
 
 
-def _smaller(file: File, factor: int) -> File:
+def _smaller(picture: Encoded, factor: int) -> File:
     """A file as JPEG with 1 / `factor` of its edges; as it is with 1, or if it is damaged."""
+    file = File(picture.mime, np.ascontiguousarray(picture.data).data)
     if factor == 1:
         return file
     made = io.BytesIO()
     try:
-        with Image.open(io.BytesIO(file.data)) as image:
+        with open_compressed(picture.data) as image:
             size = max(1, image.width // factor), max(1, image.height // factor)
             image.draft("RGB", size)  # decodes fewer pixels of a JPEG
             smaller = image.convert("RGB").resize(size, Image.Resampling.BOX)
         smaller.save(made, "JPEG", quality=QUALITY)
-    except (OSError, SyntaxError, ValueError):
+    except (OSError, SyntaxError, ValueError, Warning):
         return file  # the page says what is wrong with it
     return File("image/jpeg", made.getvalue())
 
@@ -73,8 +74,11 @@ def opened(picture: Pixels | Encoded) -> Image.Image:
     if isinstance(picture, Pixels):
         return render(picture.image, picture.tone)
     try:
-        rgb = Image.open(io.BytesIO(picture.data.tobytes())).convert("RGB")
-    except (OSError, SyntaxError, ValueError) as error:
+        with open_compressed(picture.data) as image:
+            rgb = image.convert("RGB")
+    except ImageError:
+        raise
+    except (OSError, SyntaxError, ValueError, Warning) as error:
         raise ImageError(f"The {picture.mime} is damaged: {str(error)[:80]}.") from error
     if picture.swaps_red_and_blue:
         red, green, blue = rgb.split()

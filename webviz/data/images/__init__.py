@@ -2,10 +2,16 @@
 
 from webviz.data.images.camera_model import CameraModel, calibration_problem, optical_problem
 from webviz.data.images.color_maps import COLOR_MAPS
-from webviz.data.images.compressed import CompressedInfo, inspect_compressed, read_png16
+from webviz.data.images.compressed import (
+    CompressedInfo,
+    inspect_compressed,
+    open_compressed,
+    read_png16,
+)
 from webviz.data.images.compressed_depth import decode_depth
 from webviz.data.images.encodings import ENCODINGS, Layout, layout_of
 from webviz.data.images.errors import ImageError
+from webviz.data.images.headers import read_header
 from webviz.data.images.lens import Lens
 from webviz.data.images.raw import RawImage, remarks, values
 from webviz.data.images.render import jpeg, render
@@ -26,7 +32,9 @@ __all__ = [
     "inspect_compressed",
     "jpeg",
     "layout_of",
+    "open_compressed",
     "optical_problem",
+    "read_header",
     "read_png16",
     "remarks",
     "render",

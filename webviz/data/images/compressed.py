@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import io
-import warnings
+import struct
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, UnidentifiedImageError
+from PIL import Image
 
 from webviz.data.images.errors import ImageError
+from webviz.data.images.headers import PNG, Header, read_header
 from webviz.data.images.raw import MAX_PIXELS
 
 _MIME = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
-_STEREO = "MPO"
-"""What Pillow calls a JPEG that more pictures follow, of which browsers show the first."""
-_OTHERS = ("TIFF", "BMP", "GIF", "JPEG2000")
 _VIDEO = ("h264", "h265", "hevc", "av1", "vp9", "vp8")
+_CRITICAL = (b"IHDR", b"IDAT", b"IEND")
+_MAX_CHUNKS = 100_000
 
 
 @dataclass(frozen=True)
@@ -53,19 +54,18 @@ def inspect_compressed(format_: str, data: NDArray[np.uint8]) -> CompressedInfo:
     encoding, _, rest = format_.partition(";")
     if not len(data):
         raise ImageError("The compressed image is empty: the publisher sends no data.")
-    opened = _open(data, format_)
-    kind = "JPEG" if opened.format == _STEREO else str(opened.format)
-    mime = _MIME.get(kind)
+    header = _header(data, format_)
+    mime = _MIME.get(header.kind)
     if mime is None:
         raise ImageError(
-            f"Browsers cannot show {opened.format} images. Set the format of the publisher to jpeg "
+            f"Browsers cannot show {header.kind} images. Set the format of the publisher to jpeg "
             "or png."
         )
     return CompressedInfo(
         mime,
-        opened.width,
-        opened.height,
-        is_16_bit=opened.mode.startswith("I"),
+        header.width,
+        header.height,
+        is_16_bit=header.is_16_bit,
         # image_transport: what is compressed is BGR in the order of OpenCV, unless it says RGB.
         swaps_red_and_blue="compressed rgb" in rest,
         encoding=encoding.strip() if rest else "",
@@ -78,33 +78,59 @@ def read_png16(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
     Raises:
         ImageError: it is broken.
     """
-    opened = _open(data, "png")
-    if opened.format != "PNG" or not opened.mode.startswith("I"):
-        raise ImageError(f"Expected a PNG of 16-bit grey, got {opened.format} {opened.mode}.")
+    header = _header(data, "png")
+    if not header.is_16_bit:
+        raise ImageError(f"Expected a PNG of 16-bit grey, got another {header.kind}.")
     try:
-        return np.asarray(opened).astype(np.uint16)
-    except (OSError, SyntaxError, ValueError) as error:
+        # Without the chunks that Pillow warns about.
+        plain = PNG + b"".join(_chunks(np.ascontiguousarray(data).data))
+        with Image.open(io.BytesIO(plain), formats=("PNG",)) as opened:
+            return np.asarray(opened).astype(np.uint16)
+    except (OSError, SyntaxError, ValueError, struct.error) as error:
         raise ImageError(f"The PNG is broken: {str(error)[:80]}.") from error
 
 
-def _open(data: NDArray[np.uint8], format_: str) -> Image.Image:
-    """The header of an image; its pixels are not read yet."""
+def open_compressed(data: NDArray[np.uint8]) -> Image.Image:
+    """A JPEG, PNG or WebP as Pillow's; its pixels are not read yet.
+
+    Raises:
+        ImageError: it is none, or damaged, or larger than its header says.
+    """
+    size = _header(data, "").size
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # see below
-            opened = Image.open(io.BytesIO(data.tobytes()), formats=(*_MIME, *_OTHERS))
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, OverflowError) as error:
-        start = bytes(data[:4]).hex(" ")
-        raise ImageError(f"{_what(format_)}: its data begins with {start}.") from error
-    except Image.DecompressionBombError as error:
-        raise ImageError(
-            f"The image has more than {MAX_PIXELS // 10**6} million pixels."
-        ) from error
-    if opened.width * opened.height > MAX_PIXELS:
-        raise ImageError(
-            f"{opened.width} x {opened.height} pixels are more than {MAX_PIXELS // 10**6} million."
-        )
+        opened = Image.open(io.BytesIO(data.tobytes()), formats=tuple(_MIME))
+    except (OSError, SyntaxError, ValueError, Warning, Image.DecompressionBombError) as error:
+        raise ImageError(f"The image is damaged: {str(error)[:80]}.") from error
+    if opened.size != size:  # a JPEG may have several
+        raise ImageError(f"The image is damaged: its header says {size[0]} x {size[1]} pixels.")
     return opened
+
+
+def _chunks(data: memoryview) -> Iterator[memoryview]:
+    """The parts of a PNG that its pixels depend on."""
+    at = len(PNG)
+    for _ in range(_MAX_CHUNKS):
+        if at >= len(data):
+            return
+        length, name = struct.unpack_from(">I4s", data, at)
+        end = at + 12 + length
+        if name in _CRITICAL:
+            yield data[at:end]
+        at = end
+    raise ValueError(f"it has more than {_MAX_CHUNKS} parts")
+
+
+def _header(data: NDArray[np.uint8], format_: str) -> Header:
+    """Of an image that is not too large."""
+    header = read_header(np.ascontiguousarray(data).data)
+    if header is None:
+        start = bytes(data[:4]).hex(" ")
+        raise ImageError(f"{_what(format_)}: its data begins with {start}.")
+    if header.width * header.height > MAX_PIXELS:
+        raise ImageError(
+            f"{header.width} x {header.height} pixels are more than {MAX_PIXELS // 10**6} million."
+        )
+    return header
 
 
 def _what(format_: str) -> str:

@@ -35,6 +35,10 @@ class StudioScene(ViserScene):
         """Whether the scene has to be updated."""
         return self.is_watched and super().has_watchers()
 
+    def is_unseen(self, display: str) -> bool:
+        """False: its page has no panes, which pictures have nevertheless."""
+        return False
+
 
 class Studio:
     """Makes pictures of `scene`, which may be filled by any code.
