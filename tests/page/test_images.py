@@ -19,6 +19,7 @@ from webviz.api.nodes import Labels, Pane, Points, Pose
 from webviz.api.pictures import Encoded, Packet, Pixels, Sight, Video, Warp
 from webviz.api.status import Level, Status
 from webviz.data.images import CameraModel, Lens, RawImage, Tone
+from webviz.edges.page.messages import MAX_PANES
 from webviz.edges.page.pictures import Pictures
 from webviz.edges.scene import ViserScene
 from webviz.engine.state import Row
@@ -162,6 +163,16 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
     tab.wait_for(lambda: "No publisher on /camera" in tab.text())
     tab.loop.show(*rows[:2])
     tab.wait_for(lambda: pane(tab, "Gone").count() == 0)
+
+
+def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
+    tab: Any, pictures: Pictures
+) -> None:
+    names = [f"Camera {number}" for number in range(MAX_PANES + 6)]
+    tab.loop.show(*(Row(name, "Image", Image(name=name), name, {}) for name in names))
+    tab.wait_for(lambda: looks(pictures) == set(names[:MAX_PANES]))
+    tab.loop.show(*(Row(name, "Image", Image(name=name), name, {}) for name in names[10:]))
+    tab.wait_for(lambda: looks(pictures) == set(names[10:]))
 
 
 def test_panes_fill_the_window_and_leave_it(tab: Any) -> None:

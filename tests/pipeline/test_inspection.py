@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from webviz.api.declared import Topic
+from webviz.api.status import Level
 from webviz.engine.commands import (
     Command,
     InspectTopic,
@@ -206,7 +207,9 @@ def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[...,
     b.turn()
     assert "/image" not in b.source.wanted
     assert "/path" in b.source.wanted  # which has no pane
-    told = do(b).rows[0].statuses
+    row = do(b).rows[0]
+    assert row.level is Level.IDLE  # neither OK, as nothing is drawn, nor a problem
+    told = row.statuses
     assert told["Display"].text.startswith("Not received: no browser shows its pane.")
     b.scene.unseen = set()
     b.turn()

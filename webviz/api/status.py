@@ -9,8 +9,12 @@ from typing import Any
 
 
 class Level(enum.IntEnum):
-    """The severity of a status; a parent has that of its worst child."""
+    """The severity of a status; a parent has that of its worst child.
 
+    IDLE is neither good nor bad: nothing is known, because nobody looks. It is shown in grey.
+    """
+
+    IDLE = -1
     OK = 0
     WARN = 1
     ERROR = 2

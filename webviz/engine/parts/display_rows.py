@@ -47,9 +47,14 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:
-    """The statuses of a group: the worst of each display in it that has a problem."""
+    """The statuses of a group: the worst of each display in it that has a problem.
+
+    A group whose displays are all idle is idle.
+    """
+    rows = list(rows)
+    is_idle = all(row.level is Level.IDLE for row in rows)
     return {
         row.name: max(row.statuses.values(), key=lambda status: status.level)
         for row in rows
-        if row.level is not Level.OK
+        if row.level > Level.OK or is_idle
     }

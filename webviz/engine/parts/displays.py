@@ -31,7 +31,7 @@ from webviz.engine.sources import Outlet, Subscription, merged
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
 
 UNSEEN = Status(
-    Level.OK,
+    Level.IDLE,
     "Not received: no browser shows its pane. Expand the pane, or bring the browser to the front.",
 )
 

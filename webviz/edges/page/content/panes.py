@@ -27,7 +27,7 @@ def panes(state: State, _: str) -> Mapping[str, Any]:
 def _about(row: Row) -> dict[str, Any]:
     level = row.level
     problem = ""
-    if level is not Level.OK:
+    if level > Level.OK:
         problem = next(status.text for status in row.statuses.values() if status.level is level)
     has_picture = level is not Level.ERROR
     return {"name": sendable(row.name), "problem": brief(problem), "has_picture": has_picture}
