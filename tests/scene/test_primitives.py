@@ -305,18 +305,25 @@ def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> No
     file = io.BytesIO()
     PIL.Image.new("RGB", (4, 4), COLOR).save(file, "PNG")
     corners, faces = square(1.0)
-    count = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.memory.textures"
-    before = view.evaluate(count)
-    for x in (-1.0, 0.0, 1.0):
-        look = Surface(texture=file.getvalue())
-        part = MeshPart(corners + floats(x, 0, 0), faces, look, uvs=corners[:, :2])
-        view.scene.upsert("g", f"at {x}", Glb(write_glb([part])))
+
+    def textures(*places: float) -> int:
+        for x in places:
+            look = Surface(texture=file.getvalue())
+            part = MeshPart(corners + floats(x, 0, 0), faces, look, uvs=corners[:, :2])
+            view.scene.upsert("g", f"at {x}", Glb(write_glb([part])))
+        view.show()
+        view.settle()
+        view.draw()
+        for x in places:
+            assert view.color_at((x, 0.0, 0.0)) == pytest.approx(COLOR, abs=2)
+        memory = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.memory"
+        return view.evaluate(memory)["textures"]
+
+    of_one = textures(-1.0)
+    assert textures(0.0, 1.0) == of_one
+    view.scene.clear()
     view.show()
-    view.settle()
-    view.draw()
-    for x in (-1.0, 0.0, 1.0):
-        assert view.color_at((x, 0.0, 0.0)) == pytest.approx(COLOR, abs=2)
-    assert view.evaluate(count) == before + 1
+    textures(1.0)
 
 
 def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:
