@@ -15,11 +15,10 @@ The page follows the gesture and draws its preview itself; the tool gets the fin
 
 from __future__ import annotations
 
-import builtins
 import functools
 import math
 from collections.abc import Callable, Mapping
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -32,7 +31,7 @@ from webviz.api.ports import Output
 from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
 from webviz.api.vehicle import Vehicle
-from webviz.data.messages import decode, encode, interfaces
+from webviz.data.messages import encode, interfaces
 
 Gesture = Literal["point", "pose", "drive"]
 """A click on a position, a drag from a position towards a heading, or keys and sticks that are
@@ -177,7 +176,7 @@ class ToolContext:
 
         take = answered or (lambda _: self.ok(f"{service} responded."))
         sent = self._call(service, type, encode(parts.request, request), timeout_s)
-        sent.add_done_callback(taker(service, parts.response, take, self.error))
+        sent.add_done_callback(interfaces.taker(service, parts.response, take, self.error))
 
     def send_goal(
         self,
@@ -247,29 +246,6 @@ class ToolContext:
     def error(self, text: str) -> None:
         """Report an error, with its remedy."""
         self._report(Status(Level.ERROR, text))
-
-
-def taker(
-    service: str, type: str, answered: Callable[[Any], object], failed: Callable[[str], object]
-) -> Callable[[Future[bytes]], None]:
-    """What takes the response of a service when it is there.
-
-    Args:
-        service: its name.
-        type: of its response.
-        answered: called with the response.
-        failed: called with a sentence if there is none, or `answered` raises.
-    """
-
-    def take(response: Future[bytes]) -> None:
-        try:
-            answered(decode(type, response.result()))
-        except CancelledError:
-            failed("The viewer has ended.")
-        except Exception as error:  # of the service, its message, or a plug-in
-            failed(str(error) or f"{service}: {builtins.type(error).__name__}.")
-
-    return take
 
 
 class Tool(Declared, kw_only=True):

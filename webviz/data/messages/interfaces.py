@@ -9,12 +9,15 @@ Once declared, the parts are encoded and decoded like any message.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
 from typing import Any, NamedTuple
 
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import TypesysError, get_types_from_msg
 
 from webviz.data.messages import typestore
+from webviz.data.messages.decode import decode
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 from webviz.data.messages.service_definitions import ACTIONS, SERVICES
 
@@ -94,6 +97,29 @@ def action(type_name: str, text: str = "") -> Action:
     for each in (parts.send_goal, parts.get_result):
         service(each)
     return parts
+
+
+def taker(
+    service: str, type: str, answered: Callable[[Any], object], failed: Callable[[str], object]
+) -> Callable[[Future[bytes]], None]:
+    """What takes the response of a service when it is there.
+
+    Args:
+        service: its name.
+        type: of its response.
+        answered: called with the response.
+        failed: called with a sentence if there is none, or `answered` raises.
+    """
+
+    def take(response: Future[bytes]) -> None:
+        try:
+            answered(decode(type, response.result()))
+        except CancelledError:
+            failed("The viewer has ended.")
+        except Exception as error:  # of the service, its message, or a plug-in
+            failed(str(error) or f"{service}: {error.__class__.__name__}.")
+
+    return take
 
 
 def _with_event(type_name: str, parts: Service) -> Service:

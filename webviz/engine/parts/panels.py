@@ -12,7 +12,6 @@ from webviz.api.declared import Topic, make
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types, type_name
 from webviz.api.status import Status
-from webviz.api.tool import taker
 from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.engine.commands import (
     AddPanel,
@@ -149,7 +148,9 @@ class PanelsPart(Part):
             raise ConfigError(f"Not called: {error}") from error
 
         sent = self.core.gate.call(name, command.type, request, command.timeout_s)
-        sent.add_done_callback(taker(name, parts.response, command.answered, command.failed))
+        sent.add_done_callback(
+            interfaces.taker(name, parts.response, command.answered, command.failed)
+        )
 
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
