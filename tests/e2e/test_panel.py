@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import contextlib
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
+import photos
 import pytest
+from numpy.typing import NDArray
 from program import Program
 from side import Side
 
+from webviz.data.messages import encode
 from webviz.shell.pictures.browser import Page, Pixels
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+from webviz.edges.ros.talker import Talker
+
+BRICK = np.array((200, 60, 20))
 
 EMPTY = """\
 fixed_frame: map
@@ -82,3 +91,31 @@ def test_a_display_is_added_by_topic_changed_saved_and_comes_back(
     side.select("Map")
     side.wait_for("248 x 168 cells")
     page.wait_for(lambda: (picture(page) == changed).all(), "the same picture", 60)
+    with camera(np.full((24, 32, 3), BRICK, np.uint8)):
+        tab = page.tab
+        tab.get_by_role("button", name="Add display").click()
+        dialog = tab.get_by_role("dialog")
+        dialog.get_by_role("tab", name="By topic").click()
+        option = dialog.get_by_role("option", name="/camera/image_raw").filter(has_text="Image ·")
+        option.click(timeout=60_000)
+        dialog.get_by_role("button", name="Add", exact=True).click()
+        canvas = tab.get_by_label("Image Image", exact=True).locator("canvas")
+        page.wait_for(lambda: np.abs(canvas.evaluate(MIDDLE) - BRICK).max() < 4, "the image", 60)
+
+
+MIDDLE = """(canvas) => {
+  const place = [canvas.width >> 1, canvas.height >> 1, 1, 1];
+  return [...canvas.getContext("2d").getImageData(...place).data.slice(0, 3)];
+}"""
+
+
+@contextlib.contextmanager
+def camera(pixels: NDArray[np.uint8]) -> Iterator[None]:
+    """An image over DDS."""
+    talker = Talker("camera", int(os.environ["ROS_DOMAIN_ID"]))
+    try:
+        cdr = encode(photos.RAW, photos.raw(pixels, "rgb8"))
+        talker.open("/camera/image_raw", photos.RAW, latched=True).publish(cdr)
+        yield
+    finally:
+        talker.close()
