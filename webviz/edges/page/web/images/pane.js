@@ -93,7 +93,7 @@ export function makePane(id, changed, withScene) {
     const now = performance.now();
     times = times.filter((time) => time > now - RATE_MS);
     const [width, height] = picture.size();
-    const facts_ = width ? `${width} × ${height} · ${times.length} Hz` : "";
+    const facts_ = width && !isFolded ? `${width} × ${height} · ${times.length} Hz` : "";
     setText(facts, facts_);
   }
   const ticking = setInterval(tellRate, RATE_MS);

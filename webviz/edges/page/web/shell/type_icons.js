@@ -2,13 +2,18 @@
 
 const ICONS = {
   Axes: "axes",
+  Camera: "camera",
+  CameraInfo: "camera",
+  DepthCloud: "cloud",
   Grid: "grid",
   Image: "camera",
+  ImagePlane: "camera",
   Group: "folder",
   LaserScan: "laser",
   Map: "map",
   Odometry: "odometry",
   Path: "path",
+  PointCloud: "cloud",
   PointCloud2: "cloud",
   RobotModel: "robot",
   TF: "tree",
