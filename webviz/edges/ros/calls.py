@@ -94,10 +94,11 @@ class Calls:
         give_up = now + min(timeout_s, WAIT_S)
         self._calls.append(_Call(client, message, answer, now + timeout_s, give_up, may_send))
 
-    def turn(self) -> None:
-        """Advance the pending calls."""
+    def turn(self) -> bool:
+        """Advance the pending calls; whether there are any."""
         now = time.monotonic()
         self._calls = [call for call in self._calls if not self._advance(call, now)]
+        return bool(self._calls)
 
     def close(self) -> None:
         """Fail everything that is pending."""

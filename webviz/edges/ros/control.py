@@ -64,16 +64,21 @@ class Control:
     """Mirrors the state of a viewer in parameters of a node, and offers services to change it.
 
     All methods but `open` must be called in the thread that spins the node.
+
+    Args:
+        node: that has them.
+        wake: makes that thread call `turn` soon.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, wake: Callable[[], None]) -> None:
         self._node = node
+        self._wake = wake
         self._viewer: Controlled | None = None
         self._folders: Sequence[Path] = ()
         self._may_change = True
         self._services: list[_Service] | None = None
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="webviz-service")
-        self._state: State | None = None
+        self._mirrored: Mapping[str, str] = {}
         self._is_mirroring = False
         self.initial: Mapping[str, str] = {
             name: str(node.declare_parameter(name, "", ParameterDescriptor(description=text)).value)
@@ -95,18 +100,19 @@ class Control:
         self._may_change = may_change
         self._folders = [Path(os.path.abspath(folder)) for folder in folders]
         self._viewer = viewer
+        self._wake()
 
     def turn(self) -> None:
-        """Update the parameters, and send responses that are ready; to be called very often."""
+        """Update the parameters, and send responses that are ready; to be called often."""
         if self._viewer is None:
             return
         if self._services is None:
             self._services = self._create_services(self._viewer) if self._may_change else []
         for service in self._services:
             service.turn()
-        if (state := self._viewer.state) is not self._state:
-            self._state = state
-            self._mirror(state)
+        if (values := _values(self._viewer.state)) != self._mirrored:
+            self._mirror(values)
+            self._mirrored = values
 
     def close(self) -> None:
         """Cancel service requests that have not started."""
@@ -114,14 +120,8 @@ class Control:
 
     # Parameters
 
-    def _mirror(self, state: State) -> None:
-        """Set the parameters to the state of the viewer."""
-        start, saved = state.settings.view, state.settings.views
-        values = {
-            CONFIG_FILE: _absolute(state.file.path),
-            FIXED_FRAME: state.fixed_frame,
-            VIEW: next((name for name, view in saved.items() if view == start), ""),
-        }
+    def _mirror(self, values: Mapping[str, str]) -> None:
+        """Set the parameters to these values."""
         new = [
             Parameter(name, value=value)
             for name, value in values.items()
@@ -138,6 +138,7 @@ class Control:
         """Pass parameters that were set to the viewer; those of others are accepted unseen."""
         if self._is_mirroring:
             return SetParametersResult(successful=True)
+        self._mirrored = {}  # "/map" is to become "map"
         try:
             commands = [
                 command
@@ -216,7 +217,7 @@ class Control:
             return f"Saved {viewer.save_screenshot()}."
 
         return [
-            _Service(self._node, type, name, work, self._pool)
+            _Service(self._node, type, name, work, self._pool, self._wake)
             for name, type, work in (
                 ("~/load_config", Trigger, load),
                 ("~/save_config", Trigger, save),
@@ -237,6 +238,7 @@ class _Service:
         node, type, name: of the service.
         work: called in `pool` for each request; returns the message of the response.
         pool: one thread for all services.
+        wake: called from any thread when a response is ready.
     """
 
     def __init__(
@@ -246,12 +248,14 @@ class _Service:
         name: str,
         work: Callable[[], str],
         pool: ThreadPoolExecutor,
+        wake: Callable[[], None],
     ) -> None:
         self._service = node.create_service(type, name, lambda _, response: response)
         self._send = self._service.send_response
         self._service.send_response = self._begin
         self._work = work
         self._pool = pool
+        self._wake = wake
         self._pending: list[tuple[Future[str], Any, Any]] = []
 
     def turn(self) -> None:
@@ -262,7 +266,9 @@ class _Service:
 
     def _begin(self, response: Any, header: Any) -> None:
         if len(self._pending) < MAX_REQUESTS:
-            self._pending.append((self._pool.submit(self._work), response, header))
+            done = self._pool.submit(self._work)
+            self._pending.append((done, response, header))
+            done.add_done_callback(lambda _: self._wake())
             return
         refused: Future[str] = Future()
         refused.set_exception(Error("Too many requests at once. Try again later."))
@@ -276,6 +282,16 @@ class _Service:
             response.success = error is None
             response.message = str(error) if error is not None else done.result()
         self._send(response, header)
+
+
+def _values(state: State) -> dict[str, str]:
+    """The values of the parameters."""
+    start, saved = state.settings.view, state.settings.views
+    return {
+        CONFIG_FILE: _absolute(state.file.path),
+        FIXED_FRAME: state.fixed_frame,
+        VIEW: next((name for name, view in saved.items() if view == start), ""),
+    }
 
 
 def _absolute(path: str) -> str:

@@ -18,7 +18,7 @@ class RosGraph:
     """Publishes, calls services and sends goals; see `webviz.engine.sources.Graph`.
 
     Args:
-        node: whose thread calls `turn` often.
+        node: whose thread calls `turn` now and then, and often while calls are pending.
         wake: makes that thread call `turn` soon.
     """
 
@@ -61,10 +61,10 @@ class RosGraph:
 
     # In the thread of the node
 
-    def turn(self) -> None:
-        """Run the queued jobs, and advance the pending calls."""
+    def turn(self) -> bool:
+        """Run the queued jobs, and advance the pending calls; whether there are any."""
         self._jobs.run()
-        self._calls.turn()
+        return self._calls.turn()
 
     def look(self) -> None:
         """Refresh the node names."""

@@ -22,6 +22,7 @@ from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.edges.ros import qos
+from webviz.edges.ros.bell import Bell
 from webviz.edges.ros.control import Control
 from webviz.edges.ros.graph import RosGraph
 from webviz.edges.ros.heap import Heap
@@ -29,10 +30,11 @@ from webviz.edges.ros.shared_memory import remove_abandoned
 from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources import Inbox, Offer, Publisher, Raw, Subscription
 
-SPIN_S = 0.05
-"""How long to wait for messages before checking subscriptions and graph. Finite, because the events
-executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
-WANTED_POLL_S = 0.25
+REST_S = 0.25
+"""How long to wait before looking at the publishers of subscribed topics. Finite, because the
+events executor of rclpy 7.1.6 spins at full load in an unlimited wait."""
+PENDING_S = 0.05
+"""The same while calls are pending."""
 GRAPH_POLL_S = 2.0
 INBOX_LIMIT = 1000
 TF_TYPE = "tf2_msgs/msg/TFMessage"
@@ -78,9 +80,10 @@ class RosSource:
         self._clock = self._node.get_clock()
         self._clock_messages = 0
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
-        self.control = Control(self._node)
+        self._bell = Bell()
+        self.control = Control(self._node, self._bell.ring)
         self._executor = _executor(self._context)
-        self.graph = RosGraph(self._node, self._wake)
+        self.graph = RosGraph(self._node, self._bell.ring)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
         self._offers: dict[str, Offer] = {}
@@ -90,9 +93,10 @@ class RosSource:
         self._thread.start()
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
-        """Replace all subscriptions; takes effect within 50 ms."""
+        """Replace all subscriptions; takes effect soon."""
         if subscriptions != self._wanted:
             self._wanted = dict(subscriptions)
+            self._bell.ring()
 
     def offers(self) -> Mapping[str, Offer]:
         """All topics of the graph."""
@@ -124,11 +128,8 @@ class RosSource:
     def close(self) -> None:
         """Destroy the node and end the thread."""
         self._stop.set()
+        self._bell.ring()
         self._thread.join()
-
-    def _wake(self) -> None:
-        """End a `spin_once` that waits; `wake` of the events executor does not."""
-        self._executor.create_task(_do_nothing)
 
     def _run(self) -> None:
         executor = self._executor
@@ -137,6 +138,7 @@ class RosSource:
         wanted: Mapping[str, Subscription] = {}
         try:
             while not self._stop.is_set():
+                self._bell.reset()
                 now = time.monotonic()
                 if now >= next_graph:
                     next_graph = now + GRAPH_POLL_S
@@ -144,14 +146,17 @@ class RosSource:
                     self._reconcile(self._wanted)
                     self.graph.look()
                 elif now >= next_wanted or wanted is not self._wanted:
-                    next_wanted = now + WANTED_POLL_S
+                    next_wanted = now + REST_S
+                    is_new = wanted is not self._wanted
                     wanted = self._wanted
-                    self._look([*self._offers, *wanted], only=wanted)
-                    self._reconcile(wanted)
+                    if self._look([*self._offers, *wanted], only=wanted) or is_new:
+                        self._reconcile(wanted)
                 self._heap.turn()
                 self.control.turn()
-                self.graph.turn()
-                executor.spin_once(timeout_sec=SPIN_S)
+                if self.graph.turn():
+                    executor.spin_once_until_future_complete(self._bell, PENDING_S)
+                else:
+                    executor.spin_until_future_complete(self._bell, REST_S)
         finally:
             self.control.close()
             self.graph.close()
@@ -159,23 +164,37 @@ class RosSource:
             self._node.destroy_node()
             self._context.try_shutdown()
 
-    def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> None:
-        """Refresh the offers of topics; those outside `only` stay as they are."""
+    def _look(self, topics: Sequence[str], only: Mapping[str, Subscription] | None = None) -> bool:
+        """Refresh the offers of topics; those outside `only` stay as they are.
+
+        Returns:
+            Whether any of them has changed.
+        """
         offers = {}
         for topic in topics:
-            if only is not None and topic not in only:
-                offers[topic] = self._offers[topic]
+            known = self._offers.get(topic)
+            if only is not None and known is not None and topic not in only:
+                offers[topic] = known
                 continue
-            infos = self._node.get_publishers_info_by_topic(topic)
-            publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
+            subscribers = self._node.count_subscribers(topic)
+            if only is not None and known is not None and self._has_as_many(topic, known):
+                publishers = known.publishers
+            else:
+                infos = self._node.get_publishers_info_by_topic(topic)
+                publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
             held = self._held.get(topic)
             problem = self._problems.get(topic, "")
-            subscribers = self._node.count_subscribers(topic)
             policies, type_ = (held.policies, held.wish.type) if held else (None, "")
             offers[topic] = Offer(publishers, policies, problem, type_, subscribers)
-        if offers != self._offers:
-            self._offers = offers
-            self.inbox.arrived.set()
+        if offers == self._offers:
+            return False
+        self._offers = offers
+        self.inbox.arrived.set()
+        return True
+
+    def _has_as_many(self, topic: str, known: Offer) -> bool:
+        """Whether a topic has as many publishers as were known, which is quick to find out."""
+        return self._node.count_publishers(topic) == len(known.publishers)
 
     def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:
         """Subscribe and unsubscribe to what is wanted, with the QoS that matches now."""
@@ -243,10 +262,6 @@ class _Held:
     policies: tuple[qos.Reliability, qos.Durability]
     is_mixed: bool
     subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)
-
-
-def _do_nothing() -> None:
-    """A task that wakes the executor."""
 
 
 def _executor(context: Context) -> Executor:
