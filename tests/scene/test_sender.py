@@ -12,7 +12,7 @@ from viser.infra._infra import ClientId
 from websockets.frames import Frame, Opcode
 
 from webviz.edges.scene import ViserScene
-from webviz.edges.scene.adapter.packing import header
+from webviz.edges.scene.frame_header import header
 
 
 @pytest.mark.parametrize("size", [0, 125, 126, 65535, 65536, 70000])

@@ -108,6 +108,7 @@ class FrameLoop:
             clock,
             gate=gate,
             wake=self._wake,
+            resubscribe=core.resubscribe,
             robots=self._robots,
             points=PointBudget(self._points_held),
         )
@@ -186,10 +187,10 @@ class FrameLoop:
                 began = time.monotonic()
                 arrived.clear()
                 self._guard("Frame loop", self.turn)
-                rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
-                if rest > 0 and self._stop.wait(rest):
-                    break
                 arrived.wait(IDLE_S)
+                rest = 1.0 / self.settings.frame_rate - (time.monotonic() - began)
+                if rest > 0:
+                    self._stop.wait(rest)
         finally:
             self.close()
 
@@ -211,8 +212,11 @@ class FrameLoop:
             runners = self._displays.list.active()
             self._showing.draw(runners, core.frames, self.settings.background)
             self._tracer.sent()
-        self._guard("Source", self._source.want, parts.subscriptions())
-        if answers or time.monotonic() >= self._next_panel:
+        is_due = bool(answers) or time.monotonic() >= self._next_panel
+        if is_due or core.has_new_wishes:
+            core.has_new_wishes = False
+            self._guard("Source", self._source.want, parts.subscriptions())
+        if is_due:
             self._next_panel = time.monotonic() + PANEL_S
             parts.keep_up(bool(answers))
             self._guard("Panel", self._show_state)

@@ -8,8 +8,8 @@ import logging
 import secrets
 import threading
 import time
-from collections.abc import Awaitable, Callable, Mapping
-from functools import reduce
+from collections.abc import Awaitable, Callable, Iterable, Mapping
+from functools import partial, reduce
 from operator import or_
 from typing import Any, Protocol, TypeVar
 
@@ -102,6 +102,7 @@ class Channel:
         """Ends viser's connection of a browser."""
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._thread: int | None = None
         self._outboxes: dict[int, Outgoing] = {}
         self._visitors: dict[int, tuple[Visitor, Connection]] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
@@ -122,10 +123,10 @@ class Channel:
             if browser is None and message.kept:
                 self._kept[type(message)] = message
             data = msgspec.json.encode(message)
-            for id_, outbox in self._outboxes.items():
-                if browser in (None, id_):
-                    outbox.put(message, data)
-        self._wake_soon()
+            filled = [each for id_, each in self._outboxes.items() if browser in (None, id_)]
+            for outbox in filled:
+                outbox.put(message, data)
+        self._wake_soon(filled)
 
     def send_bytes(self, data: bytes, key: str, browser: int) -> None:
         """Sends bytes to one page after its messages; they replace those of the same key that wait.
@@ -133,9 +134,10 @@ class Channel:
         From any thread, without waiting. The sender limits the number of keys.
         """
         with self._lock:
-            if (outbox := self._outboxes.get(browser)) is not None:
-                outbox.bulk[key] = data
-        self._wake_soon()
+            if (outbox := self._outboxes.get(browser)) is None:
+                return
+            outbox.bulk[key] = data
+        self._wake_soon([outbox])
 
     def call_soon(self, call: Callable[[], object]) -> None:
         """Calls something on the event loop, once a page has joined; from any thread."""
@@ -163,9 +165,8 @@ class Channel:
         """
         with self._lock:
             changed = self._stores.replace(store, values)
-            is_new = [outbox.watched.mark(store, changed) for outbox in self._outboxes.values()]
-        if any(is_new):
-            self._wake_soon()
+            filled = [each for each in self._outboxes.values() if each.watched.mark(store, changed)]
+        self._wake_soon(filled)
 
     def watched(self) -> set[str]:
         """The names of all stores that pages watch; the values of others are forgotten."""
@@ -221,7 +222,7 @@ class Channel:
         """
         key = secrets.token_urlsafe(32)
         with self._lock:
-            self._loop = asyncio.get_running_loop()
+            self._loop, self._thread = asyncio.get_running_loop(), threading.get_ident()
             outbox = self._outboxes[browser] = Outgoing(key, pace)
             for message in self._kept.values():
                 outbox.put(message, msgspec.json.encode(message))
@@ -257,7 +258,7 @@ class Channel:
             self._visitors[browser] = visitor, connection
             outbox.put_first(You(grant.role.label, grant.name))
         writer = asyncio.create_task(self._write(connection, outbox))
-        self._wake()
+        self._wake([outbox])
         try:
             with inside(), contextlib.suppress(ConnectionClosed):
                 while True:
@@ -345,15 +346,20 @@ class Channel:
             is_allowed = is_allowed and outbox.watched.add(message.store)
         if is_allowed:
             self.on_watch(browser)
-            self._wake()
+            self._wake([outbox])
         else:
             log.warning("A page may not watch a store that it asked for, or not so many.")
 
-    def _wake_soon(self) -> None:
-        self.call_soon(self._wake)
+    def _wake_soon(self, outboxes: list[Outgoing]) -> None:
+        """Have these sent; from any thread, each of which costs a wake-up of the event loop."""
+        if threading.get_ident() == self._thread:
+            self._wake(outboxes)
+        elif outboxes:
+            self.call_soon(partial(self._wake, outboxes))
 
-    def _wake(self) -> None:
-        for outbox in tuple(self._outboxes.values()):
+    @staticmethod
+    def _wake(outboxes: Iterable[Outgoing]) -> None:
+        for outbox in outboxes:
             if outbox.is_full:
                 outbox.abort()
             else:

@@ -13,7 +13,7 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.driving import Driving, Steer
 from webviz.edges.page.gripping import Gripping
-from webviz.edges.page.messages import Shell
+from webviz.edges.page.messages import Shell, ShowPictures
 from webviz.edges.page.people import People
 from webviz.edges.page.plugin_panels import PluginPanels
 from webviz.edges.page.reading import Reading
@@ -75,6 +75,8 @@ class Pages:
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
+        # What a pane shows that was not seen before is received from the next turn on.
+        channel.on(ShowPictures, lambda browser, _: enqueue(Refresh(), Sender(browser)))
         channel.send(Shell())
 
     def debug(self) -> None:

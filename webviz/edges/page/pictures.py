@@ -95,9 +95,10 @@ class Pictures:
         with self._lock:
             self._number += 1
             self._shown[display] = _Shown(self._number, pane)
-            for browser, looks in self._looks.items():
-                if display in looks:
-                    self._continue(browser, display, looks[display])
+            looks = self._looks_at(display)
+            is_ready = [self._continue(browser, display, look) for browser, look in looks]
+        if any(is_ready):
+            self._channel.call_soon(partial(self._send_ready, display))
 
     def remove(self, display: str) -> None:
         """Forget the picture of a display."""
@@ -141,7 +142,8 @@ class Pictures:
             for display, look in looks.items():
                 if look.width != message.widths[display]:
                     look.width, look.sent = message.widths[display], 0
-                self._continue(browser, display, look)
+        for display in looks:
+            self._send_ready(display)
 
     def _advance(self, browser: int, message: FramesShown) -> None:
         with self._lock:
@@ -150,7 +152,8 @@ class Pictures:
                 if (look := looks.get(display)) is not None:
                     while look.waiting and look.waiting[0] <= number:
                         look.waiting.popleft()
-                    self._continue(browser, display, look)
+        for display in message.numbers.keys() & looks.keys():
+            self._send_ready(display)
 
     def _read(self, browser: int, message: ReadPixel) -> None:
         with self._lock:
@@ -160,20 +163,36 @@ class Pictures:
                 return
             self._reading[browser] = self._pool.submit(self._answer, browser, message, shown.pane)
 
+    def _send_ready(self, display: str) -> None:
+        """Send a picture that is a file already to the pages that can take it."""
+        with self._lock:
+            looks = self._looks_at(display)
+            ready = [each for each in looks if self._continue(each[0], display, each[1])]
+        for browser, look in ready:
+            self._send(browser, display, look)
+
     # Internal
 
-    def _continue(self, browser: int, display: str, look: _Look) -> None:
-        """Make the next picture for a page, if there is one that the page can take."""
+    def _looks_at(self, display: str) -> list[tuple[int, _Look]]:
+        """The pages that show a display."""
+        return [(page, looks[display]) for page, looks in self._looks.items() if display in looks]
+
+    def _continue(self, browser: int, display: str, look: _Look) -> bool:
+        """Make the next picture for a page in a thread, if there is one that the page can take.
+
+        Returns:
+            Whether it is a file already, which `_send_ready` sends.
+        """
         shown = self._shown.get(display)
         if shown is None or shown.number == look.sent:
-            return
-        if not look.is_busy and len(look.waiting) < MAX_IN_FLIGHT:
-            look.is_busy = True
-            is_direct = isinstance(shown.pane.picture, Encoded | Video)
-            if not is_direct or self._rate(browser) is not None:
-                self._pool.submit(self._send, browser, display, look)
-            else:
-                self._channel.call_soon(partial(self._send, browser, display, look))
+            return False
+        if look.is_busy or len(look.waiting) >= MAX_IN_FLIGHT:
+            return False
+        if isinstance(shown.pane.picture, Encoded | Video) and self._rate(browser) is None:
+            return True
+        look.is_busy = True
+        self._pool.submit(self._send, browser, display, look)
+        return False
 
     def _send(self, browser: int, display: str, look: _Look) -> None:
         """Send the newest picture."""
@@ -202,7 +221,9 @@ class Pictures:
                 # ones go on from what they say.
                 look.turn = not look.turn
                 self._channel.send_bytes(data, f"{display} {look.turn:d}", browser)
-            self._continue(browser, display, look)
+            is_ready = self._continue(browser, display, look)
+        if is_ready:
+            self._channel.call_soon(partial(self._send_ready, display))
 
     def _rate(self, browser: int) -> float | None:
         """Bytes a second for each picture of a page; None on a link that is fast enough."""

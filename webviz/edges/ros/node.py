@@ -243,8 +243,12 @@ class RosSource:
 
     def _release(self, topic: str) -> None:
         held = self._held.pop(topic, None)
-        for subscription in held.subscriptions if held else ():
+        if held is None:
+            return
+        for subscription in held.subscriptions:
             self._node.destroy_subscription(subscription)
+        # The executor has to let go of it before the topic can have another type.
+        self._executor.spin_until_future_complete(Bell(), 0.0)
 
     def _count_clock(self, jump: object) -> None:
         self._clock_messages += 1

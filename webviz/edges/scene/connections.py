@@ -17,6 +17,7 @@ from websockets.protocol import State
 from webviz.edges.access.access import EVERYBODY, Grant
 from webviz.edges.access.roles import LIMITS, Role
 from webviz.edges.page.pace import Mark, Pace, Stretch
+from webviz.edges.scene.frame_header import header
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.edges.scene.listener import Handshakes
 from webviz.edges.scene.messages import objection
@@ -262,7 +263,10 @@ class Connection(websocket.ServerConnection):
         """Sends a message in fragments, each when there is room for it on the link."""
         piece = self.stretch.pace.piece()
         if len(message) <= piece and self.stretch.pace.room() > 0:
-            await self.send(message)
+            # A third of what `send` takes, which copies the message twice.
+            self.write(b"".join((header(len(message)), message)))
+            with contextlib.suppress(OSError):  # it is gone
+                await self.drain()
         else:
             await self.send(self._fragments(message, piece))
 

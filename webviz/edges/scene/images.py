@@ -89,7 +89,6 @@ class ImageDrawn:
             if self._extents.get(tile) != extent:
                 self._extents[tile] = extent
                 self._link.set_position(name, (x, y, 0.0))
-        self._link.flush()
 
     def _drop(self, tile: Tile) -> None:
         self._link.late.drop(self._path(tile))

@@ -163,7 +163,6 @@ class ViserScene:
                     del self._dirty[name]
             finally:
                 self.link.place(moves)
-        self.link.flush()
 
     def acknowledge(self, timeout: float) -> None:
         """Waits until every browser has applied everything that was flushed.

@@ -80,7 +80,8 @@ class DisplaysPart(Part):
             runner.take(batches, self.core.frames, self.core.offers)
 
     def reset(self) -> None:
-        """Forget all messages."""
+        """Forget all messages, and ask for the latched ones again."""
+        self.core.resubscribe()
         for runner in self.list.runners():
             self.core.guard(self.name, runner.reset)
 

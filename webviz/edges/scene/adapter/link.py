@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -55,7 +55,7 @@ class Adapter:
         self._queue = self._socket.queue_message
         self._acknowledgements = Acknowledgements(server, self.late)
         self._removed = 0
-        Sender(self._buffer, self._socket._live_connections, last=Marker)
+        self._sender = Sender(self._buffer, self._socket._live_connections, last=Marker)
         evaluate_hints_once()
 
     def set_position(self, name: str, position: Position) -> None:
@@ -67,9 +67,8 @@ class Adapter:
         self._queue(OrientationMessage(name, wxyz))
 
     def place(self, moves: Iterable[Move]) -> None:
-        """Places and turns many nodes at once."""
-        with self.atomic():
-            queue_moves(self._buffer, moves)
+        """Places and turns many nodes; to be called in an `atomic` block, or before `flush`."""
+        queue_moves(self._buffer, moves)
 
     def update(self, name: str, props: dict[str, Any]) -> None:
         """Assigns several properties in one message; arrays must not change afterwards.
@@ -79,9 +78,21 @@ class Adapter:
         """
         self._queue(wire.SceneNodeUpdateMessage(name, props))
 
-    def atomic(self) -> contextlib.AbstractContextManager[None]:
-        """Makes what is queued inside reach every browser in one piece."""
-        return self.server.atomic()
+    @contextlib.contextmanager
+    def atomic(self) -> Iterator[None]:
+        """Sends what is queued inside in one piece at its end, before viser's 16 ms are over."""
+        buffer, sender = self._buffer, self._sender
+        before = buffer.message_counter
+        buffer.atomic_start()
+        try:
+            yield
+        finally:
+            with buffer.buffer_lock:
+                buffer.atomic_counter -= 1
+                is_due = sender.is_held or buffer.message_counter != before
+                sender.is_held = False
+            if is_due:
+                self.flush()
 
     def flush(self) -> None:
         """Sends what is queued now instead of at the end of viser's 16 ms window."""

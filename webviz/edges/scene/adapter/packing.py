@@ -11,10 +11,9 @@ import zstandard
 from viser.infra._infra import _append_aligned_buffers
 from viser.infra._messages import Message
 
+from webviz.edges.scene.frame_header import header
 from webviz.edges.scene.pieces import Piece
 
-_BINARY = 0x82
-"""First byte of a frame that is a whole binary message (RFC 6455, section 5.2)."""
 _packer = msgspec.msgpack.Encoder()
 
 
@@ -44,12 +43,3 @@ class Packer:
         _append_aligned_buffers(parts, arrays, len(sizes) + len(compressed))
         parts[0] = header(sum(memoryview(part).nbytes for part in parts))
         return b"".join(parts)
-
-
-def header(size: int) -> bytes:
-    """The header of a websocket frame with a binary message of a size in bytes."""
-    if size < 126:
-        return struct.pack("!BB", _BINARY, size)
-    if size < 1 << 16:
-        return struct.pack("!BBH", _BINARY, 126, size)
-    return struct.pack("!BBQ", _BINARY, 127, size)

@@ -45,6 +45,8 @@ class Sender:
         self._last = last
         self._packer = Packer()
         self._browsers: dict[int, _Browser] = {}
+        self.is_held = False
+        """Whether messages wait for the end of an atomic block."""
         self._thread: int | None = None
         self._due: asyncio.Handle | None = None
         buffer._window_loop = self._windows
@@ -143,6 +145,7 @@ class Sender:
         with buffer.buffer_lock:
             live = buffer.message_from_id
             if buffer.atomic_counter:
+                self.is_held = True
                 return []
             if browser.end_of_backlog is None:
                 return [
