@@ -84,11 +84,14 @@ def depth_points(
     own = list(zip(layers, ids, strict=True))
     xyz = np.concatenate([_rows(model.points(z, step), chosen) for (z, _, _), chosen in own])
     colors = [_rows(each, chosen) for (_, _, each), chosen in own if each is not None]
-    rows, columns = np.divmod(np.concatenate(ids), depths.shape[1])
+    pixels = np.concatenate(ids)
+    if step > 1:
+        rows, columns = np.divmod(pixels, depths.shape[1])
+        pixels = rows * step * image.width + columns * step
     return DepthPoints(
         xyz,
         np.concatenate(colors) if colors else None,
-        rows * step * image.width + columns * step,
+        pixels,
         count,
         len(xyz) - len(ids[0]),
         step / model.fx,
@@ -98,7 +101,8 @@ def depth_points(
 
 def _rows(grid: NDArray[Any], chosen: NDArray[np.intp]) -> NDArray[Any]:
     """Some triples (N, 3) of a grid (H, W, 3)."""
-    return grid.reshape(-1, 3).take(chosen, axis=0)
+    flat = grid.reshape(-1, 3)
+    return flat if len(chosen) == len(flat) else flat.take(chosen, axis=0)
 
 
 def _colors(

@@ -28,11 +28,15 @@ def by_size(sizes: NDArray[np.floating]) -> Iterator[tuple[str, NDArray[np.intp]
     steps = np.log(np.clip(sizes, LEAST_M, MOST_M)) / math.log(RATIO)
     numbers = np.ceil(steps - 1e-4).astype(np.int16)
     least = int(numbers.min())
-    up_to = np.cumsum(np.bincount(numbers - least))
-    middle = least + int(np.searchsorted(up_to, len(sizes) // 2, side="right"))
-    numbers = np.clip(numbers, middle - REACH, middle + REACH)
-    order = np.argsort(numbers, kind="stable")
-    ends = np.cumsum(np.bincount(numbers - (middle - REACH))).tolist()
-    for number, (start, end) in enumerate(pairwise((0, *ends)), middle - REACH):
+    counts = np.bincount(numbers - least)
+    middle = least + int(np.searchsorted(np.cumsum(counts), len(sizes) // 2, side="right"))
+    lowest = middle - REACH
+    slots = np.clip(np.arange(least, least + len(counts)), lowest, middle + REACH) - lowest
+    ends = np.cumsum(np.bincount(slots, counts)).astype(int).tolist()
+    # Sorted twice as fast as int16.
+    order = np.argsort(
+        (np.clip(numbers, lowest, middle + REACH) - lowest).astype(np.uint8), kind="stable"
+    )
+    for number, (start, end) in enumerate(pairwise((0, *ends)), lowest):
         if end > start:
             yield str(number), order[start:end], RATIO**number

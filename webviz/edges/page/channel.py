@@ -111,7 +111,7 @@ class Channel:
         """Called on the event loop: whether a browser may watch a store."""
         self.on_watch: Callable[[int], object] = lambda browser: None
         """Called on the event loop with a browser that watches another store."""
-        self._listeners: dict[type[FromPage], list[Callable[[int, Any], None]]] = {}
+        self._listeners: dict[type[FromPage], list[Callable[[int, Any], object]]] = {}
         self._decoder = msgspec.json.Decoder[FromPage](_OWN)
 
     def send(self, message: ToPage, browser: int | None = None) -> None:
@@ -201,7 +201,7 @@ class Channel:
                 await asyncio.wait_for(known[1].close(), FAREWELL_S)
             known[1].transport.abort()
 
-    def on(self, kind: type[M], listener: Callable[[int, M], None]) -> None:
+    def on(self, kind: type[M], listener: Callable[[int, M], object]) -> None:
         """Calls `listener` with a browser, by viser's id of it, and each message of a kind.
 
         It runs on the event loop of the server, so it must do no more than note what it heard.

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import rclpy
 from rclpy.clock import JumpThreshold, ROSClock
@@ -153,10 +154,11 @@ class RosSource:
                         self._reconcile(wanted)
                 self._heap.turn()
                 self.control.turn()
+                bell: Any = self._bell  # which is no whole future
                 if self.graph.turn():
-                    executor.spin_once_until_future_complete(self._bell, PENDING_S)
+                    executor.spin_once_until_future_complete(bell, PENDING_S)
                 else:
-                    executor.spin_until_future_complete(self._bell, REST_S)
+                    executor.spin_until_future_complete(bell, REST_S)
         finally:
             self.control.close()
             self.graph.close()
@@ -248,7 +250,8 @@ class RosSource:
         for subscription in held.subscriptions:
             self._node.destroy_subscription(subscription)
         # The executor has to let go of it before the topic can have another type.
-        self._executor.spin_until_future_complete(Bell(), 0.0)
+        never: Any = Bell()
+        self._executor.spin_until_future_complete(never, 0.0)
 
     def _count_clock(self, jump: object) -> None:
         self._clock_messages += 1
