@@ -92,6 +92,7 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._shown = State()
+        self._named_robots: tuple[object, tuple[Robot, ...]] = None, ()
         rights = Rights(
             may_publish,
             config.settings.publish,
@@ -250,7 +251,10 @@ class FrameLoop:
         return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
 
     def _robots(self) -> tuple[Robot, ...]:
-        return robots_of(self.settings.robots)
+        entries = self.settings.robots
+        if entries is not self._named_robots[0]:
+            self._named_robots = entries, robots_of(entries)
+        return self._named_robots[1]
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()

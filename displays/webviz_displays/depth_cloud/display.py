@@ -145,9 +145,12 @@ class DepthCloud(PointsDisplay):
                 "Topic (camera_info_topic).",
             )
             return
+        # Points are drawn where their image was taken, though a newer one has come meanwhile.
+        ctx.state.poses |= {each.number: each.pose for each in images}
         try:
             newest = self._points(images[-1], model, ctx)
         except ImageError as error:
+            ctx.state.poses.clear()
             ctx.error("Points", str(error))
             return
         if newest is None:
@@ -191,7 +194,6 @@ class DepthCloud(PointsDisplay):
         self, number: int, points: DepthPoints, images: Sequence[Sample], state: _State
     ) -> None:
         """Hold the newest points, and those of images that are held."""
-        state.poses |= {each.number: each.pose for each in images}
         held = {each.number for each in images} if self.decay_time else set()
         state.clouds[number] = points
         state.clouds = {n: each for n, each in state.clouds.items() if n in held | {number}}

@@ -27,13 +27,13 @@ RATE = 250
 AREAS = {
     "transforms in": "TransformListener.take",
     "messages in": "Runner.take",
-    "transforms of the tick": "Frames.prepare|Frames.all|poses_in",
+    "transforms of the turn": "Frames.prepare|Frames.all|poses_in",
     "displays": "Runner.draw",
-    "scene": "Scene.flush",
-    "panel": "Viewer.state|Panel.update|Session.publish|TransformListener.statuses",
-    "frame loop": "Viewer.run",
-    "viser: serialising": "_message_producer",
-    "viser: event loop": "_background_worker",
+    "scene": "ViserScene.flush",
+    "panel": "FrameLoop._show_state|Parts.keep_up",
+    "frame loop, the rest": "FrameLoop.run",
+    "packing": "Packer.frame",
+    "event loop, the rest": "_background_worker",
     "ROS thread": "RosSource._run",
 }
 """What a stack belongs to: the first of these that is in it."""

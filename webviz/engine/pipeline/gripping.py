@@ -43,6 +43,10 @@ class Gripping:
         """What the display listens to."""
         return self._wire.subscriptions() if self._wire else {}
 
+    def topics(self) -> tuple[str, ...]:
+        """The names of these topics."""
+        return self._wire.topics() if self._wire else ()
+
     def outlets(self) -> list[Outlet]:
         """What the display publishes."""
         return self._wire.outlets() if self._wire else []

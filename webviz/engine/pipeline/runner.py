@@ -12,7 +12,7 @@ from webviz.api.evidence import Evidence
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
-from webviz.api.robots import RobotFrames, robot_of
+from webviz.api.robots import Robot, RobotFrames, robot_of
 from webviz.api.status import Level, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.gripping import Gripping
@@ -50,6 +50,9 @@ class Runner:
         self._gripping = Gripping(id, services)
         self._guard = self._new_guard()
         self._holder = self._new_holder()
+        self._robot: Robot | None = None
+        self._known_by: object = None
+        """What the robot was found by."""
 
     # Configuration
 
@@ -224,9 +227,11 @@ class Runner:
         robots = self._services.robots()
         if not robots:
             return frames
-        topics = [*self._holder.inputs.topics(), *self._gripping.subscriptions()]
-        robot = robot_of(topics, robots)
-        return RobotFrames(frames, robot) if robot else frames
+        known_by = robots, self._holder, self._gripping.topics()
+        if known_by != self._known_by:
+            self._known_by = known_by
+            self._robot = robot_of([*self._holder.inputs.topics(), *known_by[-1]], robots)
+        return RobotFrames(frames, self._robot) if self._robot else frames
 
     def _new_guard(self) -> Guard:
         who = type(self.display).__name__

@@ -114,6 +114,10 @@ class DisplayWire:
         """The subscriptions by topic."""
         return {name: line.subscription for name, line in self._lines.items()}
 
+    def topics(self) -> tuple[str, ...]:
+        """The names of these topics."""
+        return tuple(self._lines)
+
     def outlets(self) -> list[Outlet]:
         """What it publishes."""
         return list(self._outlets.values())
