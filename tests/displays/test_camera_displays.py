@@ -165,6 +165,16 @@ def test_what_is_no_depth_image_is_named(
     assert told in at.statuses()["Points"][1]
 
 
+def test_an_image_that_comes_while_the_first_is_computed_follows_it(bench: Benches) -> None:
+    at = cloud(bench)
+    send_info(at, INFO)
+    for _ in range(2):
+        send_depth(at, np.full((12, 16), 2000, "u2"), "16UC1")
+        at.turn()
+    at.settle()
+    assert at.statuses()["Points"] == ("OK", "192 points of 192 pixels.")
+
+
 def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
     at = cloud(bench, auto_size=True, auto_size_factor=2.0)
     depths = np.full((12, 16), 1.0, np.float32)

@@ -138,7 +138,8 @@ class Control:
         """Pass parameters that were set to the viewer; those of others are accepted unseen."""
         if self._is_mirroring:
             return SetParametersResult(successful=True)
-        self._mirrored = {}  # "/map" is to become "map"
+        self._mirrored = {}  # look at them again: "/map" is to become "map"
+        self._wake()
         try:
             commands = [
                 command
