@@ -20,16 +20,6 @@ from webviz.engine.commands.panel import (
     SetPanelProperty,
 )
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
-from webviz.engine.commands.settings import (
-    Pause,
-    Redo,
-    ReloadPlugin,
-    Reset,
-    SetBackground,
-    SetFixedFrame,
-    SetFrameRate,
-    Undo,
-)
 from webviz.engine.commands.tools import (
     CallService,
     CancelGoal,
@@ -39,6 +29,16 @@ from webviz.engine.commands.tools import (
     UseTool,
 )
 from webviz.engine.commands.topics import InspectTopic, InspectTopics, InspectTransforms
+from webviz.engine.commands.viewer import (
+    Pause,
+    Redo,
+    ReloadPlugin,
+    Reset,
+    SetBackground,
+    SetFixedFrame,
+    SetFrameRate,
+    Undo,
+)
 from webviz.engine.commands.views import (
     ChangeView,
     FocusDisplay,
