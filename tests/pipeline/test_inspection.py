@@ -117,10 +117,10 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Callable[..., A
     assert (inspected.message, inspected.type) == ({"fields": {"data": "'hello'"}}, STRING)
     assert inspected.received_s == pytest.approx(time.time(), abs=30)
     b.scene.watched = False
-    do(b)
+    b.turn()
     assert "/text" not in b.source.wanted
     b.scene.watched = True
-    do(b)
+    b.turn()
     assert "/text" in b.source.wanted
     assert do(b, InspectTopic("")).inspected == {}
     assert "/text" not in b.source.wanted
@@ -204,7 +204,7 @@ def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[...,
     b.turn()
     assert "/image" in b.source.wanted
     b.scene.unseen = {row.id for row in do(b).rows}
-    do(b)
+    b.turn()
     assert "/image" not in b.source.wanted
     assert "/path" in b.source.wanted  # which has no pane
     row = do(b).rows[0]
@@ -212,7 +212,7 @@ def test_what_only_a_hidden_pane_would_show_is_not_received(bench: Callable[...,
     told = row.statuses
     assert told["Display"].text.startswith("Not received: no browser shows its pane.")
     b.scene.unseen = set()
-    do(b)
+    b.turn()
     assert "/image" in b.source.wanted
 
 

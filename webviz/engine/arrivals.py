@@ -26,9 +26,7 @@ class Arrivals:
         core, attempt = self._core, self._core.guard.attempt
         batches: Batches = {}
         core.now_ns = attempt("Source", core.now_ns, core.source.now_ns)
-        offers = attempt("Source", core.offers, core.source.offers)
-        if offers is not core.offers:
-            core.offers, core.has_new_wishes = offers, True
+        core.offers = attempt("Source", core.offers, core.source.offers)
         if not self._time.is_paused:
             batches = attempt("Source", batches, core.source.inbox.drain)
         if attempt("Time", False, self._time.ros.step, core.now_ns):

@@ -109,7 +109,6 @@ class FrameLoop:
             clock,
             gate=gate,
             wake=self._wake,
-            resubscribe=core.resubscribe,
             robots=self._robots,
             points=PointBudget(self._points_held),
         )
@@ -213,11 +212,8 @@ class FrameLoop:
             runners = self._displays.list.active()
             self._showing.draw(runners, core.frames, self.settings.background)
             self._tracer.sent()
-        is_due = bool(answers) or time.monotonic() >= self._next_panel
-        if is_due or core.has_new_wishes:
-            core.has_new_wishes = False
-            self._guard("Source", self._source.want, parts.subscriptions())
-        if is_due:
+        self._guard("Source", self._source.want, parts.subscriptions())
+        if answers or time.monotonic() >= self._next_panel:
             self._next_panel = time.monotonic() + PANEL_S
             parts.keep_up(bool(answers))
             self._guard("Panel", self._show_state)

@@ -48,14 +48,10 @@ class Toolbar:
         self._recent: dict[int, deque[float]] = {}
         """When each browser made its last strokes."""
         self._shown: Tools | None = None
-        self._made_of: object = None
         channel.on(StrokeDone, self._use)
 
     def update(self, state: State) -> None:
         """Show the tools of a viewer; sends only what is new."""
-        if state.tools is self._made_of:
-            return
-        self._made_of = state.tools
         tools = Tools(tuple({name: getattr(each, name) for name in _SENT} for each in state.tools))
         if tools != self._shown:
             self._shown = tools

@@ -80,8 +80,7 @@ class DisplaysPart(Part):
             runner.take(batches, self.core.frames, self.core.offers)
 
     def reset(self) -> None:
-        """Forget all messages, and ask for the latched ones again."""
-        self.core.resubscribe()
+        """Forget all messages."""
         for runner in self.list.runners():
             self.core.guard(self.name, runner.reset)
 

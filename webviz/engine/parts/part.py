@@ -55,13 +55,6 @@ class Core:
         """ROS time of the turn, also while paused; 0 while it is unknown."""
         self.offers: Mapping[str, Offer] = {}
         """Publishers and QoS by topic."""
-        self.has_new_wishes = True
-        """Whether to look at the subscriptions in this turn; else they are looked at after each
-        command, and several times a second."""
-
-    def resubscribe(self) -> None:
-        """Make changed subscriptions take effect in this turn."""
-        self.has_new_wishes = True
 
     def is_watched(self) -> bool:
         """Whether any browser is connected."""

@@ -59,10 +59,6 @@ class ToolsPart(Part):
         self._helms = helms
         self._others = others
         self.list = PluginList(Tool)
-        self._own: set[Outlet] = set()
-        """Where tools other than vehicles publish."""
-        self._buttons: tuple[ToolButton, ...] | None = None
-        self._considered: tuple[set[Outlet], set[Outlet]] | None = None
         self._advertised: set[Outlet] = set()
 
     @property
@@ -80,50 +76,41 @@ class ToolsPart(Part):
 
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
-        if commanded or self._buttons is None:
-            self._equip()
-        wanted, stopping = {*self._own, *self._others()}, self._helms.stopping()
+        vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
+        wanted = set(self._others())
+        for id, tool in self.list.usable().items():
+            if (vehicle := tool.vehicle) is None:
+                wanted.update(self._outlets(tool))
+            elif outlet := outlet_of(self.core, vehicle.type, vehicle.topic, DRIVING_DEPTH):
+                vehicles[id] = vehicle, outlet
+        self._helms.equip(vehicles)
         wanted |= self._helms.outlets()
-        if not commanded and self._considered == (wanted, stopping):
-            return
-        self._considered = wanted, stopping
+        stopping = self._helms.stopping()
         wanted = {each for each in wanted if not self.core.gate.refusal(each.topic)} | stopping
         if wanted != self._advertised:
             self._advertised = wanted
             self.core.gate.advertise(wanted, stopping)
 
     def state(self) -> Mapping[str, Any]:
-        """The buttons of the toolbar; another object only after a command."""
-        return {"tools": self._buttons or ()}
+        """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
+        keys: dict[str, str] = {}
+        for id, tool in self.list.usable().items():
+            keys.setdefault(tool.shortcut, id)
+        return {
+            "tools": tuple(
+                _button(
+                    id,
+                    tool,
+                    tool.shortcut if keys[tool.shortcut] == id else "",
+                    self._refusal(tool),
+                )
+                for id, tool in self.list.usable().items()
+            )
+        }
 
     def statuses(self) -> Mapping[str, Status]:
         """Which tools cannot be used."""
         return self.list.statuses()
-
-    def _equip(self) -> None:
-        """Take over what commands may have changed: outlets, vehicles and buttons."""
-        vehicles: dict[str, tuple[Vehicle, Outlet]] = {}
-        self._own = set()
-        for id, tool in self.list.usable().items():
-            if (vehicle := tool.vehicle) is None:
-                self._own.update(self._outlets(tool))
-            elif outlet := outlet_of(self.core, vehicle.type, vehicle.topic, DRIVING_DEPTH):
-                vehicles[id] = vehicle, outlet
-        self._helms.equip(vehicles)
-        self._buttons = self._made_buttons()
-
-    def _made_buttons(self) -> tuple[ToolButton, ...]:
-        """The buttons of the toolbar; a key belongs to the first tool that asks for it."""
-        usable = self.list.usable()
-        keys: dict[str, str] = {}
-        for id, tool in usable.items():
-            keys.setdefault(tool.shortcut, id)
-        return tuple(
-            _button(
-                id, tool, tool.shortcut if keys[tool.shortcut] == id else "", self._refusal(tool)
-            )
-            for id, tool in usable.items()
-        )
 
     def _use(self, command: UseTool, sender: Sender) -> None:
         id, tool = self.list.find(command.tool)
@@ -140,7 +127,7 @@ class ToolsPart(Part):
 
         core, report = self.core, command.report
         context = ToolContext(
-            tool, core.frames, core.now_ns, publish, self._call, send_goal, report
+            tool, core.frames, core.source.now_ns(), publish, self._call, send_goal, report
         )
         tool.done(stroke, context)
 

@@ -28,7 +28,6 @@ class Services:
         tracer: traces samples on request.
         gate: for displays that follow a protocol of their own; None if they cannot.
         wake: makes the frame loop turn again soon.
-        resubscribe: makes changed subscriptions take effect in this turn.
         robots: whose topics and frames have a name of their own.
         points: how many points each display may show.
     """
@@ -41,6 +40,5 @@ class Services:
     tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
     gate: Gate | None = None
     wake: Callable[[], None] = lambda: None
-    resubscribe: Callable[[], None] = lambda: None
     robots: Callable[[], Sequence[Robot]] = tuple
     points: PointBudget = field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))

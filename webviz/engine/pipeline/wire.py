@@ -71,7 +71,6 @@ class DisplayWire:
         line = self._lines.get(name)
         if line is None or line.subscription != wanted:
             line = self._lines[name] = _Line(wanted)
-            self._services.resubscribe()
         offer = self._offers.get(name)
         publishers = offer.publishers if offer else ()
         heard = Heard(
