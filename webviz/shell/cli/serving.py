@@ -75,7 +75,8 @@ def serve(
                 viewer.show_viser_panel()
             is_shown = not stop.is_asked
             if is_shown:
-                _announce(options, viewer)
+                with contextlib.suppress(OSError):  # the terminal was closed meanwhile
+                    _announce(options, viewer)
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED

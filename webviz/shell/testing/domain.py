@@ -12,8 +12,8 @@ DOMAINS = range(1, 100)
 """The ports of domains above 101 are in Linux's ephemeral range."""
 FIRST_PORT, PORTS = 7400, 250
 """In DDS, domain d has the UDP ports from 7400 + 250 d."""
-PARTICIPANT = 10
-"""Offset of the port of the first participant on a machine."""
+PARTICIPANTS = range(10, 30, 2)
+"""Offsets of the ports of the first participants on a machine; the first may have left."""
 UNUSED = 249
 """Offset of a port that only the 120th participant would use; bound as a lock."""
 
@@ -46,12 +46,17 @@ def _take() -> tuple[socket.socket, int]:
         lock = _bound(first + UNUSED)
         if lock is None:
             continue
-        probe = _bound(first + PARTICIPANT)
-        if probe is not None:
-            probe.close()
+        if all(_is_free(first + offset) for offset in PARTICIPANTS):
             return lock, domain
         lock.close()
     raise RuntimeError("All ROS domains of this machine are in use. Stop some ROS programs.")
+
+
+def _is_free(port: int) -> bool:
+    probe = _bound(port)
+    if probe is not None:
+        probe.close()
+    return probe is not None
 
 
 def _bound(port: int) -> socket.socket | None:
