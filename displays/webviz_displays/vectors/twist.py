@@ -1,4 +1,4 @@
-"""The displays of velocities and accelerations: Twist, TwistStamped and AccelStamped."""
+"""The Twist display."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Annotated, Any
 from webviz import Context, Input, Prop, Sample, Topic
 from webviz.data import messages
 from webviz_displays.shared.frame_names import frame_of
-from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.motion_display import MotionDisplay
 
 
@@ -39,41 +38,3 @@ class Twist(MotionDisplay):
     def units(self) -> tuple[str, str]:
         """Those of velocities."""
         return "m/s", "rad/s"
-
-
-class TwistStamped(MotionDisplay):
-    """A linear and an angular velocity, drawn at the origin of their frame."""
-
-    rviz = "rviz_default_plugins/TwistStamped"
-
-    topic: Annotated[
-        Topic, Input("geometry_msgs/msg/TwistStamped"), Prop(help="Topic of the velocities.")
-    ] = Topic("/twist")
-    history_length: HistoryLength = 1
-
-    def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
-        """Linear and angular velocity."""
-        return message.twist.linear, message.twist.angular
-
-    def units(self) -> tuple[str, str]:
-        """Those of velocities."""
-        return "m/s", "rad/s"
-
-
-class AccelStamped(MotionDisplay):
-    """A linear and an angular acceleration, drawn at the origin of their frame."""
-
-    rviz = "rviz_default_plugins/AccelStamped"
-
-    topic: Annotated[
-        Topic, Input("geometry_msgs/msg/AccelStamped"), Prop(help="Topic of the accelerations.")
-    ] = Topic("/accel")
-    history_length: HistoryLength = 1
-
-    def vectors(self, message: Any) -> tuple[messages.Vector3, messages.Vector3]:
-        """Linear and angular acceleration."""
-        return message.accel.linear, message.accel.angular
-
-    def units(self) -> tuple[str, str]:
-        """Those of accelerations."""
-        return "m/s²", "rad/s²"
