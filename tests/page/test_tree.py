@@ -450,7 +450,11 @@ def cut_off(tab: Tab, server: Server) -> None:
 
 
 def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
-    server: Server, loop: Loop, tree: Tree, make_row: MakeRow
+    server: Server,
+    loop: Loop,
+    tree: Tree,
+    make_row: MakeRow,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     loop.show(group("g"), replace(make_row("a"), depth=1), make_row("b"))
     tree.fold("g")
@@ -471,7 +475,14 @@ def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
     rows = (make_row("b", name="new"), group("g"), replace(make_row("x", name="a"), depth=1))
     loop.show(*rows, make_row("a", name="b"))
     page.evaluate("() => { window.WebSocket = window.KeptWebSocket; }")
+    # The settings come first: the page must not take the displays of before for those of now.
+    watched = server.channel.watched
+    monkeypatch.setattr(server.channel, "watched", lambda: watched() - {"displays"})
     cut_off(tree.tab, server)
+    tree.tab.wait_for(lambda: "settings" in watched())
+    for _ in range(5):
+        tree.tab.turn()
+    monkeypatch.undo()
     tree.wait_for_names("new", "g", "b")
     assert tree.selected() == ["b"]
     tree.fold("g")

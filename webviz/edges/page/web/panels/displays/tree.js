@@ -229,7 +229,7 @@ export function buildTree({ after, changed }) {
     listenToDrags(canvas, tree),
     watch("settings", (settings) => {
       global = globalItem(settings);
-      update();
+      refresh(); // which displays there are is not known yet after a lost connection
     }),
     watch("displays", (values) => {
       model = arrange(values);
