@@ -16,7 +16,8 @@ from webviz.data.images import ImageError, values
 from webviz_displays.image.base import ImageDisplay, ImageState
 from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
-from webviz_displays.shared.geometry import LONGEST
+from webviz_displays.shared.colors import Alpha
+from webviz_displays.shared.geometry import LONGEST, Metres
 
 _HALF = math.sqrt(0.5)
 # Rotations (w, x, y, z) that turn right and up, or right and down, into axes of the frame.
@@ -60,9 +61,7 @@ class _State(ImageState):
 class ImagePlane(ImageDisplay):
     """Images on a plane in the scene, with their centre at the origin of their frame."""
 
-    width: Annotated[
-        float, Prop(gt=0, unit="m", help="Width of the image; the height follows from it.")
-    ] = 1.0
+    width: Annotated[Metres, Prop(help="Width of the image; the height follows from it.")] = 1.0
     plane: Annotated[
         Literal["Optical", "XY", "XZ", "YZ"],
         Prop(
@@ -70,7 +69,7 @@ class ImagePlane(ImageDisplay):
             "to its top; Optical is x to its right and y to its bottom, as in optical frames."
         ),
     ] = "Optical"
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0
 
     def new_state(self) -> _State:
         """Without an image."""

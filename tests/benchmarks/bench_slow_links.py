@@ -41,7 +41,7 @@ class Found:
 
 
 class Robot(threading.Thread):
-    """Moves a robot until it is told to stop; its x is the time in seconds.
+    """Drives a robot along x until it is stopped; its x is the time in seconds.
 
     Args:
         server: of the scene.

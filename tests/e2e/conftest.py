@@ -40,6 +40,35 @@ def start(
         program.end()
 
 
+@pytest.fixture(scope="module")
+def view(
+    start: Callable[..., Program],
+    browser: playwright.Browser,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Iterator[Callable[..., Page]]:
+    """Start a viewer with a config, and open a page that draws only when it is looked at.
+
+    A graphics card in software is slow. Neither the page nor the viewer may have failed in the end.
+    """
+    opened: list[tuple[Page, Program]] = []
+
+    def view(config: str, *arguments: str, height: int = 500, resolution: float = 1.0) -> Page:
+        path = tmp_path_factory.mktemp("config") / "config.yaml"
+        path.write_text(config)
+        program = start("webviz", "-d", str(path), "--port", "0", *arguments)
+        page = Page(browser, program.url(), 900, height, resolution=resolution)
+        opened.append((page, program))
+        page.hold()
+        return page
+
+    yield view
+    assert [page.errors for page, _ in opened] == [[]] * len(opened)
+    for page, program in opened:
+        page.close()
+        assert program.end() == 0, program.output()
+        assert "Traceback" not in program.output()
+
+
 @pytest.fixture
 def open_page(browser: playwright.Browser) -> Iterator[Callable[..., Page]]:
     """Open a viewer in a tab; pages must raise no errors."""

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import playwright.sync_api as playwright
 import pytest
 from program import Program
 from side import GLOBAL_OPTIONS, Side
@@ -150,22 +149,9 @@ def simulator(start: Callable[..., Program]) -> Program:
 
 
 @pytest.fixture(scope="module")
-def page(
-    simulator: Program,
-    start: Callable[..., Program],
-    browser: playwright.Browser,
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[Page]:
-    """A page that draws only when it is looked at: a graphics card in software is slow."""
-    config = tmp_path_factory.mktemp("config") / "top.yaml"
-    config.write_text(CONFIG)
-    program = start("webviz", "-d", str(config), "--port", "0")
-    page = Page(browser, program.url(), 900, 500)
-    page.hold()
-    yield page
-    assert page.errors == []
-    page.close()
-    assert program.end() == 0, program.output()
+def page(simulator: Program, view: Callable[..., Page]) -> Page:
+    """The simulator from above."""
+    return view(CONFIG)
 
 
 def choose_fixed_frame(page: Page, frame: str) -> None:

@@ -5,10 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 
-import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
-from program import Program
 from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
@@ -34,25 +32,12 @@ def robot(ros_env: dict[str, str]) -> Iterator[Robot]:
 
 
 @pytest.fixture(scope="module")
-def page(
-    robot: Robot,
-    start: Callable[..., Program],
-    browser: playwright.Browser,
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[Page]:
+def page(robot: Robot, view: Callable[..., Page]) -> Page:
     """A viewer with a display for each reason."""
     rows = [f"- {{type: LaserScan, name: {row}, topic: /{row.lower()}}}" for row in ROWS]
     rows += ["- {type: TF, show_names: true}", "- {type: Axes, reference_frame: out}"]
-    config = tmp_path_factory.mktemp("config") / "reasons.yaml"
-    config.write_text("\n".join(["fixed_frame: map", "displays:", *rows, ""]))
-    program = start("webviz", "-d", str(config), "--port", "0")
-    page = Page(browser, program.url(), 900, 900, resolution=COARSE)
-    page.hold()
-    yield page
-    errors = page.errors
-    page.close()
-    assert errors == []
-    assert program.end() == 0, program.output()
+    config = "\n".join(["fixed_frame: map", "displays:", *rows, ""])
+    return view(config, height=900, resolution=COARSE)
 
 
 def select(page: Page, row: str) -> None:

@@ -6,9 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
-import playwright.sync_api as playwright
 import pytest
-from program import Program
 from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
@@ -53,36 +51,11 @@ def make_robot(ros_env: dict[str, str]) -> Iterator[Callable[..., Robot]]:
 
 
 @pytest.fixture(scope="module")
-def view(
-    start: Callable[..., Program],
-    browser: playwright.Browser,
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[Callable[..., Page]]:
-    """Starts a viewer with ROS arguments and opens its page."""
-    programs: list[Program] = []
-    pages: list[Page] = []
-
-    def view(*ros: str) -> Page:
-        config = tmp_path_factory.mktemp("config") / "time.yaml"
-        config.write_text(CONFIG)
-        programs.append(start("webviz", "-d", str(config), "--port", "0", *ros))
-        pages.append(Page(browser, programs[-1].url(), 900, 500))
-        pages[-1].hold()
-        Side(pages[-1]).select(GLOBAL_OPTIONS)
-        return pages[-1]
-
-    yield view
-    assert [page.errors for page in pages] == [[]] * len(pages)
-    for page, program in zip(pages, programs, strict=True):
-        page.close()
-        assert program.end() == 0, program.output()
-        assert "Traceback" not in program.output()
-
-
-@pytest.fixture(scope="module")
 def lasting(view: Callable[..., Page]) -> Page:
     """The page of all tests whose viewer goes by the computer's clock."""
-    return view()
+    page = view(CONFIG)
+    Side(page).select(GLOBAL_OPTIONS)
+    return page
 
 
 @pytest.fixture
@@ -143,7 +116,8 @@ def wait_for(page: Page, *words: str, seconds: float = 60.0) -> None:
 def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop(
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
-    page = view("--ros-args", "-p", "use_sim_time:=true")
+    page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true")
+    Side(page).select(GLOBAL_OPTIONS)
     wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
     bag = Bag(make_robot("player"), 100, with_clock=True)
     bag.play(0.0, 1.0)

@@ -11,7 +11,7 @@ from typing import Any
 class Level(enum.IntEnum):
     """The severity of a status; a parent has that of its worst child.
 
-    IDLE is neither good nor bad: nothing is known, because nobody looks. It is shown in grey.
+    IDLE, shown in grey, is neither good nor bad: nothing was received, as no pane shows it.
     """
 
     IDLE = -1

@@ -25,7 +25,8 @@ from webviz.data.images import (
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
-from webviz_displays.shared.colors import faded_color
+from webviz_displays.shared.colors import Alpha, faded_color
+from webviz_displays.shared.geometry import Metres
 
 EDGE_M = 0.01
 
@@ -56,9 +57,7 @@ class CameraInfo(Display):
     topic: Annotated[
         Topic, Input("sensor_msgs/msg/CameraInfo"), Prop(help="Topic of the camera info.")
     ] = Topic("/camera/camera_info")
-    far_clip: Annotated[
-        float, Prop(gt=0, unit="m", rviz="Far clip", help="Distance of the far end.")
-    ] = 1.0
+    far_clip: Annotated[Metres, Prop(rviz="Far clip", help="Distance of the far end.")] = 1.0
     show_edges: Annotated[bool, Prop(rviz="Show edges", help="Draw the edges.")] = True
     show_polygons: Annotated[bool, Prop(rviz="Show polygons", help="Fill the pyramid.")] = True
     not_show_side_polygons: Annotated[
@@ -75,7 +74,7 @@ class CameraInfo(Display):
     edge_color: Annotated[
         Color, Prop(rviz="Edge color", when=("show_edges", True), help="Colour of the edges.")
     ] = (125, 125, 125)
-    alpha: Annotated[float, Prop(ge=0, le=1, help="Opacity; 0 is invisible.")] = 0.5
+    alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 0.5
     show_image: Annotated[bool, Prop(help="Show the image at the far end.")] = False
     image_topic: Annotated[
         Topic,

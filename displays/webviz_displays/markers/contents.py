@@ -62,7 +62,7 @@ class Memory:
         self._total = 0
 
     def take(self, row: int, size: int) -> bool:
-        """Reserve bytes for a row instead of those it had; False if there is no room."""
+        """Replace the bytes reserved for a row; False if they do not fit."""
         total = self._total - self._sizes.get(row, 0) + size
         if total > self._limit:
             return False

@@ -8,7 +8,7 @@ import { typeIcon } from "../../shell/type_icons.js";
 import { watch } from "../../stores.js";
 import { globalOptions, properties } from "./properties.js";
 
-const LEVELS = { idle: "Nobody looks", ok: "OK", warn: "Warning", error: "Error" };
+const LEVELS = { idle: "Not shown", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
 
 /**
