@@ -18,7 +18,8 @@ channel.onBytes((buffer) => {
   const data = new Uint8Array(buffer, 4 + length);
   const pane = panes.get(header.display);
   const done = () => confirm(header.display, header.number);
-  if (pane) pane.take(header, data).then(done, done);
+  // Also without a pane, which may come back before the server hears that it was gone.
+  Promise.resolve(pane?.take(header, data)).then(done, done);
 });
 
 channel.onOpen(() => {
