@@ -142,9 +142,7 @@ class CloudDisplay(PointsDisplay):
         if cloud.remark:
             ctx.warn("Data", cloud.remark)
         state.size = len(xyz)
-        rows, others, sentence = self._select(xyz, state, sample.number == state.resting)
-        if rows is not None and others is not None:
-            rows = np.concatenate((rows, others))
+        rows, thins, sentence = self._select(xyz, state, sample.number == state.resting)
         xyz = picked(xyz, rows)
         own = Pose(origin)
         fixed = compose(sample.pose, own) if any(origin) else sample.pose
@@ -153,10 +151,8 @@ class CloudDisplay(PointsDisplay):
         except CloudError as error:
             ctx.warn("Colors", f"{error} The points are white.")
             colors, opacities = WHITE, None
-        sample_size = len(xyz) - (0 if others is None else len(others))
         if opacities is not None and opacities.min(initial=255) < 255:
             seen = opacities > 0
-            sample_size = int(np.count_nonzero(seen[:sample_size]))
             xyz, rows = xyz[seen], np.flatnonzero(seen) if rows is None else rows[seen]
             colors = faded(np.asarray(colors)[seen], opacities[seen, None] / 255.0)
             if hidden := len(seen) - len(xyz):
@@ -167,13 +163,8 @@ class CloudDisplay(PointsDisplay):
             ctx.warn("Points", f"Invisible: alpha is 0. {sentence}")
             return
         group = ctx.follow(None, offset=fixed) if any(origin) else ctx
-        if rows is None or others is None:
-            # As in RViz, boxes turn with the sensor.
-            self.draw_points(xyz, colors, group, ctx, ids=rows)
-            return
-        for part, thins in ((slice(sample_size), False), (slice(sample_size, None), True)):
-            some = colors if isinstance(colors, tuple) else colors[part]
-            self.draw_points(xyz[part], some, group, ctx, ids=rows[part], thins=thins)
+        # As in RViz, boxes turn with the sensor.
+        self.draw_points(xyz, colors, group, ctx, ids=rows, thins=thins)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """All fields of a point."""
@@ -185,7 +176,7 @@ class CloudDisplay(PointsDisplay):
             values |= {"Row": hit.id // cloud.width, "Column": hit.id % cloud.width}
         return Details(f"Point {hit.id}", values | {"Points in the cloud": cloud.count})
 
-    def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, Rows | None, str]:
+    def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, bool, str]:
         """The points to show.
 
         Args:
@@ -194,14 +185,13 @@ class CloudDisplay(PointsDisplay):
             rests: whether no other cloud follows.
 
         Returns:
-            Rows of points that all browsers draw, None for all points; rows of the others if
-            browsers draw as many of them as they hold, in an order for `Points.thins`; and a
-            sentence.
+            Rows of points, None for all; whether browsers draw as many of them as they hold, in an
+            order for `Points.thins`; and a sentence.
         """
         total, shares = len(xyz), state.shares
         if not total:
             empty = "The cloud is empty: width x height is 0. Check the sensor or its filter."
-            return None, None, empty
+            return None, False, empty
         reasons: list[str] = []
 
         def left(before: int, rows: Rows | None, reason: str) -> int:
@@ -224,22 +214,20 @@ class CloudDisplay(PointsDisplay):
             name = f"the {spaced(limit)} that browsers hold at 20 frames a second"
         if self.style == "Points" and limit > DOTS_LIMIT:
             name, limit = f"the limit of the style Points of {spaced(DOTS_LIMIT)}", DOTS_LIMIT
-        others = None
-        if count > max(limit // shares, 1):
-            kept = evenly(count, max(limit // shares, 1))
-            if rests and self.max_points == AS_HELD and self.style != "Points":
-                others = np.delete(np.arange(count) if rows is None else rows, kept)
-                others = others[in_blocks(xyz[others])]
+        thins = False
+        most = max(limit // shares, 1)
+        if count > most:
+            thins = rests and self.max_points == AS_HELD and self.style != "Points"
+            kept = in_blocks(picked(xyz, rows)) if thins else evenly(count, most)
             rows = kept if rows is None else rows[kept]
             many = f" for {shares} clouds" if shares > 1 else ""
-            if others is None:
-                count = left(count, rows, f"over {name}{many}")
+            count = left(count, rows, f"over {name}{many}")
         sentence = f"Showing {spaced(count)} of {spaced(total)} points"
         if reasons:
             sentence += f"; dropped: {', '.join(reasons)}"
-        if others is not None:
+        if thins:
             sentence += "; browsers thin out distant ones to keep 20 frames a second"
-        return rows, others, f"{sentence}."
+        return rows, thins, f"{sentence}."
 
     def _colors(
         self, cloud: Cloud, rows: Rows | None, xyz: F32, own: Pose, fixed: Pose, ctx: Context

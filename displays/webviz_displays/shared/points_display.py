@@ -104,8 +104,8 @@ class PointStyle(Display):
             ids: (N,), index of each in the message; None if all are drawn.
             size: edge or diameter in metres, of all or (N,); None is the property. Flat styles of
                 many points get it roughly.
-            thins: draw more points besides those of another call, in an order for `Points.thins`;
-                not for the style Points.
+            thins: whether browsers may draw only some of them, which are in an order for
+                `Points.thins`; not for the style Points.
         """
         size = self.size if size is None else size
         too_many = thins or len(xyz) > SOLIDS_LIMIT
@@ -137,7 +137,8 @@ class PointStyle(Display):
         elif self.style != "Flat Squares":
             ctx.ok("Style", f"{self.style} are drawn as flat squares that face the camera.")
         if not isinstance(size, np.ndarray):
-            group.points("more" if thins else "points", xyz, colors, size, outline, ids, thins)
+            key = "blocks" if thins else "points"  # nodes do not begin or cease to be thinned
+            group.points(key, xyz, colors, size, outline, ids, thins)
             return
         for name, rows, one in by_size(size):
             # `take` is four times as fast as an index for each row.
