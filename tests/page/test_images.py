@@ -378,6 +378,28 @@ def test_video_is_decoded_by_the_page(tab: Any, pictures: Pictures) -> None:
     tab.wait_for(lambda: near(shown(tab, "Color"), (200, 40, 40), 25) and not problem.is_visible())
 
 
+def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(
+    tab: Any, pictures: Pictures
+) -> None:
+    tab.page.evaluate("""() => {
+      const decode = window.createImageBitmap;
+      window.createImageBitmap = async (...image) => {
+        window.createImageBitmap = decode;  // the next is not delayed
+        window.isDecoding = true;
+        await new Promise((resolve) => { window.decodeIt = resolve; });
+        return decode(...image);
+      };
+    }""")
+    pictures.show("Color", pixels(np.full_like(COLORS, 200), "rgb8"))
+    tab.wait_for(lambda: tab.page.evaluate("window.isDecoding"))
+    pictures.show("Color", pixels(np.full_like(COLORS, 100), "rgb8"))
+    tab.page.wait_for_timeout(200)
+    tab.page.evaluate("window.decodeIt()")
+    tab.wait_for(lambda: near(shown(tab, "Color"), (100, 100, 100), 3))
+    tab.page.wait_for_timeout(200)
+    assert near(shown(tab, "Color"), (100, 100, 100), 3)
+
+
 def test_two_pages_and_a_flood_leave_no_queue(
     tab: Any, pictures: Pictures, open_tab: Callable[..., Any]
 ) -> None:

@@ -7,6 +7,7 @@ const COARSE = 64;
 const SETTLE_MS = 100;
 
 const panes = new Map();
+const taken = new Map(); // by display, the promise of the newest picture
 const shown = new Map();
 let asked = ""; // each page says once that it has panes, and which it shows
 let timer = 0;
@@ -16,10 +17,12 @@ channel.onBytes((buffer) => {
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const data = new Uint8Array(buffer, 4 + length);
-  const pane = panes.get(header.display);
-  const done = () => confirm(header.display, header.number);
-  // Also without a pane, which may come back before the server hears that it was gone.
-  Promise.resolve(pane?.take(header, data)).then(done, done);
+  const { display, number } = header;
+  // One after another: a later one that is decoded sooner must not be drawn first. Also without a
+  // pane, which may come back before the server hears that it was gone.
+  const take = () => panes.get(display)?.take(header, data);
+  const done = () => confirm(display, number);
+  taken.set(display, (taken.get(display) ?? Promise.resolve()).then(take).then(done, done));
 });
 
 channel.onOpen(() => {
@@ -39,6 +42,7 @@ export function open(display, pane) {
 
 export function close(display) {
   panes.delete(display);
+  taken.delete(display);
   refresh();
 }
 

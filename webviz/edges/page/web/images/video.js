@@ -16,8 +16,10 @@ export function makeVideo(draw, fail) {
   let codec = null;
   let time = 0;
   let failure = null;
+  let goOn = () => {}; // ends the wait for a decoder that is closed
 
   function close() {
+    goOn();
     if (decoder && decoder.state !== "closed") decoder.close(); // an error closes it, too
     decoder = null;
   }
@@ -39,6 +41,7 @@ export function makeVideo(draw, fail) {
       },
       error(error) {
         failure = error;
+        goOn();
         fail(`The video is damaged: ${error.message}`);
       },
     });
@@ -57,8 +60,11 @@ export function makeVideo(draw, fail) {
         at += size;
       }
       // A decoder that falls behind makes the server wait, too.
-      while (decoder.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
-        await new Promise((resolve) => decoder.addEventListener("dequeue", resolve, { once: true }));
+      while (decoder?.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
+        await new Promise((resolve) => {
+          goOn = resolve;
+          decoder.addEventListener("dequeue", resolve, { once: true });
+        });
       }
     },
     close,
