@@ -23,6 +23,7 @@ from webviz.edges.access.roles import LIMITS, Role
 from webviz.edges.page.messages import Answer, Ask, FromPage, ToPage
 from webviz.edges.page.outgoing import MAX_WAITING
 from webviz.edges.scene import ViserScene, open_server
+from webviz.edges.scene.adapter.greeting import greet
 from webviz.edges.scene.quiet_server import Server
 from webviz.shell.pictures.browser import Page
 
@@ -242,7 +243,10 @@ def test_nothing_is_below_the_folder_of_the_modules(server: Server, path: str) -
 
 
 def test_a_real_page_answers_and_is_back_when_the_server_is_another(
-    browser: playwright.Browser, server: Server
+    browser: playwright.Browser,
+    server: Server,
+    wait_until: Callable[[Callable[[], bool]], None],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     answers: list[tuple[int, Answer]] = []
 
@@ -257,6 +261,13 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     assert answers == [(page.evaluate("() => window.webviz.browser"), Answer("first"))]
     port = server.get_port()
     server.stop()
+
+    def greet_late(server: Server, *rest: Any) -> None:
+        wait_until(lambda: bool(server._websock_server._live_connections))
+        greet(server, *rest)
+
+    # The worst case: the page is there before anybody has told the server how to greet it.
+    monkeypatch.setattr("webviz.edges.scene.server.greet", greet_late)
     again = open_server(port=port)
     try:
         listen(again)
