@@ -77,6 +77,9 @@ def test_poses_and_data_are_seen_in_the_same_picture(view: Any, slower: int) -> 
     chrome = view.tab.context.new_cdp_session(view.tab)
     chrome.send("Emulation.setCPUThrottlingRate", {"rate": slower})
     view.evaluate(WATCH.replace("BANDS", str(len(nodes_at(0.0)) + 1)))
+    seen = "() => window.pictures.at(-1)?.every((middle) => middle >= 0)"
+    view.wait_for(lambda: view.evaluate(seen), "everything", 60)
+    view.evaluate("() => { window.pictures.length = 0; }")
     steps = itertools.count(1)
 
     def goes_on() -> bool:
