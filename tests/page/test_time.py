@@ -25,7 +25,7 @@ def bar(tab: Tab) -> str:
 
 def shows_seconds(tab: Tab) -> bool:
     """Whether the bar begins with the time of the clock in seconds."""
-    first = bar(tab).split()[0]
+    first, *_ = bar(tab).split(" ")  # empty while the page loads
     return "." in first and abs(float(first) - time.time()) < 60.0
 
 
