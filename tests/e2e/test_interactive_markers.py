@@ -110,7 +110,16 @@ def look_at(page: Page, viewer: webviz.Viewer, x: float, y: float, **view: Any) 
     """Look down at a place, with +x to the right and +y up, 100 pixels a metre."""
     wanted = {"type": "TopDownOrtho", "scale": 100.0, "x": x, "y": y, **view}
     viewer.do(ShowView(checked_view(wanted)))
-    page.draw()
+    middle = page.evaluate("""() => {
+      const { left, top, width, height } = document.querySelector("canvas").getBoundingClientRect();
+      return [left + width / 2, top + height / 2];
+    }""")
+
+    def is_there() -> bool:
+        page.draw()
+        return on_screen(page, (x, y, 0.0)) == pytest.approx(middle, abs=1.0)
+
+    page.wait_for(is_there, "the view")
 
 
 def drag(

@@ -33,7 +33,8 @@ def pace_of(connection: ServerConnection) -> Pace:
 def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None:
     """Makes every page that connects open the channel, and sends heartbeats.
 
-    To be called before the server has browsers.
+    Pages that came before, such as those of a server that ran here, are sent away: they come again
+    by themselves.
 
     Args:
         server: of the pages.
@@ -70,6 +71,11 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
         links.tell()
         loop.call_later(BEAT_PERIOD, beat)
 
+    def send_away() -> None:
+        for browser in socket._live_connections.keys() - channel.browsers():
+            end(browser)
+
     loop.call_soon_threadsafe(beat)
     socket.on_client_connect(join)
     socket.on_client_disconnect(lambda client: channel.leave(client.client_id))
+    loop.call_soon_threadsafe(send_away)

@@ -52,16 +52,6 @@ class Sender:
         buffer._window_loop = self._windows
         _follow(buffer.message_event, self._send_soon)
         _follow(buffer.flush_event, self._send)
-        buffer.event_loop.call_soon_threadsafe(self._send_away)
-
-    def _send_away(self) -> None:
-        """Ends the connections of browsers that came before; they come again by themselves.
-
-        Such as those of a server that was here before: viser serves them, and nobody has told them
-        how to open the channel.
-        """
-        for connection in tuple(self._connections.values()):
-            connection.transport.abort()
 
     async def _windows(
         self, client_id: int, backlog_last_id: int, backlog_done_message: Message | None
