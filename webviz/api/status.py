@@ -11,7 +11,7 @@ from typing import Any
 class Level(enum.IntEnum):
     """The severity of a status; a parent has that of its worst child.
 
-    IDLE, shown in grey, is neither good nor bad: nothing was received, as no pane shows it.
+    IDLE, in grey, is neither good nor bad: nothing is received while no browser shows the pane.
     """
 
     IDLE = -1
