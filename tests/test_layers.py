@@ -3,11 +3,14 @@
 import ast
 import graphlib
 import re
+from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
 import pytest
+
+from webviz.api.registry import display_types
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = [ROOT / "webviz", *(ROOT / d for d in ("displays", "urdf", "sim"))]
@@ -31,8 +34,9 @@ EDGES = {
     "viser": ("webviz.edges.scene",),
 }
 """Who may know a library."""
+MESSAGES = "webviz.data.messages"
 SHARED_WITH_THE_SIMULATOR = (
-    "webviz.data.messages",
+    MESSAGES,
     "webviz.data.rotations",
     "webviz.edges.ros.types",
 )
@@ -167,3 +171,16 @@ def test_the_simulator_shares_only_messages_and_their_types() -> None:
 def test_modules_stay_small() -> None:
     long = {n: c for n, p in MODULES.items() if (c := p.read_text().count("\n")) > 400}
     assert not long
+
+
+def test_no_two_classes_share_a_name() -> None:
+    """Displays are called as in RViz and messages as in ROS, whatever else has that name."""
+    displays = {(cls.__module__, cls.__name__) for cls in display_types().values()}
+    modules = {name: path for name, path in MODULES.items() if not is_within(name, MESSAGES)}
+    named = defaultdict[str, list[str]](list)
+    for module, path in modules.items():
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef) and (module, node.name) not in displays:
+                named[node.name].append(module)
+    shared = {name: where for name, where in named.items() if len(where) > 1}
+    assert not {name: where for name, where in shared.items() if not name.startswith("_")}

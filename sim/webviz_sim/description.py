@@ -13,7 +13,7 @@ WHEEL_JOINTS = ("wheel_left_joint", "wheel_right_joint")
 SCANNER = "base_scan"
 
 
-class Joint(NamedTuple):
+class JointOfDescription(NamedTuple):
     """One joint of a URDF; its rotation has w first."""
 
     name: str
@@ -63,10 +63,10 @@ def read_robot(path: str) -> str:
     return text
 
 
-def read_joints(urdf: str) -> list[Joint]:
+def read_joints(urdf: str) -> list[JointOfDescription]:
     """The joints of a URDF in document order."""
     return [
-        Joint(
+        JointOfDescription(
             element.attrib["name"],
             element.attrib["type"],
             parent=_attribute(element, "parent", "link"),

@@ -16,7 +16,7 @@ from webviz.data.rotations import from_rpy, to_rpy, w_last
 from webviz_sim.description import SCANNER, WHEEL_JOINTS
 from webviz_sim.lidar import LidarSettings, Scan
 from webviz_sim.pose import Pose2D
-from webviz_sim.robot import Robot
+from webviz_sim.robot import DifferentialDrive
 from webviz_sim.world import World
 
 # Variances as diff_drive_controller's examples set them: x, y, z, roll, pitch, yaw.
@@ -122,7 +122,7 @@ def particle_cloud(poses: NDArray[np.float64], nanoseconds: int) -> bytes:
     return encode("nav2_msgs/msg/ParticleCloud", values)
 
 
-def odometry(robot: Robot, nanoseconds: int, prefix: str = "") -> bytes:
+def odometry(robot: DifferentialDrive, nanoseconds: int, prefix: str = "") -> bytes:
     """The wheel odometry as a nav_msgs/Odometry: base_link in odom, velocity in base_link."""
     pose = planar("", "", 0, robot.odometry)
     twist = {"linear": {"x": robot.linear}, "angular": {"z": robot.angular}}
@@ -138,7 +138,7 @@ def odometry(robot: Robot, nanoseconds: int, prefix: str = "") -> bytes:
     return encode("nav_msgs/msg/Odometry", values)
 
 
-def joint_state(robot: Robot, nanoseconds: int) -> bytes:
+def joint_state(robot: DifferentialDrive, nanoseconds: int) -> bytes:
     """The wheels' angles and speeds as a sensor_msgs/JointState."""
     values = {
         "header": Header(stamp(nanoseconds)),

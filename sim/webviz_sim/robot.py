@@ -34,7 +34,7 @@ def drive(pose: Pose2D, linear: float, angular: float, seconds: float) -> Pose2D
 
 
 @dataclass
-class Robot:
+class DifferentialDrive:
     """A kinematic differential-drive robot in a world."""
 
     world: World

@@ -11,7 +11,7 @@ from webviz_sim.crowd import Crowd
 from webviz_sim.follower import Follower
 from webviz_sim.planner import Planner
 from webviz_sim.pose import Pose2D
-from webviz_sim.robot import RADIUS, Robot
+from webviz_sim.robot import RADIUS, DifferentialDrive
 from webviz_sim.world import World, WorldError
 
 RESUME_AFTER = 10.0  # s without a command after which the tour continues: a driver looks around
@@ -77,9 +77,9 @@ class Simulation:
             raise WorldError(
                 f"The world has no free place with {RADIUS:g} m around it for the robot to start."
             )
-        self.robot = Robot(world, start, np.random.default_rng(seed))
+        self.robot = DifferentialDrive(world, start, np.random.default_rng(seed))
         self.crowd = Crowd(self.planner, start, obstacles, seed)
-        self.others: list[Robot] = []
+        self.others: list[DifferentialDrive] = []
         """Robots in the same world, each of a simulation of its own."""
         self.boxes: Circles = NONE
         """Obstacles that stay where they are."""

@@ -31,7 +31,7 @@ from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.quiet_server import Server
 from webviz.engine.commands import Command, Sender
-from webviz.engine.driving import Answer
+from webviz.engine.driving import HelmAnswer
 
 PATIENCE_S = 30.0
 PARAMETERS = {role: name for name, role in LINKS.items()}
@@ -88,9 +88,9 @@ class House:
         done.set_result("")
         return done
 
-    def _steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
         self.reached.append("Drive")
-        return Answer()
+        return HelmAnswer()
 
 
 @pytest.fixture
@@ -204,7 +204,7 @@ def test_everything_that_a_page_sends_is_held_against_its_role(
     guest.send("StrokeDone", tool="t", points=[[0, 0, 0]], yaw=0, keys=[], number=5)
     guest.send("Use", number=6, panel="p", widget="w")
     guest.send("Drive", tool="t", beat=0, linear=1, lateral=0, angular=0)
-    problem = guest.receive("Helm")["problem"]
+    problem = guest.receive("HelmReport")["problem"]
     assert problem.startswith("Not allowed: ") == (role is Role.WATCHER)
     allowed = {c.__name__ for c, required in rules.COMMANDS.items() if role >= required}
     acted = {"UseTool", "Drive"} if role > Role.WATCHER else set()

@@ -121,7 +121,7 @@ def test_a_store_of_owners_is_for_owners(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_what_is_answered_is_refused_in_words() -> None:
     drive = messages.Drive("tool", 1, 0.0, 0.0, 0.0)
-    assert answer(drive, "No.") == messages.Helm("tool", 0, None, "No.")
+    assert answer(drive, "No.") == messages.HelmReport("tool", 0, None, "No.")
     stroke = messages.StrokeDone("tool", (), 0.0, (), number=3)
     assert answer(stroke, "No.") == messages.Result(3, "error", "No.")
     for asked in (messages.Do(7, "Save", {}), messages.Use(7, "panel", "button")):

@@ -35,12 +35,12 @@ from webviz.api.vehicle import Velocity
 from webviz.edges.access.access import EVERYBODY
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import Hello, Watch
-from webviz.edges.page.pace import Pace, Stretch
+from webviz.edges.page.pace import LinkPace, Stretch
 from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
 from webviz.edges.scene.server import Server
 from webviz.engine.commands import Command, Sender
-from webviz.engine.driving import Answer
+from webviz.engine.driving import HelmAnswer
 from webviz.engine.sources import Offer, Publisher
 from webviz.engine.state import Row, State, Traffic
 from webviz.shell.pictures.browser import launched
@@ -97,7 +97,7 @@ class Reader:
         self.logger = logging.getLogger(__name__)
         self.transport = self
         self.latency = 0.0
-        self.stretch = Stretch(Pace())
+        self.stretch = Stretch(LinkPace())
         self.is_expelled = False
         self.grant = EVERYBODY
         self.address = ""
@@ -127,7 +127,7 @@ def watched(count: int) -> Iterator[Channel]:
     channel, ended = Channel(), asyncio.Event()
 
     async def serve() -> None:
-        keys = [channel.join(number, Pace()) for number in range(count)]
+        keys = [channel.join(number, LinkPace()) for number in range(count)]
         pages = [
             asyncio.create_task(channel.serve(Reader(key), contextlib.nullcontext)) for key in keys
         ]
@@ -200,9 +200,9 @@ def ignored(command: Command, sender: Sender) -> Future[str]:
     return Future()
 
 
-def unsteered(tool: str, browser: int, share: Velocity | None) -> Answer:
+def unsteered(tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
     """Leave a vehicle alone."""
-    return Answer()
+    return HelmAnswer()
 
 
 class Viewer:

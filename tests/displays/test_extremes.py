@@ -23,7 +23,7 @@ from webviz.api.display import inputs_of
 from webviz.api.nodes import Node, has_content
 from webviz.data.messages import encode
 from webviz.data.messages.classes import DTYPES
-from webviz.data.messages.typestore import Field, fields
+from webviz.data.messages.typestore import MessageField, fields
 from webviz.engine.pipeline.runner import NOTHING_TO_DRAW
 from webviz.shell.testing.messages import header
 from webviz_displays.areas import GridCells, Polygon
@@ -151,7 +151,7 @@ LAST = "\x7f"
 """Stands for bytes that are not UTF-8."""
 
 
-def extremes(field: Field) -> list[Any]:
+def extremes(field: MessageField) -> list[Any]:
     """Values for a field that is not a message itself."""
     if field.base == "string":
         texts = ["", "/", LAST, "x" * 70_000, "no such frame", "\N{SNOWMAN}\n\t%s{}<b>"]

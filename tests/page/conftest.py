@@ -30,7 +30,7 @@ from webviz.engine.commands import (
     Sender,
     SetProperty,
 )
-from webviz.engine.driving import Answer
+from webviz.engine.driving import HelmAnswer
 from webviz.engine.state import Row, State
 
 WIDTH, HEIGHT = 900, 800
@@ -85,7 +85,7 @@ class Loop:
         """The id that commands answer with which make a display."""
         self.steered: list[tuple[str, int, Velocity | None]] = []
         """The set-points of vehicles."""
-        self.helm = Answer()
+        self.helm = HelmAnswer()
         """To all of them."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
         self.pages = Pages(server.channel, self._enqueue, self._steer, access)
@@ -95,7 +95,7 @@ class Loop:
         self._queue.put((command, sender, answer))
         return answer
 
-    def _steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
         self.steered.append((tool, browser, share))
         return self.helm
 

@@ -23,10 +23,10 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command
-from webviz.engine.state import File, Row, Step, UndoHistory
+from webviz.engine.state import ConfigFile, Row, Step, UndoHistory
 from webviz.files.config import Settings
 
-LAB = File("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
+LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
 
 
 def open_list(tab: Tab) -> playwright.Locator:

@@ -11,9 +11,9 @@ import pytest
 
 from tests.page.conftest import Loop, Tab
 from webviz.commands import Export, Load, Open, Save
-from webviz.engine.state import File
+from webviz.engine.state import ConfigFile
 
-LAB = File("/home/me/lab.yaml", False, "/home/me", ("lab.yaml", "nav2.rviz", "office.yaml"))
+LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml", "nav2.rviz", "office.yaml"))
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def checked(tab: Tab, entered: str) -> Any:
     return tab.page.evaluate(check, entered)
 
 
-def show(tab: Tab, file: File) -> None:
+def show(tab: Tab, file: ConfigFile) -> None:
     """Show a file, and wait until the page knows it."""
     tab.loop.show(file=file)
     name = Path(file.path).name or "webviz"
@@ -54,9 +54,9 @@ def dialog(tab: Tab, title: str) -> playwright.Locator:
 
 
 def test_the_page_is_called_as_the_file(tab: Tab) -> None:
-    show(tab, File('/home/me/"<b>.yaml', is_changed=True, folder="/home/me"))
+    show(tab, ConfigFile('/home/me/"<b>.yaml', is_changed=True, folder="/home/me"))
     assert tab.page.title() == '* "<b>.yaml · webviz'
-    show(tab, File(folder="/home/me"))
+    show(tab, ConfigFile(folder="/home/me"))
     assert tab.page.title() == "webviz"
 
 
@@ -68,7 +68,7 @@ def test_save_writes_where_it_came_from(tab: Tab) -> None:
 
 
 def test_save_without_a_file_asks_for_a_name(tab: Tab) -> None:
-    show(tab, File(folder="/home/me"))
+    show(tab, ConfigFile(folder="/home/me"))
     tab.page.keyboard.press("Control+s")
     assert "In /home/me of the machine that runs webviz" in dialog(tab, "Save as").inner_text()
     dialog(tab, "Save as").get_by_label("File name").fill("hall")
@@ -119,7 +119,7 @@ def test_a_file_of_the_folder_is_opened(tab: Tab) -> None:
 
 
 def test_files_that_come_and_go_are_shown_while_the_dialog_is_open(tab: Tab, loop: Loop) -> None:
-    show(tab, File(folder="/home/me"))
+    show(tab, ConfigFile(folder="/home/me"))
     tab.page.keyboard.press("Control+o")
     files = dialog(tab, "Open").get_by_role("group", name="Files")
     playwright.expect(files).to_contain_text("No config files there.")

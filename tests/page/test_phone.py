@@ -13,7 +13,7 @@ from webviz.data.messages import LaserScan, to_tree
 from webviz.data.transforms import Diagnosis, FrameReport
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import File, Inspected, Row
+from webviz.engine.state import ConfigFile, Inspected, Row
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 40
@@ -53,7 +53,7 @@ def side(phone: Tab) -> playwright.Locator:
 def test_the_scene_is_free_until_the_side_is_opened_over_it(
     phone: Tab, make_row: Callable[..., Row]
 ) -> None:
-    phone.loop.show(make_row("a"), file=File("/home/me/lab.yaml"))
+    phone.loop.show(make_row("a"), file=ConfigFile("/home/me/lab.yaml"))
     playwright.expect(side(phone)).to_be_hidden()
     assert phone.page.locator(".mantine-Paper-root:visible").count() == 0
     canvas = phone.page.locator("#root canvas").first.bounding_box()
@@ -69,7 +69,7 @@ def test_the_scene_is_free_until_the_side_is_opened_over_it(
 
 
 def test_buttons_can_be_hit_with_a_finger(phone: Tab) -> None:
-    phone.loop.show(file=File("/home/me/lab.yaml"))
+    phone.loop.show(file=ConfigFile("/home/me/lab.yaml"))
     phone.button("Show the panels").tap()
     for name in ("Menu", "Commands", "Hide the panels", "Show the panels"):
         box = phone.button(name).bounding_box()
@@ -137,7 +137,7 @@ def too_small(phone: Tab) -> list[str]:
 
 
 def test_dialogs_fit(phone: Tab) -> None:
-    phone.loop.show(file=File(folder="/home/me/a folder/" + "with_a_long_name" * 10))
+    phone.loop.show(file=ConfigFile(folder="/home/me/a folder/" + "with_a_long_name" * 10))
     phone.button("Show the panels").tap()
     phone.wait_for(lambda: "webviz" in side(phone).inner_text())
     phone.button("Menu").tap()

@@ -6,7 +6,7 @@ import time
 
 from tests.page.conftest import Loop, Tab
 from webviz.engine.commands import Pause, Reset
-from webviz.engine.state import Clock, Pace
+from webviz.engine.state import ClockPace, PanelTimes
 
 CHANGES = """() => {
   window.changes = 0;
@@ -29,15 +29,15 @@ def shows_seconds(tab: Tab) -> bool:
     return "." in first and abs(float(first) - time.time()) < 60.0
 
 
-def running(ros_s: float, **more: object) -> Clock:
+def running(ros_s: float, **more: object) -> PanelTimes:
     """A simulation that has run for 5 s and goes on."""
-    pace = Pace(round(ros_s * 1e9), time.time(), 1.0)
+    pace = ClockPace(round(ros_s * 1e9), time.time(), 1.0)
     values = {"pace": pace, "is_simulated": True, **more}
-    return Clock(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
+    return PanelTimes(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_time_that_is_not_known_yet_is_not_zero(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=Clock(is_simulated=True))
+    loop.show(clock=PanelTimes(is_simulated=True))
     tab.wait_for(lambda: "No time yet" in bar(tab))
     assert "1970" not in bar(tab)
 
@@ -54,8 +54,8 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
     loop: Loop, tab: Tab
 ) -> None:
     now = time.time()
-    pace = Pace(round(now * 1e9), now, 1.0)
-    loop.show(clock=Clock(round(now * 1e9), 0, now, 0.0, pace=pace))
+    pace = ClockPace(round(now * 1e9), now, 1.0)
+    loop.show(clock=PanelTimes(round(now * 1e9), 0, now, 0.0, pace=pace))
     tab.wait_for(lambda: "wall time" in bar(tab))
     assert time.strftime("%Y-%m-%d ") in bar(tab)
     assert "Wall 20" not in bar(tab), "it is the same time"
@@ -68,7 +68,9 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
 
 
 def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=running(100.25, is_paused=True, pace=Pace(100_250_000_000, time.time(), 0.0)))
+    loop.show(
+        clock=running(100.25, is_paused=True, pace=ClockPace(100_250_000_000, time.time(), 0.0))
+    )
     tab.page.mouse.move(450, 300)  # no tooltip
     tab.wait_for(lambda: "0:01:40.250" in bar(tab))
     tab.page.evaluate(CHANGES)

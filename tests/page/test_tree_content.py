@@ -12,7 +12,7 @@ from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, Status
 from webviz.edges.page.content import MAKERS
-from webviz.edges.page.reading import Reading
+from webviz.edges.page.reading import StateReading
 from webviz.edges.page.stores import Stores
 from webviz.engine.state import Row, State, Traffic
 
@@ -75,7 +75,7 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
 
 def test_a_store_is_made_anew_only_if_what_it_was_made_of_is_new(make_row: MakeRow) -> None:
     state = State(rows=(make_row("a"),))
-    reading = Reading(state)
+    reading = StateReading(state)
     MAKERS["displays"](reading.state, "")
     assert reading.is_as_in(replace(state, fixed_frame="odom"))
     assert not reading.is_as_in(replace(state, rows=(make_row("a"),)))

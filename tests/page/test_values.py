@@ -16,7 +16,7 @@ from webviz.data.messages import Header, JointState, String, Time, message_class
 from webviz.edges.page.pictures import Pictures
 from webviz.engine.commands import SetPanelProperty
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import Clock, PanelTab, Row, Traffic
+from webviz.engine.state import PanelTab, PanelTimes, Row, Traffic
 from webviz.panels.plot import Plot
 from webviz_displays.text import Text
 
@@ -83,7 +83,7 @@ def plot(tab: Any) -> Iterator[Any]:
     tab.loop.show(
         panels=(PanelTab("plot", "Plot", panel),),
         offers={"/wheels": Offer((wheels,))},
-        clock=Clock(ros_ns=120 * SECOND),
+        clock=PanelTimes(ros_ns=120 * SECOND),
     )
     tab.show_tab("Plot")
     tab.wait_for(lambda: tab.page.locator(".wv-chart-entry").count() == 2)

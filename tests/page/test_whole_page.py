@@ -26,7 +26,7 @@ from webviz.api.views import Orbit
 from webviz.edges.scene import ViserScene, open_server
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import Clock, File, Pace, Row, State, ToolButton, Traffic
+from webviz.engine.state import ClockPace, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
 from webviz.shell.testing.pictures import Album
@@ -105,10 +105,10 @@ def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
         topics={"/scan": (SCAN,)},
         traffic={"/scan": Traffic(39.84, 1e4)},
         frames=("base_link", "map"),
-        file=File("/home/me/lab.yaml", is_changed=True),
+        file=ConfigFile("/home/me/lab.yaml", is_changed=True),
         tools=TOOLS,
-        clock=Clock(
-            START_NS, int(83.2e9), START_NS / 1e9, 83.2, pace=Pace(START_NS, START_NS / 1e9)
+        clock=PanelTimes(
+            START_NS, int(83.2e9), START_NS / 1e9, 83.2, pace=ClockPace(START_NS, START_NS / 1e9)
         ),
     )
 

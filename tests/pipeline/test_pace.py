@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from webviz.engine.pipeline.pace import PaceMeter, Rate
-from webviz.engine.state import Pace
+from webviz.engine.state import ClockPace
 
 WALL = 1_700_000_000.0
 
 
-def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[Pace]:
+def paces(rate: float, step_s: float = 0.2, tick_s: float = 0.01) -> list[ClockPace]:
     """What a simulation at a rate gives in 10 s, whose /clock has these ticks."""
     meter = PaceMeter()
     found = []

@@ -15,7 +15,7 @@ from webviz import Pose as At
 from webviz.api.context import Context
 from webviz.api.declared import Topic
 from webviz.api.frames import Frames
-from webviz.api.robots import Robot, RobotFrames, robot_of
+from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.wire import Wire
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Open, Save, SetProperty, Undo
@@ -45,21 +45,21 @@ tools:
 @pytest.mark.parametrize(
     ("robot", "frame", "name"),
     [
-        (Robot("robot1"), "base_link", "robot1/base_link"),
-        (Robot("/robot1/"), "/base_link", "robot1/base_link"),
-        (Robot("robot1"), "map", "map"),
-        (Robot("robot1"), "robot1/base_link", "robot1/base_link"),
-        (Robot("robot1"), "", ""),
-        (Robot("robot1", "r_", ("earth",)), "map", "r_map"),
-        (Robot("robot1", ""), "base_link", "base_link"),
+        (NamespacedRobot("robot1"), "base_link", "robot1/base_link"),
+        (NamespacedRobot("/robot1/"), "/base_link", "robot1/base_link"),
+        (NamespacedRobot("robot1"), "map", "map"),
+        (NamespacedRobot("robot1"), "robot1/base_link", "robot1/base_link"),
+        (NamespacedRobot("robot1"), "", ""),
+        (NamespacedRobot("robot1", "r_", ("earth",)), "map", "r_map"),
+        (NamespacedRobot("robot1", ""), "base_link", "base_link"),
     ],
 )
-def test_a_robot_prefixes_its_own_frames(robot: Robot, frame: str, name: str) -> None:
+def test_a_robot_prefixes_its_own_frames(robot: NamespacedRobot, frame: str, name: str) -> None:
     assert robot.frame(frame) == name
 
 
 def test_a_display_belongs_to_the_robot_whose_namespace_its_topics_have() -> None:
-    one, ten = Robot("robot1"), Robot("robot10")
+    one, ten = NamespacedRobot("robot1"), NamespacedRobot("robot10")
     assert robot_of(["", "/robot10/scan"], (one, ten)) is ten
     assert robot_of(["/scan", "/robot11/scan"], (one, ten)) is None
 
@@ -172,7 +172,7 @@ def test_feedback_of_interactive_markers_has_the_frame_names_of_their_robot(
     for parent, child in (("map", "robot1/odom"), ("robot1/odom", "robot1/base_link")):
         for second in (1, 3):
             buffer.set_transform(parent, child, second * S, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-    frames = RobotFrames(Frames(buffer, fixed, 3 * S), Robot("robot1"))
+    frames = RobotFrames(Frames(buffer, fixed, 3 * S), NamespacedRobot("robot1"))
     made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), ())
     values: Any = values_of(POSE_UPDATE, Tracked("m", made), "", frames, "client")
     assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == sent

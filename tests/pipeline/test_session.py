@@ -32,7 +32,7 @@ from webviz.engine.commands import (
     WriteDisplays,
 )
 from webviz.engine.requests import MAX_FILES
-from webviz.engine.state import File, State
+from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import load, parse
 from webviz_displays.axes import Axes
@@ -101,7 +101,7 @@ def test_another_file_replaces_what_is_shown(folder: Path, bench: Callable[..., 
     assert b.ask(Open("b.yaml")) == "Opened b.yaml."
     state = b.states[-1]
     assert (state.fixed_frame, names(state)) == ("odom", ["B"])
-    file = File(str(folder / "b.yaml"), False, str(folder), state.file.others)
+    file = ConfigFile(str(folder / "b.yaml"), False, str(folder), state.file.others)
     assert state.file == file
     assert not any(group.startswith("display1") for group in b.scene.groups)
 

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from webviz.data.messages import Header, JointState, String, Time
-from webviz.edges.page.chart import Chart
+from webviz.edges.page.chart import ChartWidget
 from webviz.edges.page.recorded_ui import RecordedUi
 from webviz.engine.commands import AddPanel, OpenPanels, Reset, SetPanelProperty
 from webviz.engine.sources import Offer, Publisher
-from webviz.engine.state import Clock, PanelTab, State
+from webviz.engine.state import PanelTab, PanelTimes, State
 from webviz.panels.plot import Plot
-from webviz.panels.plot.history import MAX_POINTS, History
+from webviz.panels.plot.history import MAX_POINTS, CurveHistory
 
 JOINTS = "sensor_msgs/msg/JointState"
 TWIST = "geometry_msgs/msg/Twist"
@@ -34,7 +34,7 @@ class Bench:
         self.sent: list[Any] = []
         self.panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
         publisher = Publisher("/robot", JOINTS, "reliable", "volatile")
-        clock = Clock(ros_ns=100 * SECOND)
+        clock = PanelTimes(ros_ns=100 * SECOND)
         tabs = (PanelTab("id", "Plot", self.panel),)
         self.state = State(offers={"/joints": Offer((publisher,))}, clock=clock, panels=tabs)
         self.show()
@@ -49,8 +49,8 @@ class Bench:
         self.panel.receive("/joints", message, round(at_s * SECOND))
 
     @property
-    def chart(self) -> Chart:
-        return next(each for each in self.ui.widgets.values() if isinstance(each, Chart))
+    def chart(self) -> ChartWidget:
+        return next(each for each in self.ui.widgets.values() if isinstance(each, ChartWidget))
 
     def curve(self, index: int = 0) -> dict[str, Any]:
         self.show()
@@ -134,7 +134,7 @@ def test_time_that_goes_back_starts_over_and_a_little_is_left_out() -> None:
 
 
 def test_a_fast_topic_keeps_the_extremes_of_each_interval_and_no_more_than_promised() -> None:
-    history = History(window_s=4.0)
+    history = CurveHistory(window_s=4.0)
     times = np.arange(0.0, 10.0, 1e-4)  # 10 kHz
     values = np.sin(40 * times)
     values[87_654] = 99.0
@@ -153,7 +153,7 @@ def test_a_fast_topic_keeps_the_extremes_of_each_interval_and_no_more_than_promi
 
 
 def test_values_and_gaps_in_turns_are_no_way_around_the_bound() -> None:
-    history = History(window_s=1.0)
+    history = CurveHistory(window_s=1.0)
     for i in range(100_000):
         history.add(i * 1e-5 * 5, math.nan if i % 2 else 1.0)
     assert len(history.points()) <= MAX_POINTS

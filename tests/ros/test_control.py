@@ -33,7 +33,7 @@ from webviz.edges.ros.node import RosSource
 from webviz.edges.ros.types import message_class
 from webviz.engine.commands import Command
 from webviz.engine.sources import Subscription
-from webviz.engine.state import File, State
+from webviz.engine.state import ConfigFile, State
 from webviz.shell.testing import header
 
 TF = "tf2_msgs/msg/TFMessage"
@@ -312,7 +312,7 @@ class SlowViewer:
     """Takes a picture for as long as a test wants."""
 
     def __init__(self) -> None:
-        self.state = State(file=File("/somewhere.yaml"))
+        self.state = State(file=ConfigFile("/somewhere.yaml"))
         self.ready = threading.Event()
 
     def do(self, command: Command) -> str:

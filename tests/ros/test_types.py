@@ -17,7 +17,7 @@ from rclpy.executors import SingleThreadedExecutor
 from webviz.data.messages import register, type_exists
 from webviz.edges.ros.types import MessageTypeError, learn, message_class, service_class, type_hash
 from webviz.edges.ros.types.composing import composed_message, composed_service
-from webviz.edges.ros.types.wire import Raw
+from webviz.edges.ros.types.wire import RawPayload
 
 # rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -331,5 +331,5 @@ def test_a_real_service_and_a_composed_client_understand_each_other(ros):
     future = client.call_async(composed.Request(bytes([0, 1, 0, 0, 1])))
     spin_until(executor, future.done)
     answer = future.result()
-    assert isinstance(answer, Raw)
+    assert isinstance(answer, RawPayload)
     assert answer.cdr[:21] == bytes([0, 1, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0]) + b"was done\0"

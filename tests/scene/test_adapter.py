@@ -25,7 +25,7 @@ from webviz.edges.scene.adapter.poses import OrientationMessage, PositionMessage
 
 
 def test_viser_has_the_loop_that_we_replace() -> None:
-    """If this fails, viser changed: compare `Sender` with its new loop."""
+    """If this fails, viser changed: compare `SceneSender` with its new loop."""
     source = inspect.getsource(AsyncMessageBuffer._window_loop)
     assert hashlib.sha256(source.encode()).hexdigest().startswith("622c10d1a9e84168")
 

@@ -284,7 +284,9 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
 
 
 def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channel(
-    browser: playwright.Browser, server: Server, wait_until: Callable[[Callable[[], bool]], None]
+    browser: playwright.Browser,
+    server: Server,
+    wait_until: Callable[[Callable[[], bool]], None],
 ) -> None:
     ViserScene(server)
     answers: list[int] = []

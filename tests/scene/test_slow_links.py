@@ -15,9 +15,9 @@ from tests.scene.conftest import Peer
 from tests.support.slow_link import SlowLink
 from webviz.api.nodes import Image, Points, Pose
 from webviz.edges.page.links import reduced
-from webviz.edges.page.pace import Pace, Stretch
+from webviz.edges.page.pace import LinkPace, Stretch
 from webviz.edges.scene import ViserScene
-from webviz.edges.scene.adapter.acknowledging import Marker
+from webviz.edges.scene.adapter.acknowledging import AcknowledgementRequest
 from webviz.edges.scene.listener import SEND_BUFFER_BYTES, UNSENT_BYTES
 from webviz.edges.scene.outbox import WINDOW_BYTES, Outbox, bulk
 from webviz.edges.scene.pieces import Piece
@@ -33,8 +33,8 @@ class Queue:
     def __init__(self, rate: float = PLENTY) -> None:
         self.live: dict[int, Any] = {}
         self.now = 100.0
-        self.pace = Pace(rate, lambda: self.now)
-        self.outbox = Outbox(Marker, self.pace)
+        self.pace = LinkPace(rate, lambda: self.now)
+        self.outbox = Outbox(AcknowledgementRequest, self.pace)
         self._count = 0
 
     def push(self, message: Any) -> None:
@@ -134,7 +134,7 @@ def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
     queue = Queue()
     for name in ("/a", "/b"):
         queue.cloud(name)
-    queue.push(Marker("1"))
+    queue.push(AcknowledgementRequest("1"))
     sent = [queue.window()]
     queue.cloud("/a")
     sent += [queue.window(), queue.window(), queue.window()]
@@ -266,7 +266,7 @@ def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
 
 def test_a_link_that_makes_nobody_wait_reduces_nothing() -> None:
     now = [0.0]
-    stretch = Stretch(Pace(None, lambda: now[0]))
+    stretch = Stretch(LinkPace(None, lambda: now[0]))
     for _ in range(100):
         stretch.send(1000)
         if (mark := stretch.end()) is not None:

@@ -11,7 +11,7 @@ from webviz_sim.lidar import LidarSettings, scan
 from webviz_sim.options import FAULT, OPTIONS, refusal
 from webviz_sim.planner import Planner
 from webviz_sim.pose import Pose2D
-from webviz_sim.robot import RADIUS, Robot
+from webviz_sim.robot import RADIUS, DifferentialDrive
 from webviz_sim.simulation import Simulation, SimulationSettings
 
 
@@ -42,7 +42,7 @@ def test_the_scanner_sees_a_person_before_the_wall(room):
 
 
 def test_a_robot_stops_in_front_of_a_person(room):
-    robot = Robot(room, Pose2D(1.0, 2.0, 0.0), np.random.default_rng(0))
+    robot = DifferentialDrive(room, Pose2D(1.0, 2.0, 0.0), np.random.default_rng(0))
     robot.circles = np.array([[2.0, 2.0, 0.2]])
     for _ in range(200):
         robot.step(0.5, 0.0, 0.02)
@@ -50,7 +50,7 @@ def test_a_robot_stops_in_front_of_a_person(room):
 
 
 def test_wheels_that_slip_count_more_than_the_robot_moves(room):
-    robot = Robot(room, Pose2D(1.0, 2.0, 0.0), np.random.default_rng(0), slip=0.25)
+    robot = DifferentialDrive(room, Pose2D(1.0, 2.0, 0.0), np.random.default_rng(0), slip=0.25)
     for _ in range(100):
         robot.step(0.5, 0.0, 0.02)
     assert robot.odometry.x == pytest.approx(1.0)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from webviz_sim.description import demo_description
 from webviz_sim.options import BUILDING
 from webviz_sim.pose import Pose2D, wrap
-from webviz_sim.robot import RADIUS, WHEEL_RADIUS, WHEEL_SEPARATION, Robot, drive
+from webviz_sim.robot import RADIUS, WHEEL_RADIUS, WHEEL_SEPARATION, DifferentialDrive, drive
 from webviz_sim.world import load_world
 
 coordinates = st.floats(-100, 100)
@@ -18,7 +18,7 @@ poses = st.builds(Pose2D, coordinates, coordinates, angles)
 
 
 def robot_at(world, pose, drift=0.0, seed=0):
-    return Robot(world, pose, np.random.default_rng(seed), drift)
+    return DifferentialDrive(world, pose, np.random.default_rng(seed), drift)
 
 
 @settings(deadline=None)

@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from webviz_urdf.glb import MeshFile, MeshPart, Surface, glb_parts, glb_with, write_glb
+from webviz_urdf.glb import MeshContent, MeshPart, Surface, glb_parts, glb_with, write_glb
 from webviz_urdf.inertia import inertia_box, mass_sphere
 from webviz_urdf.kinematics import Kinematics, leader_of
 from webviz_urdf.loading import Loading, LoadingStopped, LoadRequest
@@ -13,11 +13,11 @@ from webviz_urdf.robot import (
     Joint,
     Link,
     Mimic,
-    Missing,
+    MissingShape,
     Progress,
     Robot,
     RobotDescriptionError,
-    Shape,
+    RobotShape,
     TurningJoint,
 )
 
@@ -34,16 +34,16 @@ __all__ = [
     "LoadRequest",
     "Loading",
     "LoadingStopped",
-    "MeshFile",
+    "MeshContent",
     "MeshPart",
     "Mimic",
-    "Missing",
+    "MissingShape",
     "Progress",
     "ResolveError",
     "Resolver",
     "Robot",
     "RobotDescriptionError",
-    "Shape",
+    "RobotShape",
     "Surface",
     "TurningJoint",
     "glb_parts",

@@ -14,9 +14,9 @@ from webviz_urdf.description import Description, pose_of
 from webviz_urdf.dress import Dresser
 from webviz_urdf.glb import MeshPart
 from webviz_urdf.materials import DEFAULT, Material, Materials
-from webviz_urdf.meshes import MeshError, MeshFile, Scale, read_mesh, scaled
+from webviz_urdf.meshes import MeshContent, MeshError, Scale, read_mesh, scaled
 from webviz_urdf.resolve import ResolveError, Resolver
-from webviz_urdf.robot import Inertial, Link, Missing, Progress, Robot, Shape
+from webviz_urdf.robot import Inertial, Link, MissingShape, Progress, Robot, RobotShape
 
 MAX_BYTES = 256 << 20
 """Of all shapes of a robot; every browser receives them."""
@@ -49,7 +49,7 @@ class _Builder:
         self._materials = Materials(description.model)
         self._dresser = Dresser(resolver)
         self._resolver = resolver
-        self._files: dict[Path, MeshFile] = {}
+        self._files: dict[Path, MeshContent] = {}
         self._nodes: dict[tuple[Path, Scale, Material], Mesh | Glb] = {}
         self._missing = [m for m in description.missing if collisions or m.kind == "visual"]
         self._warnings: dict[str, None] = {}
@@ -98,8 +98,8 @@ class _Builder:
         link: str,
         kind: str,
         elements: Sequence[tuple[yourdfpy.Visual | yourdfpy.Collision, Material]],
-    ) -> tuple[Shape, ...]:
-        shapes: dict[str, Shape] = {}
+    ) -> tuple[RobotShape, ...]:
+        shapes: dict[str, RobotShape] = {}
         for index, (element, material) in enumerate(elements):
             number = self._done
             self._progress(number, self._total, link)
@@ -114,9 +114,9 @@ class _Builder:
                 node = self._node(geometry, material)
                 self._count(node)
             except (ResolveError, MeshError) as error:
-                self._missing.append(Missing(link, uri, str(error), kind))
+                self._missing.append(MissingShape(link, uri, str(error), kind))
                 continue
-            shapes[name] = Shape(name, pose_of(element.origin), node, uri)
+            shapes[name] = RobotShape(name, pose_of(element.origin), node, uri)
         return tuple(shapes.values())
 
     def _check(self, number: int, uri: str) -> None:

@@ -13,7 +13,7 @@ from trimesh.transformations import quaternion_from_matrix
 from webviz.api.nodes import Pose
 from webviz.data.words import listed
 from webviz_urdf.document import parse_document
-from webviz_urdf.robot import JOINT_TYPES, Joint, Mimic, Missing, RobotDescriptionError
+from webviz_urdf.robot import JOINT_TYPES, Joint, Mimic, MissingShape, RobotDescriptionError
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Description:
     model: yourdfpy.Robot
     joints: dict[str, Joint]
     root: str
-    missing: list[Missing]
+    missing: list[MissingShape]
     warnings: list[str]
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 
-from webviz_urdf.robot import Missing, RobotDescriptionError
+from webviz_urdf.robot import MissingShape, RobotDescriptionError
 
 _CHILDREN = {
     "robot": ("link", "joint", "material"),
@@ -75,7 +75,7 @@ class Document:
     """
 
     root: etree._Element
-    missing: list[Missing] = field(default_factory=list)
+    missing: list[MissingShape] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
 
 
@@ -172,7 +172,7 @@ def _copy(
             reason = _no_geometry(child, copy)
             if reason:
                 target.remove(copy)
-                document.missing.append(Missing(link, "", reason, name.localname))
+                document.missing.append(MissingShape(link, "", reason, name.localname))
     for name in _REQUIRED_CHILDREN.get(tag, ()):
         if target.find(name) is None:
             raise RobotDescriptionError(

@@ -54,7 +54,7 @@ class MeshPart:
 
 
 @dataclass(frozen=True)
-class MeshFile:
+class MeshContent:
     """The content of a mesh file, in metres.
 
     Args:

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from webviz_urdf.build import build_robot
 from webviz_urdf.description import parse_description
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import MeshFile
+from webviz_urdf.glb import MeshContent
 from webviz_urdf.loading import LoadRequest
 from webviz_urdf.meshes import MeshError, parse_mesh, read_mesh
 from webviz_urdf.resolve import ResolveError, Resolver
@@ -60,7 +60,7 @@ def load_file(
     return load_robot(text, resolver, progress, collisions, skip)
 
 
-def load_asset(request: LoadRequest, resolver: Resolver) -> MeshFile | bytes:
+def load_asset(request: LoadRequest, resolver: Resolver) -> MeshContent | bytes:
     """Load a mesh, or a picture as PNG or JPEG.
 
     Raises:

@@ -12,7 +12,7 @@ import threading
 from dataclasses import dataclass
 from typing import Any
 
-from webviz_urdf.glb import MeshFile
+from webviz_urdf.glb import MeshContent
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
@@ -57,7 +57,7 @@ class LoadRequest:
     data: bytes = b""
 
 
-Loaded = Robot | MeshFile | bytes
+Loaded = Robot | MeshContent | bytes
 """A robot, a mesh, or a picture as PNG or JPEG."""
 
 

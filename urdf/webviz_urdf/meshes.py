@@ -14,7 +14,7 @@ from trimesh.visual.material import PBRMaterial, SimpleMaterial
 from webviz.api.nodes import U8
 from webviz_urdf.dae import without_broken_materials
 from webviz_urdf.files import read_file
-from webviz_urdf.glb import MeshFile, MeshPart, Surface
+from webviz_urdf.glb import MeshContent, MeshPart, Surface
 from webviz_urdf.resolve import Resolver
 from webviz_urdf.textures import TextureFolder, encode
 
@@ -34,7 +34,7 @@ class MeshError(Exception):
     """A mesh cannot be drawn; the text is one sentence that says why."""
 
 
-def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
+def read_mesh(path: Path, resolver: Resolver) -> MeshContent:
     """Read a mesh file of one of `FORMATS`.
 
     A COLLADA file's unit is applied and its up axis is not, as in RViz, which makes Assimp
@@ -53,7 +53,7 @@ def read_mesh(path: Path, resolver: Resolver) -> MeshFile:
     return parse_mesh(data, path, resolver)
 
 
-def parse_mesh(data: bytes, path: Path, resolver: Resolver) -> MeshFile:
+def parse_mesh(data: bytes, path: Path, resolver: Resolver) -> MeshContent:
     """Read the content of a mesh file; see `read_mesh`.
 
     Args:
@@ -87,7 +87,7 @@ def parse_mesh(data: bytes, path: Path, resolver: Resolver) -> MeshFile:
         for name, reason in textures.refused.items()
     ]
     warnings += [f"Material '{name}' of {path} is not completely defined." for name in broken]
-    return MeshFile(tuple(parts), tuple(warnings))
+    return MeshContent(tuple(parts), tuple(warnings))
 
 
 def _check_format(path: Path) -> str:

@@ -21,7 +21,7 @@ class RobotDescriptionError(Exception):
 
 
 @dataclass(frozen=True)
-class Shape:
+class RobotShape:
     """One visual or collision element, ready to draw.
 
     Args:
@@ -57,8 +57,8 @@ class Link:
     """A rigid body of the robot."""
 
     name: str
-    visuals: tuple[Shape, ...] = ()
-    collisions: tuple[Shape, ...] = ()
+    visuals: tuple[RobotShape, ...] = ()
+    collisions: tuple[RobotShape, ...] = ()
     inertial: Inertial | None = None
 
 
@@ -117,7 +117,7 @@ class TurningJoint:
 
 
 @dataclass(frozen=True)
-class Missing:
+class MissingShape:
     """A visual or collision that is not drawn.
 
     Args:
@@ -152,5 +152,5 @@ class Robot:
     root: str
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
-    missing: tuple[Missing, ...] = ()
+    missing: tuple[MissingShape, ...] = ()
     warnings: tuple[str, ...] = ()

@@ -13,7 +13,7 @@ from webviz.data.rotations import w_first
 from webviz.data.transforms import (
     Explanation,
     FramesIn,
-    Link,
+    NewestTransform,
     Transform,
     TransformBuffer,
     TransformException,
@@ -122,7 +122,7 @@ class Frames:
         """Pose of a frame now, or at the latest common time if that is unknown yet."""
         return self.at(frame, self.now_ns) or self.at(frame, 0)
 
-    def link(self, frame: str) -> Link | None:
+    def link(self, frame: str) -> NewestTransform | None:
         """The newest transform of a frame to its parent; None for roots and frames without data."""
         return self.buffer.link(frame)
 

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from webviz.api.declared import Prop
 from webviz.api.frames import FramePoses, Frames
 from webviz.api.nodes import Pose
-from webviz.data.transforms import Explanation, Link
+from webviz.data.transforms import Explanation, NewestTransform
 
 _NAME = "[A-Za-z_][A-Za-z0-9_]*"
 Namespace = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^/?{_NAME}(/{_NAME})*$")]
 
 
-class Robot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A robot with topics of its own, also /tf, and with the frame names of the others."""
 
     namespace: Annotated[Namespace, Prop(help="Namespace of its topics, such as robot1.")]
@@ -58,12 +58,12 @@ class Robot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 @functools.lru_cache(maxsize=8)
-def robots_of(entries: tuple[str | Robot, ...]) -> tuple[Robot, ...]:
+def robots_of(entries: tuple[str | NamespacedRobot, ...]) -> tuple[NamespacedRobot, ...]:
     """The entries of a config; a name alone is a namespace."""
-    return tuple(Robot(each) if isinstance(each, str) else each for each in entries)
+    return tuple(NamespacedRobot(each) if isinstance(each, str) else each for each in entries)
 
 
-def robot_of(topics: Iterable[str], robots: Sequence[Robot]) -> Robot | None:
+def robot_of(topics: Iterable[str], robots: Sequence[NamespacedRobot]) -> NamespacedRobot | None:
     """The robot of a display, by the namespace of the first of its topics that has one."""
     for topic in topics:
         for robot in robots:
@@ -80,7 +80,7 @@ class RobotFrames(Frames):
         robot: whose names are understood.
     """
 
-    def __init__(self, frames: Frames, robot: Robot) -> None:
+    def __init__(self, frames: Frames, robot: NamespacedRobot) -> None:
         super().__init__(frames.buffer, frames.fixed_frame, frames.now_ns)
         self._frames = frames
         self._robot = robot
@@ -97,7 +97,7 @@ class RobotFrames(Frames):
         """See `Frames.at`."""
         return self._frames.at(self.named(frame), stamp_ns)
 
-    def link(self, frame: str) -> Link | None:
+    def link(self, frame: str) -> NewestTransform | None:
         """See `Frames.link`."""
         return self._frames.link(self.named(frame))
 

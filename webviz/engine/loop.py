@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from webviz.api.nodes import POINTS_HELD
-from webviz.api.robots import Robot, robots_of
+from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.arrivals import Arrivals
 from webviz.engine.commands import PROGRAM, Command, Sender
@@ -92,7 +92,7 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._shown = State()
-        self._named_robots: tuple[object, tuple[Robot, ...]] = None, ()
+        self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         rights = Rights(
             may_publish,
             config.settings.publish,
@@ -246,7 +246,7 @@ class FrameLoop:
     def _points_held(self) -> int:
         return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
 
-    def _robots(self) -> tuple[Robot, ...]:
+    def _robots(self) -> tuple[NamespacedRobot, ...]:
         entries = self.settings.robots
         if entries is not self._named_robots[0]:
             self._named_robots = entries, robots_of(entries)

@@ -8,7 +8,7 @@ from typing import Protocol
 from webviz.api.bounds import Box
 from webviz.api.declared import Color
 from webviz.api.views import View
-from webviz.engine.pipeline.drawing import Scene as DrawingScene
+from webviz.engine.pipeline.drawing import DrawingScene
 
 
 class Cameras(Protocol):
@@ -65,7 +65,7 @@ class NoCameras:
 
 
 class Scene(DrawingScene, Protocol):
-    """A scene with browsers; see `webviz.edges.scene.Scene`."""
+    """A scene with browsers; see `webviz.edges.scene.ViserScene`."""
 
     @property
     def cameras(self) -> Cameras:

@@ -54,7 +54,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class File:
+class ConfigFile:
     """The file of the config.
 
     Args:
@@ -71,7 +71,7 @@ class File:
 
 
 @dataclass(frozen=True)
-class Pace:
+class ClockPace:
     """How ROS time goes on, for pages that count by themselves.
 
     Args:
@@ -89,7 +89,7 @@ class Pace:
 
 
 @dataclass(frozen=True)
-class Clock:
+class PanelTimes:
     """The times of RViz's Time panel.
 
     Args:
@@ -108,7 +108,7 @@ class Clock:
     wall_s: float = 0.0
     wall_elapsed_s: float = 0.0
     is_paused: bool = False
-    pace: Pace = Pace()
+    pace: ClockPace = ClockPace()
     is_simulated: bool = False
     clock_hz: float = 0.0
 
@@ -314,8 +314,8 @@ class State:
     topics: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     statuses: Mapping[str, Status] = field(default_factory=dict)
     settings: Settings = field(default_factory=Settings)
-    file: File = File()
-    clock: Clock = Clock()
+    file: ConfigFile = ConfigFile()
+    clock: PanelTimes = PanelTimes()
     offers: Mapping[str, Offer] = field(default_factory=dict)
     traffic: Mapping[str, Traffic] = field(default_factory=dict)
     inspected: Mapping[str, Inspected] = field(default_factory=dict)

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from webviz.api.pictures import Encoded
 from webviz.api.stills import opened
 from webviz.data.images import CameraModel, ImageError, RawImage, Tone, to_rgb, values
-from webviz_displays.depth_cloud.hidden import Background
-from webviz_displays.image.transports import Job
+from webviz_displays.depth_cloud.hidden import HiddenPoints
+from webviz_displays.image.transports import Decompression
 
 NEAREST_M, FARTHEST_M = 1e-6, 1e6
 
 U8 = NDArray[np.uint8]
-Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], Background]
+Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], HiddenPoints]
 """What an image hides, of its depths, which of them are valid, and its colours."""
 
 
@@ -45,8 +45,8 @@ class DepthPoints(NamedTuple):
 
 
 def depth_points(
-    depth: RawImage | Encoded | Job,
-    color: RawImage | Encoded | Job | None,
+    depth: RawImage | Encoded | Decompression,
+    color: RawImage | Encoded | Decompression | None,
     model: CameraModel,
     most: int,
     behind: Behind | None = None,
@@ -58,7 +58,7 @@ def depth_points(
     Raises:
         ImageError: it is not a depth image, or of another size than the camera info.
     """
-    image = depth.run() if isinstance(depth, Job) else depth
+    image = depth.run() if isinstance(depth, Decompression) else depth
     if isinstance(image, Encoded) or image.layout.channels != 1 or not image.layout.unit:
         name = image.mime if isinstance(image, Encoded) else image.encoding
         raise ImageError(f"Expected depths as 16UC1 (mm) or 32FC1 (m), got {name}.")
@@ -106,7 +106,7 @@ def _rows(grid: NDArray[Any], chosen: NDArray[np.intp]) -> NDArray[Any]:
 
 
 def _colors(
-    color: RawImage | Encoded | Job | None,
+    color: RawImage | Encoded | Decompression | None,
     depth: RawImage,
     step: int,
 ) -> tuple[U8 | None, str]:
@@ -114,7 +114,7 @@ def _colors(
     if color is None:
         return None, ""
     try:
-        image = color.run() if isinstance(color, Job) else color
+        image = color.run() if isinstance(color, Decompression) else color
         pixels: NDArray[Any]
         if isinstance(image, Encoded):
             pixels = np.asarray(opened(image))

@@ -20,7 +20,7 @@ TURNED = math.cos(math.radians(0.5) / 2)
 """Product of two quaternions that are half a degree apart."""
 
 
-class Background(NamedTuple):
+class HiddenPoints(NamedTuple):
     """What was seen behind the points of an image.
 
     Args:
@@ -55,7 +55,7 @@ class Hidden:
         pose: Pose,
         now_ns: int,
         time_out: float,
-    ) -> Background:
+    ) -> HiddenPoints:
         """Take an image in, and say what it hides.
 
         Args:
@@ -82,7 +82,7 @@ class Hidden:
         self._seen_ns = np.where(is_farthest, now_ns, self._seen_ns)
         if colors is not None and self._colors is not None:
             self._colors = np.where(is_farthest[..., None], colors, self._colors)
-        return Background(is_hidden, self._depths, self._colors)
+        return HiddenPoints(is_hidden, self._depths, self._colors)
 
     def _continues(
         self, depths: F32, colors: U8 | None, model: CameraModel, pose: Pose, now_ns: int

@@ -79,7 +79,7 @@ class ImageDisplay(Display):
             ctx.ok("Image", f"{found.width} x {found.height}, {found.mime.partition('/')[2]}.")
             return found
         image, remark = found, ""
-        if isinstance(image, transports.Job):
+        if isinstance(image, transports.Decompression):
             run = image.run
             newest = state.decompressed.of(number, lambda: (number, run()), ctx)
             if newest is None:

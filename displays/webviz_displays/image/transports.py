@@ -16,13 +16,13 @@ RAW, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 
 @dataclass(frozen=True)
-class Job:
+class Decompression:
     """An image that has to be decompressed; `run` raises ImageError."""
 
     run: Callable[[], RawImage]
 
 
-def read(sample: Sample) -> RawImage | Encoded | Job:
+def read(sample: Sample) -> RawImage | Encoded | Decompression:
     """The image of a sensor_msgs/Image or a sensor_msgs/CompressedImage.
 
     Raises:
@@ -33,11 +33,11 @@ def read(sample: Sample) -> RawImage | Encoded | Job:
         return RawImage.of(message)
     data = np.asarray(message.data, np.uint8)
     if "compressedDepth" in message.format:
-        return Job(lambda: _depth(message.format, data))
+        return Decompression(lambda: _depth(message.format, data))
     info = inspect_compressed(message.format, data)
     if info.is_16_bit:
         encoding = info.encoding if info.encoding in ("16UC1", "mono16") else "mono16"
-        return Job(lambda: RawImage.from_values(encoding, read_png16(data)))
+        return Decompression(lambda: RawImage.from_values(encoding, read_png16(data)))
     return Encoded(info.mime, data, info.width, info.height, info.swaps_red_and_blue)
 
 

@@ -29,7 +29,7 @@ Wxyz = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class CompleteControl:
     """A control with all that it needs.
 
     Args:
@@ -64,7 +64,7 @@ class Completed:
     pose: Pose
     description: str
     scale: float
-    parts: tuple[Part, ...]
+    parts: tuple[CompleteControl, ...]
     menu: tuple[MenuEntry, ...]
     problems: tuple[str, ...]
 
@@ -128,7 +128,7 @@ class _Invalid(Exception):
     """Of a control; what is wrong follows its name."""
 
 
-def _part(name: str, control: Any, scale: float) -> Part:
+def _part(name: str, control: Any, scale: float) -> CompleteControl:
     wxyz = _wxyz(control.orientation)
     if wxyz is None:
         raise _Invalid("has an orientation that is not finite.")
@@ -153,7 +153,7 @@ def _part(name: str, control: Any, scale: float) -> Part:
         is_always_visible=bool(control.always_visible),
         help=str(control.description),
     )
-    return Part(made, is_independent, _with_sizes(shapes))
+    return CompleteControl(made, is_independent, _with_sizes(shapes))
 
 
 def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:

@@ -12,7 +12,7 @@ from webviz.api.handles import Grip, Handle
 from webviz.api.ports import Namespace
 from webviz.api.wire import Wire
 from webviz_displays.interactive_markers.client import UPDATE
-from webviz_displays.interactive_markers.drawing import Look
+from webviz_displays.interactive_markers.drawing import MarkerLook
 from webviz_displays.interactive_markers.feedback import (
     BUTTON_CLICK,
     DEPTH,
@@ -26,7 +26,7 @@ from webviz_displays.interactive_markers.feedback import (
 )
 from webviz_displays.interactive_markers.inspecting import details, part_of
 from webviz_displays.interactive_markers.menus import can_choose
-from webviz_displays.interactive_markers.server import Server
+from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 from webviz_displays.interactive_markers.statuses import report
 
 NO_NAMESPACE = "No namespace. Choose that of an interactive marker server."
@@ -43,7 +43,7 @@ class _State:
         token: tells viewers with nodes of one name apart.
     """
 
-    server: Server | None = None
+    server: InteractiveMarkerServer | None = None
     problem: str = NO_NAMESPACE
     refusal: str = ""
     token: str = field(default_factory=lambda: secrets.token_hex(4))
@@ -91,7 +91,7 @@ class InteractiveMarkers(Display):
             state.server, state.problem = None, NO_NAMESPACE
             return
         if state.server is None or state.server.client.namespace != namespace:
-            state.server = Server(namespace, f"{wire.node}_{state.token}")
+            state.server = InteractiveMarkerServer(namespace, f"{wire.node}_{state.token}")
         server, topic = state.server, f"{namespace}/feedback"
         try:
             news = server.client.step(wire)
@@ -120,7 +120,7 @@ class InteractiveMarkers(Display):
         state: _State = ctx.state
         if (server := state.server) is None:
             return
-        look = Look(self.show_descriptions, self.show_axes, self.enable_transparency)
+        look = MarkerLook(self.show_descriptions, self.show_axes, self.enable_transparency)
         arrived = server.assets.load(ctx, server.requests())
         server.is_waiting = False
         for name, marker in server.markers.items():

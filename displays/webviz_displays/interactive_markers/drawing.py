@@ -12,10 +12,10 @@ from webviz import Axes, Context, Frames, Group, Instances, Labels, Level, Node,
 from webviz.data.messages.markers import Content, Marker, MarkerSequence
 from webviz.data.rotations import conjugate, from_axis_angle, matrices, multiply_many
 from webviz.data.transforms.geometry import REACH_M
-from webviz_displays.interactive_markers.completion import Part
+from webviz_displays.interactive_markers.completion import CompleteControl
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
-from webviz_displays.markers.batch import Batch, batch_of
+from webviz_displays.markers.batch import MarkerBatch, batch_of
 from webviz_displays.markers.faults import faults_of
 from webviz_displays.markers.nodes import nodes_of
 from webviz_displays.shared.geometry import inverse
@@ -32,7 +32,7 @@ TITLE = "title"
 
 
 @dataclass(frozen=True)
-class Look:
+class MarkerLook:
     """What is drawn besides controls.
 
     Args:
@@ -45,7 +45,7 @@ class Look:
     is_transparent: bool
 
 
-class Shown:
+class ShownMarker:
     """The groups of one interactive marker, made anew only if something changes.
 
     Args:
@@ -61,14 +61,19 @@ class Shown:
         """The files that its shapes name."""
         self._assets = assets
         self._of: object = None
-        self._parts: tuple[Part, ...] = ()
+        self._parts: tuple[CompleteControl, ...] = ()
         self._nodes: list[dict[str, Node]] = []
-        self._look: Look | None = None
+        self._look: MarkerLook | None = None
         self._pinned: dict[tuple[int, int], Pose] = {}
         self._groups: dict[str, Group] = {}
 
     def draw(
-        self, marker: Tracked, place: Place, look: Look, arrived: Set[LoadRequest], ctx: Context
+        self,
+        marker: Tracked,
+        place: Place,
+        look: MarkerLook,
+        arrived: Set[LoadRequest],
+        ctx: Context,
     ) -> None:
         """Add the groups to a context; `arrived` are files that were loaded since the last call."""
         if not arrived.isdisjoint(self.requests):
@@ -82,7 +87,7 @@ class Shown:
         else:
             ctx.groups.update(self._groups)
 
-    def _make(self, marker: Tracked, place: Place, look: Look, ctx: Context) -> None:
+    def _make(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
         made = marker.made
         if self._parts is not made.parts or self._look != look or self.lost:
             self._renew(marker, place, look, ctx.frames)
@@ -112,7 +117,7 @@ class Shown:
         offset = Pose(place.pose.position, wxyz)
         return ctx.follow(place.frame, offset=offset, is_rigid=True, key=key)
 
-    def _renew(self, marker: Tracked, place: Place, look: Look, frames: Frames) -> None:
+    def _renew(self, marker: Tracked, place: Place, look: MarkerLook, frames: Frames) -> None:
         parts = marker.made.parts
         if self._parts is not parts:
             self._pinned.clear()
@@ -136,8 +141,8 @@ class Shown:
             self._nodes.append({f"{whose}/{key}": node for key, node in nodes.items()})
 
     def _placed(
-        self, index: int, part: Part, marker: Tracked, place: Place, frames: Frames
-    ) -> Batch:
+        self, index: int, part: CompleteControl, marker: Tracked, place: Place, frames: Frames
+    ) -> MarkerBatch:
         """The shapes in the coordinates of their group; those in their own frame are pinned."""
         shapes = part.shapes
         batch = batch_of(shapes)
@@ -166,7 +171,7 @@ class Shown:
     def _pin(
         self,
         marker: Tracked,
-        part: Part,
+        part: CompleteControl,
         place: Place,
         frames: Frames,
         shapes: MarkerSequence,
@@ -182,13 +187,15 @@ class Shown:
         return compose(inverse(compose(base, Pose(place.pose.position, wxyz))), at)
 
 
-def has_own_group(part: Part) -> bool:
+def has_own_group(part: CompleteControl) -> bool:
     """Whether the shapes of a control are turned apart from the marker."""
     facing = part.control.facing
     return facing == "fixed" or (facing == "view_facing" and not part.is_independent)
 
 
-def orientation(part: Part, pose: Pose, turned: float) -> tuple[float, float, float, float]:
+def orientation(
+    part: CompleteControl, pose: Pose, turned: float
+) -> tuple[float, float, float, float]:
     """Of the group of a control, given the pose of its marker; pages turn it to the camera."""
     if part.control.facing == "fixed":
         x, y, z = matrices(part.control.wxyz)[:, 0].tolist()
@@ -196,7 +203,7 @@ def orientation(part: Part, pose: Pose, turned: float) -> tuple[float, float, fl
     return (1.0, 0.0, 0.0, 0.0) if has_own_group(part) else pose.wxyz
 
 
-def _around_texts(batch: Batch) -> Instances:
+def _around_texts(batch: MarkerBatch) -> Instances:
     """Invisible balls around texts, since browsers cannot hit letters."""
     rows = np.flatnonzero(batch.types == Marker.TEXT_VIEW_FACING)
     heights = batch.scales[rows, 2]
@@ -207,7 +214,7 @@ def _around_texts(batch: Batch) -> Instances:
     return Instances(xyz, np.abs(sizes), (0, 0, 0), "sphere", opacity=0.0)
 
 
-def _opaque(batch: Batch) -> Batch:
+def _opaque(batch: MarkerBatch) -> MarkerBatch:
     """Shapes without transparency, but for those that are invisible."""
 
     def solid(content: Content) -> Content:

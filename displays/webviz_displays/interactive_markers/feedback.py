@@ -60,7 +60,7 @@ def values_of(
     }
 
 
-class Outgoing:
+class FeedbackQueue:
     """Messages that wait to be sent, one per turn of the frame loop.
 
     Servers keep one message only until they take it, so that of several at once some would be lost.

@@ -10,8 +10,8 @@ from webviz import Frames
 from webviz.api.handles import Handle
 from webviz_displays.interactive_markers.client import Client, News
 from webviz_displays.interactive_markers.completion import completed, pose_of
-from webviz_displays.interactive_markers.drawing import Shown
-from webviz_displays.interactive_markers.feedback import Outgoing
+from webviz_displays.interactive_markers.drawing import ShownMarker
+from webviz_displays.interactive_markers.feedback import FeedbackQueue
 from webviz_displays.interactive_markers.tracked import Place, Tracked
 from webviz_displays.markers.assets import Assets
 from webviz_urdf import LoadRequest
@@ -19,7 +19,7 @@ from webviz_urdf import LoadRequest
 MAX_MARKERS = 5000
 
 
-class Server:
+class InteractiveMarkerServer:
     """An interactive marker server as the display knows it.
 
     Args:
@@ -32,11 +32,11 @@ class Server:
         self.client_id = client_id
         self.markers: dict[str, Tracked] = {}
         """By name."""
-        self.shown: dict[str, Shown] = {}
+        self.shown: dict[str, ShownMarker] = {}
         """What is drawn of each, by name."""
         self.assets = Assets()
         """The files that shapes name."""
-        self.outgoing = Outgoing()
+        self.outgoing = FeedbackQueue()
         self.version = 0
         """Changes with everything that is drawn."""
         self.ignored: dict[str, str] = {}
@@ -108,7 +108,7 @@ class Server:
             self._made += 1
             marker = Tracked(f"m{self._made}", made)
             self.markers[name] = self._by_key[marker.key] = marker
-            self.shown[name] = Shown(self.assets)
+            self.shown[name] = ShownMarker(self.assets)
 
     def _move(self, message: Any) -> None:
         name = str(message.name)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from webviz import Context
 from webviz.data.words import counted
-from webviz_displays.interactive_markers.server import Server
+from webviz_displays.interactive_markers.server import InteractiveMarkerServer
 
 MAX_ROWS = 20
 """Markers with a status of their own."""
 
 
-def report(server: Server, refusal: str, ctx: Context) -> None:
+def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
     """Report how the connection is, and each marker."""
     status = server.client.status(len(server.markers))
     ctx.statuses["Server"] = status
@@ -37,7 +37,7 @@ def report(server: Server, refusal: str, ctx: Context) -> None:
             ctx.ok(name, "Position is fixed.")
 
 
-def _troubles(server: Server, ctx: Context) -> dict[str, tuple[bool, str]]:
+def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[bool, str]]:
     """What is wrong with markers, by name: whether it is an error, and a sentence."""
     found = {name: (True, text) for name, text in server.ignored.items()}
     frames = ctx.frames

@@ -24,7 +24,7 @@ MOST_BEAMS = 100_000
 
 
 @dataclass(frozen=True)
-class Hits:
+class BeamHits:
     """The beams of a scan that hit something.
 
     Args:
@@ -67,7 +67,7 @@ def fault(scan: messages.LaserScan) -> str:
     return ""
 
 
-def project(scan: messages.LaserScan) -> Hits:
+def project(scan: messages.LaserScan) -> BeamHits:
     """The points of a scan without `fault`, as seen from where it was at its stamp.
 
     The rules are those of laser_geometry: a range counts if range_min <= range < range_max, and
@@ -96,10 +96,10 @@ def project(scan: messages.LaserScan) -> Hits:
     dropped = {reason: int(mask.sum()) for reason, mask in counts.items() if mask.any()}
     if over:
         dropped[f"over the limit of {MOST_BEAMS}"] = over
-    return Hits(beams, xyz, len(ranges), dropped)
+    return BeamHits(beams, xyz, len(ranges), dropped)
 
 
-def deskew(hits: Hits, sample: Sample, frames: Frames) -> tuple[F64, int]:
+def deskew(hits: BeamHits, sample: Sample, frames: Frames) -> tuple[F64, int]:
     """The points as if all beams had been measured at the stamp of the scan.
 
     Each beam is placed in the fixed frame with the transform at its own time, stamp +

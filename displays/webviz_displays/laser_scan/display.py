@@ -103,7 +103,7 @@ class LaserScan(PointsDisplay):
             values["Time after the first beam"] = f"{1e3 * hit.id * scan.time_increment:.3f} ms"
         return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
 
-    def _place(self, hits: beams.Hits, sample: Sample, ctx: Context) -> F64:
+    def _place(self, hits: beams.BeamHits, sample: Sample, ctx: Context) -> F64:
         """The points in the frame of the laser at the stamp."""
         scan: messages.LaserScan = sample.message
         duration = (hits.total - 1) * scan.time_increment
@@ -131,7 +131,7 @@ class LaserScan(PointsDisplay):
         return xyz
 
     def _colors(
-        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+        self, scan: messages.LaserScan, hits: beams.BeamHits, xyz: F64, sample: Sample, ctx: Context
     ) -> U8 | Rgb:
         """A colour for each point (N, 3), or one for all."""
         if self.color_transformer == "FlatColor":
@@ -141,7 +141,7 @@ class LaserScan(PointsDisplay):
         return self.intensity_colors(self._channel(scan, hits, xyz, sample, ctx), ctx)
 
     def _channel(
-        self, scan: messages.LaserScan, hits: beams.Hits, xyz: F64, sample: Sample, ctx: Context
+        self, scan: messages.LaserScan, hits: beams.BeamHits, xyz: F64, sample: Sample, ctx: Context
     ) -> F64:
         """The values (N,) that determine the colour."""
         if self.channel_name in ("x", "y", "z"):

@@ -9,11 +9,11 @@ import numpy as np
 
 from webviz import Context, Level
 from webviz.data.messages.markers import Content, Marker
-from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.batch import MarkerBatch
 from webviz_displays.markers.faults import Fault
 from webviz_displays.markers.meshes import LoadedMesh, Tint
 from webviz_displays.markers.nodes import Files
-from webviz_urdf import Loading, LoadRequest, MeshFile, RobotDescriptionError
+from webviz_urdf import Loading, LoadRequest, MeshContent, RobotDescriptionError
 
 EMBEDDED = "embedded://"
 """Begins the URI of a file that is in the message."""
@@ -86,7 +86,7 @@ class Assets:
             del self._loading[request]
             if not isinstance(result, str):
                 self._failed.pop(request, None)
-            if isinstance(result, MeshFile):
+            if isinstance(result, MeshContent):
                 name = f"{request.mesh} {len(self._known)}" if request.data else request.mesh
                 result = LoadedMesh(name, result.parts)
             if result != self._known.get(request):
@@ -100,7 +100,7 @@ class Assets:
         pause_s = min(2.0 * pause_s, LONGEST_S)
         self._failed[request] = time.monotonic() + pause_s, pause_s
 
-    def of(self, batch: Batch) -> tuple[Files, list[Fault], set[LoadRequest]]:
+    def of(self, batch: MarkerBatch) -> tuple[Files, list[Fault], set[LoadRequest]]:
         """What markers take from files, what they lack, and which files they name."""
         meshes: dict[int, LoadedMesh] = {}
         pictures: dict[int, bytes] = {}

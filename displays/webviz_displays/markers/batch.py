@@ -21,7 +21,7 @@ OPAQUE = 0.9998
 
 
 @dataclass(frozen=True, eq=False)
-class Batch:
+class MarkerBatch:
     """Markers to draw, in the coordinates of one group.
 
     Args:
@@ -49,9 +49,9 @@ class Batch:
     def __len__(self) -> int:
         return len(self.types)
 
-    def only(self, rows: Rows) -> Batch:
+    def only(self, rows: Rows) -> MarkerBatch:
         """Some of the markers."""
-        return Batch(
+        return MarkerBatch(
             self.types[rows],
             self.positions[rows],
             self.wxyzs[rows],
@@ -64,9 +64,9 @@ class Batch:
         )
 
 
-def batch_of(markers: MarkerSequence) -> Batch:
+def batch_of(markers: MarkerSequence) -> MarkerBatch:
     """Markers at the poses of their messages; an orientation of all zeros is none."""
-    return Batch(
+    return MarkerBatch(
         markers.types,
         markers.positions,
         normalized(w_first(markers.orientations))[0],

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from webviz import Level
 from webviz.data.messages.markers import NOTHING, Content, Marker, MarkerSequence
-from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.batch import MarkerBatch
 from webviz_displays.markers.triangles import corner_colors
 from webviz_displays.shared.geometry import FARTHEST, is_drawable
 
@@ -68,7 +68,7 @@ def _is_valid(content: Content, scale: NDArray[np.float64], type_: int) -> bool:
     return not len(content.uv_coordinates) or bool(np.isfinite(content.uv_coordinates).all())
 
 
-def faults_of(batch: Batch) -> Iterator[Fault]:
+def faults_of(batch: MarkerBatch) -> Iterator[Fault]:
     """Why markers cannot be seen, one sentence for each that cannot."""
     types, scales, alphas = batch.types, batch.scales, batch.colors[:, 3]
     is_known = (types >= 0) & (types < len(TYPES))

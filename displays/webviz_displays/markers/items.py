@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from webviz.data.rotations import matrices
-from webviz_displays.markers.batch import F32, F64, Batch, Rows
+from webviz_displays.markers.batch import F32, F64, MarkerBatch, Rows
 
 _MANY = 4
 """Markers above which they are moved together."""
@@ -29,7 +29,7 @@ class Items:
     rows: Rows
 
 
-def items_of(batch: Batch, rows: Rows, points: list[F64] | None = None) -> Items:
+def items_of(batch: MarkerBatch, rows: Rows, points: list[F64] | None = None) -> Items:
     """The points of the markers in some rows, or other `points` in their place."""
     contents = [batch.contents[row] for row in rows.tolist()]
     points = [content.points for content in contents] if points is None else points
@@ -53,7 +53,7 @@ def items_of(batch: Batch, rows: Rows, points: list[F64] | None = None) -> Items
     return Items(_placed(batch, rows, counts, xyz, owners), colors, owners)
 
 
-def _placed(batch: Batch, rows: Rows, counts: Rows, xyz: F64, owners: Rows) -> F64:
+def _placed(batch: MarkerBatch, rows: Rows, counts: Rows, xyz: F64, owners: Rows) -> F64:
     """Points moved from the coordinates of their markers to those of the group."""
     is_turned = (batch.wxyzs[rows, 1:] != 0.0).any(axis=1)
     if len(rows) > _MANY:

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from webviz import Labels, Lines, Node, Points, Rgb
 from webviz.data.messages.markers import Marker
-from webviz_displays.markers.batch import F32, U8, Batch, Rows, opacities, rgb
+from webviz_displays.markers.batch import F32, U8, MarkerBatch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
 from webviz_displays.shared.colors import faded
 
 
-def lines_of(batch: Batch) -> dict[str, Node]:
+def lines_of(batch: MarkerBatch) -> dict[str, Node]:
     """A node for the lines of each width."""
     widths, counts = batch.scales[:, 0], batch.counts
     is_list = (batch.types == Marker.LINE_LIST) & (counts % 2 == 0)
@@ -50,7 +50,7 @@ def _pairing(rows: Rows, is_list: NDArray[np.bool_]) -> Callable[[NDArray[Any]],
     return lambda values: np.stack((values[firsts], values[firsts + 1]), axis=1)
 
 
-def points_of(batch: Batch) -> dict[str, Node]:
+def points_of(batch: MarkerBatch) -> dict[str, Node]:
     """A node for the points of each size."""
     sizes = batch.scales[:, 0]
     nodes: dict[str, Node] = {}
@@ -66,7 +66,7 @@ def points_of(batch: Batch) -> dict[str, Node]:
     return nodes
 
 
-def texts_of(batch: Batch) -> dict[str, Node]:
+def texts_of(batch: MarkerBatch) -> dict[str, Node]:
     """A node for the texts of each height; texts face the camera whatever their orientation is."""
     heights = batch.scales[:, 2]
     is_visible = (batch.types == Marker.TEXT_VIEW_FACING) & (batch.colors[:, 3] > 0.0)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from webviz import Models, Node, Shape
-from webviz_displays.markers.batch import F32, Batch, opacities, rgb
+from webviz_displays.markers.batch import F32, MarkerBatch, opacities, rgb
 from webviz_displays.markers.solids import Solids
 from webviz_urdf import MeshPart, Surface, write_glb
 
@@ -31,19 +31,19 @@ class LoadedMesh:
     parts: tuple[MeshPart, ...]
 
     @cached_property
-    def whole(self) -> Piece:
+    def whole(self) -> ColoredPiece:
         """All parts, without their materials."""
-        return Piece(self.name, *_joined(self.parts))
+        return ColoredPiece(self.name, *_joined(self.parts))
 
     @cached_property
-    def pieces(self) -> tuple[tuple[Piece, Surface], ...]:
+    def pieces(self) -> tuple[tuple[ColoredPiece, Surface], ...]:
         """The parts that have one colour each, with the surface that the file gives them."""
         alike: dict[Surface, list[MeshPart]] = {}
         for part in self.parts:
             if not is_colorful(part):
                 alike.setdefault(part.surface or _NO_SURFACE, []).append(part)
         return tuple(
-            (Piece(f"{self.name} {i}", *_joined(parts)), surface)
+            (ColoredPiece(f"{self.name} {i}", *_joined(parts)), surface)
             for i, (surface, parts) in enumerate(alike.items())
         )
 
@@ -56,7 +56,7 @@ class LoadedMesh:
 _NO_SURFACE = Surface()
 
 
-class Piece:
+class ColoredPiece:
     """A part of a mesh that has one colour.
 
     Args:
@@ -74,7 +74,7 @@ class Piece:
         flip = np.array((-1.0, 1.0, 1.0), np.float32)
         return Shape(self.shape.vertices * flip, np.ascontiguousarray(self.shape.faces[:, ::-1]))
 
-    def solids(self, some: Batch, colors: F32) -> Iterator[Solids]:
+    def solids(self, some: MarkerBatch, colors: F32) -> Iterator[Solids]:
         """One for each marker of a batch, in a colour each."""
         is_mirrored = np.prod(np.sign(some.scales), axis=1) < 0.0
         for chosen, name, sign in (
@@ -94,7 +94,7 @@ Meshes = Mapping[int, LoadedMesh]
 """By the row of the marker in its batch."""
 
 
-def mesh_solids(batch: Batch, meshes: Meshes) -> Iterator[Solids]:
+def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:
     """What has one colour; that of one file is drawn together."""
     for mesh, rows in _by_mesh(meshes).items():
         own = batch.own_materials[rows]
@@ -110,7 +110,7 @@ def mesh_solids(batch: Batch, meshes: Meshes) -> Iterator[Solids]:
 
 
 def models_of(
-    batch: Batch, meshes: Meshes, cache: dict[tuple[int, Tint], bytes]
+    batch: MarkerBatch, meshes: Meshes, cache: dict[tuple[int, Tint], bytes]
 ) -> dict[str, Node]:
     """What has a texture or vertex colours.
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from webviz import Node
-from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.batch import MarkerBatch
 from webviz_displays.markers.lines import lines_of, points_of, texts_of
 from webviz_displays.markers.meshes import LoadedMesh, Tint, mesh_solids, models_of
 from webviz_displays.markers.solids import instances_of, solids_of
@@ -29,7 +29,7 @@ class Files:
     models: dict[tuple[int, Tint], bytes] = field(default_factory=dict)
 
 
-def nodes_of(batch: Batch, files: Files = Files()) -> dict[str, Node]:
+def nodes_of(batch: MarkerBatch, files: Files = Files()) -> dict[str, Node]:
     """The nodes that draw markers, in the coordinates of their group.
 
     Args:

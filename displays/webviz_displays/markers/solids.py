@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Instances, Node, Rgb, Shape, Solid
 from webviz.data.messages.markers import Marker
 from webviz.data.rotations import matrices, multiply_many
-from webviz_displays.markers.batch import F32, F64, Batch, Rows, opacities, rgb
+from webviz_displays.markers.batch import F32, F64, MarkerBatch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
 from webviz_displays.shared.rods import from_z
 
@@ -72,7 +72,7 @@ class Solids:
 _ARRAYS = ("positions", "wxyzs", "scales", "colors", "ids")
 
 
-def solids_of(batch: Batch) -> Iterator[Solids]:
+def solids_of(batch: MarkerBatch) -> Iterator[Solids]:
     """The solids of all markers that consist of them."""
     for type_, shape in _SHAPES.items():
         some = batch.only(np.flatnonzero(batch.types == type_))
@@ -133,7 +133,7 @@ def _instances(solids: Solids, opacity: float | F64) -> Instances:
     )
 
 
-def _lists(batch: Batch) -> Iterator[Solids]:
+def _lists(batch: MarkerBatch) -> Iterator[Solids]:
     for type_, shape in _LISTS.items():
         rows = np.flatnonzero(batch.types == type_)
         if not len(rows):
@@ -147,7 +147,7 @@ def _lists(batch: Batch) -> Iterator[Solids]:
         yield Solids(shape, *where, scales, colors, batch.ids[of], is_ball)
 
 
-def _arrows(batch: Batch) -> Iterator[Solids]:
+def _arrows(batch: MarkerBatch) -> Iterator[Solids]:
     is_arrow, counts = batch.types == Marker.ARROW, batch.counts
     along_x = np.flatnonzero(is_arrow & (counts != 1) & (counts != 2))
     if len(along_x):
@@ -158,7 +158,7 @@ def _arrows(batch: Batch) -> Iterator[Solids]:
         yield from _arrows_between(batch, joined)
 
 
-def _arrows_along_x(some: Batch) -> Iterator[Solids]:
+def _arrows_along_x(some: MarkerBatch) -> Iterator[Solids]:
     """Arrows from the origin of each pose: scale is length, and width of the shaft in y and z."""
     length, sign = np.abs(some.scales[:, 0]), np.sign(some.scales[:, 0])
     width = np.abs(some.scales[:, 1:])
@@ -178,7 +178,7 @@ def _arrows_along_x(some: Batch) -> Iterator[Solids]:
         yield Solids(shape, positions, turned, scales, some.colors, some.ids)
 
 
-def _arrows_between(batch: Batch, rows: Rows) -> Iterator[Solids]:
+def _arrows_between(batch: MarkerBatch, rows: Rows) -> Iterator[Solids]:
     """Arrows between points: scale is the diameters of shaft and head, and the head's length."""
     items = items_of(batch, rows)
     is_joined = items.rows[:-1] == items.rows[1:]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz.data.messages.markers import NOTHING, Content
 from webviz_displays.markers.actions import Key
-from webviz_displays.markers.batch import Batch
+from webviz_displays.markers.batch import MarkerBatch
 
 FOREVER = np.iinfo(np.int64).max
 """When markers without a lifetime expire."""
@@ -115,10 +115,10 @@ class Table:
         numbers = [number for name in names if (number := self._numbers.get(name)) is not None]
         return np.isin(self._namespace_of, numbers)
 
-    def batch(self, rows: NDArray[np.intp], origin: tuple[float, float, float]) -> Batch:
+    def batch(self, rows: NDArray[np.intp], origin: tuple[float, float, float]) -> MarkerBatch:
         """The markers in some rows as they are drawn, relative to an origin."""
         some = self.shown[rows]
-        return Batch(
+        return MarkerBatch(
             some["type"],
             some["position"] - origin,
             some["wxyz"],

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from webviz import Glb, Mesh, Node
 from webviz.data.messages.markers import Content, Marker
-from webviz_displays.markers.batch import F32, U8, Batch, Rows, opacities, rgb
+from webviz_displays.markers.batch import F32, U8, MarkerBatch, Rows, opacities, rgb
 from webviz_displays.markers.items import items_of
 from webviz_urdf import MeshPart, Surface, write_glb
 
@@ -17,7 +17,7 @@ WHITE = (255, 255, 255)
 OneColor = tuple[int, int, int, float]
 
 
-def triangles_of(batch: Batch, pictures: Mapping[int, bytes]) -> dict[str, Node]:
+def triangles_of(batch: MarkerBatch, pictures: Mapping[int, bytes]) -> dict[str, Node]:
     """A node for the triangles of each colour, one for those with several, one for each texture.
 
     Args:
@@ -71,14 +71,16 @@ def corner_colors(content: Content) -> F32 | None:
     return np.repeat(content.colors, 3, axis=0) if given and 3 * given == corners else None
 
 
-def _joined(batch: Batch, rows: list[int]) -> tuple[F32, NDArray[np.uint32], NDArray[np.int64]]:
+def _joined(
+    batch: MarkerBatch, rows: list[int]
+) -> tuple[F32, NDArray[np.uint32], NDArray[np.int64]]:
     """The corners of all triangles (N, 3), the faces (M, 3), and of which marker each is (M,)."""
     vertices = _corners(batch, np.array(rows))
     faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
     return vertices, faces, np.repeat(batch.ids[rows], batch.counts[rows] // 3)
 
 
-def _corners(batch: Batch, rows: Rows) -> F32:
+def _corners(batch: MarkerBatch, rows: Rows) -> F32:
     """The corners of all triangles, float32 (N, 3)."""
     scaled = [batch.contents[row].points * batch.scales[row] for row in rows.tolist()]
     return items_of(batch, rows, scaled).xyz.astype(np.float32)
@@ -92,7 +94,7 @@ def _rgba(content: Content) -> U8:
     return np.column_stack((rgb(colors), alphas))
 
 
-def _covered(batch: Batch, row: int, picture: bytes) -> bytes:
+def _covered(batch: MarkerBatch, row: int, picture: bytes) -> bytes:
     """A binary glTF of triangles with a picture, multiplied by their colours."""
     vertices, faces, _ = _joined(batch, [row])
     content = batch.contents[row]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from webviz import Error
 from webviz.api.wire import Wire
 from webviz.data.messages import decode
-from webviz_displays.moveit.scene import Scene, updated
+from webviz_displays.moveit.scene import KnownScene, updated
 
 SERVICE = "moveit_msgs/srv/GetPlanningScene"
 ANSWER_S = 5.0
@@ -30,7 +30,7 @@ class Asking:
     """
 
     service: str = ""
-    scene: Scene | None = None
+    scene: KnownScene | None = None
     problem: str = ""
     _answer: Future[bytes] | None = None
     _next_s: float = 0.0
@@ -62,4 +62,4 @@ class Asking:
             self.problem = str(error)
             return
         self.problem = ""
-        self.scene = updated(Scene(), message)
+        self.scene = updated(KnownScene(), message)

@@ -16,14 +16,14 @@ from webviz_displays.markers.batch import opacities, rgb
 from webviz_displays.markers.solids import Solids, instances_of
 from webviz_displays.moveit.bodies import Body, named
 from webviz_displays.moveit.frames import Links, Places
-from webviz_displays.moveit.scene import Rgba, Scene
+from webviz_displays.moveit.scene import KnownScene, Rgba
 from webviz_displays.shared.geometry import is_drawable, origin_near
 
 MOST_MESHES = 2000
 """Objects with meshes that are drawn, as each is a node of its own."""
 
 
-class Shown(NamedTuple):
+class ShownObject(NamedTuple):
     """An object as it is drawn.
 
     Attributes:
@@ -37,7 +37,7 @@ class Shown(NamedTuple):
     rgba: Rgba
 
 
-class Group(NamedTuple):
+class PlacedNodes(NamedTuple):
     """Nodes that are placed together.
 
     Attributes:
@@ -51,7 +51,7 @@ class Group(NamedTuple):
     nodes: Mapping[str, Node]
 
 
-class Drawn(NamedTuple):
+class DrawnObjects(NamedTuple):
     """Objects as nodes.
 
     Attributes:
@@ -60,7 +60,7 @@ class Drawn(NamedTuple):
             ids there.
     """
 
-    groups: Sequence[Group]
+    groups: Sequence[PlacedNodes]
     owners: Mapping[str, object]
 
     def add(self, frame: str, ctx: Context) -> None:
@@ -71,12 +71,12 @@ class Drawn(NamedTuple):
                 group.add(name, node)
 
 
-def drawn(shown: Iterable[Shown], prefix: str) -> Drawn:
+def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
     """Objects as nodes, whose keys begin with `prefix`: solids of one look together."""
     bodies: list[Body] = []
     solids: list[Solids] = []
     owners: dict[str, object] = {}
-    groups: list[Group] = []
+    groups: list[PlacedNodes] = []
     for number, (body, pose, rgba) in enumerate(shown):
         bodies.append(body)
         for kind, some in body.solids.items():
@@ -89,7 +89,7 @@ def drawn(shown: Iterable[Shown], prefix: str) -> Drawn:
         if len(body.faces) and len(owners) < MOST_MESHES and opacity:
             key = f"{prefix}mesh {body.id:.40} {zlib.crc32(body.id.encode()):08x}"
             mesh = Mesh(body.vertices, body.faces, rgb_of(rgba), opacity)
-            groups.append(Group(key, pose, {key: mesh}))
+            groups.append(PlacedNodes(key, pose, {key: mesh}))
             owners[key] = body
     solids = [each for each in solids if len(each.positions)]
     if solids:
@@ -98,18 +98,18 @@ def drawn(shown: Iterable[Shown], prefix: str) -> Drawn:
             each.positions[:] -= origin
         x, y, z = origin.tolist()
         nodes = {prefix + kind: node for kind, node in instances_of(solids).items()}
-        groups.append(Group(f"{prefix}solids", Pose((x, y, z)), nodes))
+        groups.append(PlacedNodes(f"{prefix}solids", Pose((x, y, z)), nodes))
         owners |= dict.fromkeys(nodes, bodies)
-    return Drawn(groups, owners)
+    return DrawnObjects(groups, owners)
 
 
 @dataclass
-class Held:
+class HeldObjects:
     """What a robot holds.
 
     Args:
         places: relative to the links.
-        owners: objects by the keys of nodes, see `Drawn`.
+        owners: objects by the keys of nodes, see `DrawnObjects`.
         holders: links by the id of the object.
     """
 
@@ -118,7 +118,7 @@ class Held:
     holders: dict[str, str] = field(default_factory=dict)
 
     def draw(
-        self, scene: Scene, links: Links, rgba: Rgba, frame: str, prefix: str, ctx: Context
+        self, scene: KnownScene, links: Links, rgba: Rgba, frame: str, prefix: str, ctx: Context
     ) -> list[str]:
         """Draw it where the links are; the objects that have no place.
 
@@ -134,7 +134,7 @@ class Held:
         held = self.places.attached(scene, links)
         self.holders = {key: scene.attached[key].link for key in held}
         shown = [
-            Shown(scene.attached[key].body, pose, scene.colors.get(key, rgba))
+            ShownObject(scene.attached[key].body, pose, scene.colors.get(key, rgba))
             for key, pose in held.items()
         ]
         nodes = drawn(shown, f"{prefix}attached ")
@@ -151,7 +151,7 @@ class Held:
 
 
 def owner_of(hit: Hit, owners: Mapping[str, object]) -> Body | None:
-    """The object of a shape that was selected; see `Drawn`."""
+    """The object of a shape that was selected; see `DrawnObjects`."""
     owner = owners.get(hit.key)
     if isinstance(owner, list):
         owner = owner[hit.id] if hit.id is not None and hit.id < len(owner) else None

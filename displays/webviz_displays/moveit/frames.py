@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from webviz import Frames, Pose, compose
 from webviz_displays.moveit.bodies import Body
-from webviz_displays.moveit.scene import Scene
+from webviz_displays.moveit.scene import KnownScene
 from webviz_displays.shared.geometry import inverse
 
 Links = Mapping[str, Pose]
@@ -30,7 +30,7 @@ class Places:
     world: dict[str, tuple[Body, Pose]] = field(default_factory=dict)
     held: dict[str, tuple[Body, Pose]] = field(default_factory=dict)
 
-    def update(self, scene: Scene, frame: str, links: Links, frames: Frames) -> list[Body]:
+    def update(self, scene: KnownScene, frame: str, links: Links, frames: Frames) -> list[Body]:
         """Place what is new; the objects whose frame is unknown."""
         self.world = _still(self.world, scene.objects)
         self.held = _still(self.held, {key: each.body for key, each in scene.attached.items()})
@@ -62,7 +62,7 @@ class Places:
                 self.held[key] = body, compose(inverse(link), compose(base, body.pose))
         return lost
 
-    def attached(self, scene: Scene, links: Links) -> dict[str, Pose]:
+    def attached(self, scene: KnownScene, links: Links) -> dict[str, Pose]:
         """The poses of attached objects in the frame of the scene, where the link has one."""
         return {
             key: compose(links[attached.link], self.held[key][1])
@@ -71,7 +71,7 @@ class Places:
         }
 
     def base(
-        self, name: str, scene: Scene, frame: str, links: Links, frames: Frames
+        self, name: str, scene: KnownScene, frame: str, links: Links, frames: Frames
     ) -> Pose | None:
         """The pose of a frame in that of the scene."""
         if name in ("", frame):

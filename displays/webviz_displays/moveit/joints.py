@@ -22,7 +22,7 @@ NO_POSES: Mapping[str, Pose] = {}
 
 
 @dataclass(frozen=True)
-class Joints:
+class JointValues:
     """The state of a robot's joints.
 
     Args:
@@ -42,9 +42,9 @@ class Joints:
         """Whether nothing is known."""
         return not (self.positions or self.poses)
 
-    def over(self, before: Joints) -> Joints:
+    def over(self, before: JointValues) -> JointValues:
         """The same, completed from an earlier state."""
-        return Joints(
+        return JointValues(
             _bounded({**before.positions, **self.positions}),
             _bounded({**before.poses, **self.poses}),
             self.frame or before.frame,
@@ -52,14 +52,14 @@ class Joints:
         )
 
 
-def joints_of(state: Any) -> Joints:
+def joints_of(state: Any) -> JointValues:
     """The joints in a moveit_msgs/RobotState."""
     positions, fault = positions_of(state.joint_state)
     several = state.multi_dof_joint_state
     poses, other = poses_of(several.joint_names, several.transforms)
     frame = state.joint_state.header.frame_id or several.header.frame_id
     faults = tuple(filter(None, (fault, other)))
-    return Joints(_bounded(positions), _bounded(poses), frame.lstrip("/"), faults)
+    return JointValues(_bounded(positions), _bounded(poses), frame.lstrip("/"), faults)
 
 
 def poses_of(names: Sequence[str], transforms: Sequence[Any]) -> tuple[dict[str, Pose], str]:
@@ -146,7 +146,7 @@ class Poser:
         base = virtual[0] if virtual else Pose()
         return poses_by_link(self.kinematics, *self.kinematics.places(values, moved, base))
 
-    def stance(self, joints: Joints) -> Stance:
+    def stance(self, joints: JointValues) -> Stance:
         """Where the links are, and what is odd about the joints."""
         robot, known = self.robot, joints.positions
         values = self.values(known)

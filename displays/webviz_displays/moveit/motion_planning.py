@@ -11,10 +11,10 @@ import numpy as np
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Rgb, Sample, Topic
 from webviz.api.wire import Wire
 from webviz_displays.moveit.asking import Asking
-from webviz_displays.moveit.joints import Joints, joints_of
+from webviz_displays.moveit.joints import JointValues, joints_of
 from webviz_displays.moveit.path_view import PREFIX, PathView, playback_of
-from webviz_displays.moveit.paths import Path
-from webviz_displays.moveit.planning_scene import Received, no_scene
+from webviz_displays.moveit.paths import JointPath
+from webviz_displays.moveit.planning_scene import ReceivedPlanningScene, no_scene
 from webviz_displays.moveit.properties import (
     ROBOT_DESCRIPTION,
     MoveGroupNamespace,
@@ -26,8 +26,8 @@ from webviz_displays.moveit.properties import (
     SceneRobot,
     TrajectoryTopic,
 )
-from webviz_displays.moveit.robots import Look, Model, Robots
-from webviz_displays.moveit.world import World, look_of
+from webviz_displays.moveit.robots import PosedRobot, RobotLook, Robots
+from webviz_displays.moveit.world import DrawnWorld, look_of
 from webviz_displays.shared.geometry import LONGEST
 
 Triple = tuple[float, float, float]
@@ -44,22 +44,22 @@ class Plans:
         ends: joints that programs gave for the start and the goal, by the name of the input.
     """
 
-    received: Received = field(default_factory=Received)
+    received: ReceivedPlanningScene = field(default_factory=ReceivedPlanningScene)
     path: Any = None
-    ends: tuple[tuple[str, Joints], ...] = ()
+    ends: tuple[tuple[str, JointValues], ...] = ()
 
 
 @dataclass
-class State:
+class MotionPlanningDrawing:
     """What is drawn."""
 
     robots: Robots = field(default_factory=Robots)
     asking: Asking = field(default_factory=Asking)
-    world: World = field(init=False)
+    world: DrawnWorld = field(init=False)
     view: PathView = field(init=False)
 
     def __post_init__(self) -> None:
-        self.world = World(self.robots)
+        self.world = DrawnWorld(self.robots)
         self.view = PathView(self.robots)
 
 
@@ -99,9 +99,9 @@ class MotionPlanning(Display):
         Triple, Prop(rviz="MoveIt_Workspace/Size", unit="m", help="Edges of the workspace.")
     ] = (2.0, 2.0, 2.0)
 
-    def new_state(self) -> State:
+    def new_state(self) -> MotionPlanningDrawing:
         """Nothing."""
-        return State()
+        return MotionPlanningDrawing()
 
     def waits(self, name: str) -> bool:
         """Neither scenes nor paths wait for transforms."""
@@ -119,14 +119,14 @@ class MotionPlanning(Display):
 
     def talk(self, wire: Wire, ctx: Context) -> None:
         """Ask move_group for the whole scene, and for the next turn while the robot moves."""
-        state: State = ctx.state
+        state: MotionPlanningDrawing = ctx.state
         state.asking.step(self.move_group_namespace, wire)
         if state.view.player.is_moving:
             wire.wake()
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, the scene of move_group, frames, and the point of the path."""
-        state: State = ctx.state
+        state: MotionPlanningDrawing = ctx.state
         point = state.view.advance(self._playback(), ctx.frames.now_ns)
         late = state.world.is_late(self.scene_geometry.scene_display_time)
         structure = ctx.frames.structure, ctx.frames.fixed_frame
@@ -135,7 +135,7 @@ class MotionPlanning(Display):
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """The newest scene and plan."""
-        state: State = ctx.state
+        state: MotionPlanningDrawing = ctx.state
         plans: Plans = samples[-1].message if samples else Plans()
         robots, received = state.robots, plans.received
         robots.begin()
@@ -164,7 +164,7 @@ class MotionPlanning(Display):
 
     def tick(self, ctx: Context) -> None:
         """The trails of links."""
-        state: State = ctx.state
+        state: MotionPlanningDrawing = ctx.state
         look, prefix = look_of(self.scene_robot), ""
         if not look.links:
             look, prefix = self._playback().look, PREFIX
@@ -172,14 +172,14 @@ class MotionPlanning(Display):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """An object, or a link of one of the robots."""
-        state: State = ctx.state
+        state: MotionPlanningDrawing = ctx.state
         return state.world.inspect(hit) or state.view.inspect(hit, ctx)
 
     def _playback(self) -> Any:
         return playback_of(self.planned_path, self.scene_robot.attached_body_color)
 
     def _draw_ends(
-        self, plans: Plans, path: Path | None, model: Model, frame: str, ctx: Context
+        self, plans: Plans, path: JointPath | None, model: PosedRobot, frame: str, ctx: Context
     ) -> None:
         """The robot at the start and at the goal of the newest plan."""
         asked = self.planning_request
@@ -205,10 +205,10 @@ class MotionPlanning(Display):
     def _draw_end(
         self,
         name: str,
-        joints: Joints,
-        path: Path | None,
+        joints: JointValues,
+        path: JointPath | None,
         paint: tuple[Rgb, float],
-        model: Model,
+        model: PosedRobot,
         frame: str,
         ctx: Context,
     ) -> None:
@@ -219,8 +219,8 @@ class MotionPlanning(Display):
         colors = dict.fromkeys(model.poser.kinematics.moved_by(leaders), (color, 1.0))
         outside = self.planning_request.joint_violation_color
         colors |= dict.fromkeys(stance.outside, (outside, 1.0))
-        look = Look(alpha=alpha, colors=colors)
-        state: State = ctx.state
+        look = RobotLook(alpha=alpha, colors=colors)
+        state: MotionPlanningDrawing = ctx.state
         state.robots.draw(stance.poses, look, joints.frame or frame, f"{name} ", ctx)
         key = f"{name.capitalize()} state"
         if stance.outside:
@@ -243,6 +243,6 @@ class MotionPlanning(Display):
         group.lines("workspace", corners[np.array(pairs)] * size, (0, 150, 150))
 
 
-def _joints_at(path: Path, index: int, model: Model) -> Joints:
+def _joints_at(path: JointPath, index: int, model: PosedRobot) -> JointValues:
     values = dict(zip(model.poser.columns, path.values[index].tolist(), strict=True))
-    return Joints(values, path.poses[index], path.frame)
+    return JointValues(values, path.poses[index], path.frame)

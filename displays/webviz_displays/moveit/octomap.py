@@ -11,9 +11,15 @@ from webviz import Context, Details, Frames, Hit, Pose, compose
 from webviz.data.words import counted
 from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.joints import pose_of
-from webviz_displays.moveit.scene import Scene
+from webviz_displays.moveit.scene import KnownScene
 from webviz_displays.octomap.octree import LEVELS, OctreeFault, read_octree
-from webviz_displays.octomap.seen import Choice, Seen, by_height, by_probability, seen_of
+from webviz_displays.octomap.seen import (
+    VisibleVoxels,
+    VoxelChoice,
+    by_height,
+    by_probability,
+    seen_of,
+)
 from webviz_displays.shared.geometry import FARTHEST, origin_near
 
 KEY = "octomap"
@@ -31,7 +37,7 @@ class _Read:
         fault: why there is nothing, or "".
     """
 
-    seen: Seen | None = None
+    seen: VisibleVoxels | None = None
     log_odds: Any = None
     fault: str = ""
 
@@ -52,7 +58,7 @@ class Octomap:
 
     def draw(
         self,
-        scene: Scene,
+        scene: KnownScene,
         places: Places,
         links: Links,
         looks: tuple[Rendering, Coloring, float],
@@ -82,7 +88,7 @@ class Octomap:
                 "Octomap", f"The frame '{name:.80}' is unknown. {ctx.frames.why_not(name[:80])}"
             )
             return
-        choice = Choice(rendering, LEVELS, -FARTHEST, FARTHEST)
+        choice = VoxelChoice(rendering, LEVELS, -FARTHEST, FARTHEST)
         found = ctx.background((KEY, self.number, rendering), _read, message.octomap, choice)
         self.shown = found or self.shown
         if found is None:
@@ -123,7 +129,7 @@ class Octomap:
         return Details("Voxel of the octomap", {"Size": size})
 
     def _pose(
-        self, scene: Scene, places: Places, links: Links, frame: str, frames: Frames
+        self, scene: KnownScene, places: Places, links: Links, frame: str, frames: Frames
     ) -> Pose | None:
         at, turn = self.message.origin.position, self.message.origin.orientation
         pose = pose_of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
@@ -132,7 +138,7 @@ class Octomap:
         return compose(base, pose) if base and pose else None
 
 
-def _read(message: Any, choice: Choice) -> _Read:
+def _read(message: Any, choice: VoxelChoice) -> _Read:
     """In a worker: what is to be drawn of a tree."""
     try:
         tree = read_octree(message)

@@ -10,14 +10,14 @@ from typing import Any
 from webviz import Context, Details, Hit, Rgb
 from webviz.data.words import counted, listed
 from webviz_displays.moveit.bodies import named
-from webviz_displays.moveit.drawing import Held, with_alpha
+from webviz_displays.moveit.drawing import HeldObjects, with_alpha
 from webviz_displays.moveit.joints import Poser
-from webviz_displays.moveit.paths import Path, path_of
+from webviz_displays.moveit.paths import JointPath, path_of
 from webviz_displays.moveit.playing import DEFAULT_SPEED, Player, Speed, speed_of
 from webviz_displays.moveit.properties import ATTACHED
-from webviz_displays.moveit.robots import Look, Robots
-from webviz_displays.moveit.scene import Scene
-from webviz_displays.moveit.trail import MOST_STATES, Trail
+from webviz_displays.moveit.robots import RobotLook, Robots
+from webviz_displays.moveit.scene import KnownScene
+from webviz_displays.moveit.trail import MOST_STATES, PathTrail
 
 SECOND = 1_000_000_000
 NAMED = 5
@@ -39,7 +39,7 @@ class Playback:
         attached: colour of what the robot holds.
     """
 
-    look: Look
+    look: RobotLook
     speed: str
     by_shown_time: bool
     loops: bool
@@ -52,7 +52,7 @@ class Playback:
 
 def playback_of(path: Any, attached: Rgb = ATTACHED) -> Playback:
     """From the properties of Trajectory or of a planned path, which have the same names."""
-    look = Look(
+    look = RobotLook(
         path.show_robot_visual,
         path.show_robot_collision,
         path.robot_alpha,
@@ -84,12 +84,12 @@ class PathView:
 
     robots: Robots
     player: Player = field(default_factory=Player)
-    held: Held = field(default_factory=Held)
-    _trail: Trail = field(default_factory=Trail)
-    _made: tuple[Any, Poser, Path] | None = None
+    held: HeldObjects = field(default_factory=HeldObjects)
+    _trail: PathTrail = field(default_factory=PathTrail)
+    _made: tuple[Any, Poser, JointPath] | None = None
 
     @property
-    def newest(self) -> Path | None:
+    def newest(self) -> JointPath | None:
         """The newest path."""
         return self._made and self._made[2]
 
@@ -137,7 +137,7 @@ class PathView:
         poses = model.poser.place(path.values[index], path.poses[index])
         self.robots.draw(poses, playback.look, frame, PREFIX, ctx)
         rgba = with_alpha(playback.attached, playback.look.alpha)
-        scene = Scene(attached=path.attached or {})
+        scene = KnownScene(attached=path.attached or {})
         if playback.look.visual or playback.look.collision:
             self.held.draw(scene, poses, rgba, frame, PREFIX, ctx)
         if playback.trail:
@@ -157,7 +157,7 @@ class PathView:
         point: Mapping[str, object] = {"Point": _point(path, self.player.index)}
         return replace(details, values={**point, **details.values})
 
-    def _report(self, path: Path, newest: Path, ctx: Context) -> None:
+    def _report(self, path: JointPath, newest: JointPath, ctx: Context) -> None:
         ctx.ok("Path", f"{_point(path, self.player.index)}.")
         model = self.robots.model
         if newest.strangers:
@@ -176,5 +176,5 @@ class PathView:
             ctx.warn("Points", " ".join(newest.faults[:NAMED]))
 
 
-def _point(path: Path, index: int) -> str:
+def _point(path: JointPath, index: int) -> str:
     return f"Point {index + 1} of {counted(len(path), 'point')}, at {path.times[index]:.2f} s"

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from webviz import Pose
 from webviz.data.messages import JointTrajectoryPointSequence
 from webviz.data.words import counted
-from webviz_displays.moveit.joints import Joints, Poser, joints_of, poses_of
-from webviz_displays.moveit.scene import Attached, Scene, updated_state
+from webviz_displays.moveit.joints import JointValues, Poser, joints_of, poses_of
+from webviz_displays.moveit.scene import Attached, KnownScene, updated_state
 from webviz_displays.shared.geometry import FARTHEST
 
 F64 = NDArray[np.float64]
@@ -22,7 +22,7 @@ MOST_POINTS = 100_000
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
+class JointPath:
     """States of a robot over time.
 
     Args:
@@ -51,9 +51,9 @@ class Path:
         return len(self.times)
 
 
-def path_of(message: Any, poser: Poser) -> Path:
+def path_of(message: Any, poser: Poser) -> JointPath:
     """A moveit_msgs/DisplayTrajectory: its trajectories one after another."""
-    scene = updated_state(Scene(), message.trajectory_start)
+    scene = updated_state(KnownScene(), message.trajectory_start)
     builder = _Builder(poser, scene.joints)
     for each in message.trajectory:
         builder.add(each)
@@ -62,7 +62,7 @@ def path_of(message: Any, poser: Poser) -> Path:
     strangers = [name for name in (*start.positions, *names) if name not in poser.robot.joints]
     faults = (*start.faults, *scene.faults, *builder.faults)
     times = np.array(builder.times, float)
-    return Path(
+    return JointPath(
         times - times[:1],
         np.array(builder.values, float).reshape(len(times), len(poser.columns)),
         builder.poses,
@@ -83,7 +83,7 @@ class _Builder:
         start: its joints before the first.
     """
 
-    def __init__(self, poser: Poser, start: Joints) -> None:
+    def __init__(self, poser: Poser, start: JointValues) -> None:
         self._poser = poser
         self._values = poser.values(start.positions)
         self._poses: Mapping[str, Pose] = start.poses

@@ -18,12 +18,12 @@ from webviz_displays.moveit.properties import (
     SceneRobot,
 )
 from webviz_displays.moveit.robots import Robots
-from webviz_displays.moveit.scene import Scene, updated
-from webviz_displays.moveit.world import World, look_of
+from webviz_displays.moveit.scene import KnownScene, updated
+from webviz_displays.moveit.world import DrawnWorld, look_of
 
 
 @dataclass(frozen=True)
-class Received:
+class ReceivedPlanningScene:
     """What publishers said.
 
     Args:
@@ -32,15 +32,15 @@ class Received:
     """
 
     description: str | None = None
-    scene: Scene | None = None
+    scene: KnownScene | None = None
 
-    def with_sample(self, name: str, sample: Sample) -> Received:
+    def with_sample(self, name: str, sample: Sample) -> ReceivedPlanningScene:
         """The same with a message of the input `name`."""
         if name == "robot_description":
             return replace(self, description=sample.message.data)
-        return replace(self, scene=updated(self.scene or Scene(), sample.message))
+        return replace(self, scene=updated(self.scene or KnownScene(), sample.message))
 
-    def scene_over(self, answer: Scene | None) -> Scene | None:
+    def scene_over(self, answer: KnownScene | None) -> KnownScene | None:
         """The scene, completed by the answer of move_group where messages have changes only."""
         if self.scene is None or answer is None or self.scene.is_whole:
             return self.scene or answer
@@ -48,7 +48,7 @@ class Received:
 
 
 @dataclass
-class State:
+class PlanningSceneDrawing:
     """What is drawn of a scene.
 
     Args:
@@ -59,10 +59,10 @@ class State:
 
     robots: Robots = field(default_factory=Robots)
     asking: Asking = field(default_factory=Asking)
-    world: World = field(init=False)
+    world: DrawnWorld = field(init=False)
 
     def __post_init__(self) -> None:
-        self.world = World(self.robots)
+        self.world = DrawnWorld(self.robots)
 
 
 class PlanningScene(Display):
@@ -77,34 +77,38 @@ class PlanningScene(Display):
     scene_geometry: Annotated[SceneGeometry, Prop(help="How the objects look.")] = SceneGeometry()
     scene_robot: Annotated[SceneRobot, Prop(help="How the robot looks.")] = SceneRobot()
 
-    def new_state(self) -> State:
+    def new_state(self) -> PlanningSceneDrawing:
         """Nothing."""
-        return State()
+        return PlanningSceneDrawing()
 
     def waits(self, name: str) -> bool:
         """Scenes have no stamp."""
         return False
 
-    def fold(self, name: str, sample: Sample, state: Received | None) -> Received:
+    def fold(
+        self, name: str, sample: Sample, state: ReceivedPlanningScene | None
+    ) -> ReceivedPlanningScene:
         """Apply each change to the scene."""
-        return (state or Received()).with_sample(name, sample)
+        return (state or ReceivedPlanningScene()).with_sample(name, sample)
 
     def talk(self, wire: Wire, ctx: Context) -> None:
         """Ask move_group for the whole scene."""
-        state: State = ctx.state
+        state: PlanningSceneDrawing = ctx.state
         state.asking.step(self.move_group_namespace, wire)
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, the answer of move_group, and frames that objects wait for."""
-        state: State = ctx.state
+        state: PlanningSceneDrawing = ctx.state
         structure = ctx.frames.structure, ctx.frames.fixed_frame
         late = state.world.is_late(self.scene_geometry.scene_display_time)
         return state.robots.progress(), state.asking.scene, state.asking.problem, structure, late
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """The newest scene."""
-        state: State = ctx.state
-        received: Received = samples[-1].message if samples else Received()
+        state: PlanningSceneDrawing = ctx.state
+        received: ReceivedPlanningScene = (
+            samples[-1].message if samples else ReceivedPlanningScene()
+        )
         state.robots.begin()
         collisions = self.scene_robot.show_robot_collision
         topic = self.robot_description.name
@@ -117,12 +121,12 @@ class PlanningScene(Display):
 
     def tick(self, ctx: Context) -> None:
         """The trails of links."""
-        state: State = ctx.state
+        state: PlanningSceneDrawing = ctx.state
         state.robots.follow(look_of(self.scene_robot), "", ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """An object, or a link of the robot."""
-        state: State = ctx.state
+        state: PlanningSceneDrawing = ctx.state
         return state.world.inspect(hit) or state.robots.inspect(hit, ctx.frames)
 
 

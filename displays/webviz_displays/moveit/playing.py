@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from webviz_displays.moveit.paths import Path
+from webviz_displays.moveit.paths import JointPath
 
 DEFAULT_SPEED = "3x"
 
@@ -24,7 +24,7 @@ class Speed(NamedTuple):
     factor: float = 3.0
     state_s: float = 0.0
 
-    def ahead(self, path: Path, place: float, seconds: float) -> float:
+    def ahead(self, path: JointPath, place: float, seconds: float) -> float:
         """The place after some time; a place is the number of a point, and parts to the next."""
         if self.state_s:
             return place + seconds / self.state_s
@@ -57,10 +57,10 @@ class Player:
         is_moving: whether the animation goes on.
     """
 
-    path: Path | None = None
+    path: JointPath | None = None
     place: float = 0.0
     is_moving: bool = False
-    _newest: Path | None = None
+    _newest: JointPath | None = None
     _clock_s: float = 0.0
 
     @property
@@ -68,7 +68,7 @@ class Player:
         """The number of the point that is shown."""
         return min(int(self.place), len(self.path) - 1) if self.path else 0
 
-    def take(self, path: Path | None, interrupts: bool) -> None:
+    def take(self, path: JointPath | None, interrupts: bool) -> None:
         """Take the newest path, to be played now or after the current one."""
         if path is None:
             self.path, self._newest, self.is_moving = None, None, False
@@ -101,5 +101,5 @@ class Player:
             self.path, self.is_moving = self._newest, False
             self.place = float(round(share * (len(self._newest) - 1)))
 
-    def _start(self, path: Path) -> None:
+    def _start(self, path: JointPath) -> None:
         self.path, self.place, self.is_moving = path, 0.0, len(path) > 0

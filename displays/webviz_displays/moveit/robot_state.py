@@ -10,7 +10,7 @@ import msgspec
 
 from webviz import Context, Details, Display, Hit, Input, Prop, Rgb, Sample, Topic
 from webviz_displays.moveit.bodies import named
-from webviz_displays.moveit.drawing import Held, opacity_of, rgb_of, with_alpha
+from webviz_displays.moveit.drawing import HeldObjects, opacity_of, rgb_of, with_alpha
 from webviz_displays.moveit.properties import (
     ATTACHED,
     ROBOT_DESCRIPTION,
@@ -22,13 +22,13 @@ from webviz_displays.moveit.properties import (
     ShowCollision,
     ShowVisual,
 )
-from webviz_displays.moveit.robots import Look, Robots
-from webviz_displays.moveit.scene import Scene, updated_state
+from webviz_displays.moveit.robots import RobotLook, Robots
+from webviz_displays.moveit.scene import KnownScene, updated_state
 from webviz_displays.moveit.world import report_names
 
 
 @dataclass(frozen=True)
-class Received:
+class ReceivedRobotState:
     """What publishers said.
 
     Args:
@@ -39,17 +39,17 @@ class Received:
     """
 
     description: str | None = None
-    scene: Scene | None = None
+    scene: KnownScene | None = None
     highlights: tuple[tuple[str, tuple[float, float, float, float]], ...] = ()
     is_hidden: bool = False
 
 
 @dataclass
-class State:
+class RobotStateDrawing:
     """What is drawn."""
 
     robots: Robots = field(default_factory=Robots)
-    held: Held = field(default_factory=Held)
+    held: HeldObjects = field(default_factory=HeldObjects)
 
 
 class RobotState(Display):
@@ -73,27 +73,31 @@ class RobotState(Display):
     all_links_enabled: AllLinks = True
     links: Links = msgspec.field(default_factory=dict)
 
-    def new_state(self) -> State:
+    def new_state(self) -> RobotStateDrawing:
         """Nothing."""
-        return State()
+        return RobotStateDrawing()
 
     def waits(self, name: str) -> bool:
         """States have no stamp that matters."""
         return False
 
-    def fold(self, name: str, sample: Sample, state: Received | None) -> Received:
+    def fold(
+        self, name: str, sample: Sample, state: ReceivedRobotState | None
+    ) -> ReceivedRobotState:
         """Remember the description; states may tell changes only."""
-        before = state or Received()
+        before = state or ReceivedRobotState()
         message: Any = sample.message
         if name == "robot_description":
-            return Received(message.data, before.scene, before.highlights, before.is_hidden)
-        scene = before.scene or Scene()
+            return ReceivedRobotState(
+                message.data, before.scene, before.highlights, before.is_hidden
+            )
+        scene = before.scene or KnownScene()
         highlights = tuple(
             (each.id, (each.color.r, each.color.g, each.color.b, each.color.a))
             for each in message.highlight_links
         )
         state_of = updated_state(scene, message.state)
-        return Received(before.description, state_of, highlights, bool(message.hide))
+        return ReceivedRobotState(before.description, state_of, highlights, bool(message.hide))
 
     def depends(self, ctx: Context) -> object:
         """Loading progress."""
@@ -101,8 +105,8 @@ class RobotState(Display):
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """The newest state."""
-        state: State = ctx.state
-        received: Received = samples[-1].message if samples else Received()
+        state: RobotStateDrawing = ctx.state
+        received: ReceivedRobotState = samples[-1].message if samples else ReceivedRobotState()
         robots = state.robots
         robots.begin()
         topic = self.robot_description.name
@@ -134,16 +138,16 @@ class RobotState(Display):
 
     def tick(self, ctx: Context) -> None:
         """The trails of links."""
-        state: State = ctx.state
+        state: RobotStateDrawing = ctx.state
         state.robots.follow(self._look({}), "", ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A link, or what the robot holds."""
-        state: State = ctx.state
+        state: RobotStateDrawing = ctx.state
         return state.held.inspect(hit) or state.robots.inspect(hit, ctx.frames)
 
-    def _look(self, colors: dict[str, tuple[Rgb, float]]) -> Look:
-        return Look(
+    def _look(self, colors: dict[str, tuple[Rgb, float]]) -> RobotLook:
+        return RobotLook(
             self.visual_enabled,
             self.collision_enabled,
             self.robot_alpha,
@@ -153,7 +157,7 @@ class RobotState(Display):
         )
 
     def _highlights(
-        self, received: Received, links: Any, ctx: Context
+        self, received: ReceivedRobotState, links: Any, ctx: Context
     ) -> dict[str, tuple[Rgb, float]]:
         """Colours of links that the robot has."""
         if not self.show_highlights:

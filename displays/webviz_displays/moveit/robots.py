@@ -21,7 +21,7 @@ NAMED = 5
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class PosedRobot:
     """A loaded robot.
 
     Args:
@@ -36,7 +36,7 @@ class Model:
 
 
 @dataclass(frozen=True)
-class Look:
+class RobotLook:
     """How a robot is drawn.
 
     Args:
@@ -87,7 +87,7 @@ class Robots:
     """
 
     loading: Loadings = field(default_factory=dict)
-    model: Model | None = None
+    model: PosedRobot | None = None
     paint: Paint = field(default_factory=Paint)
     owners: dict[str, tuple[str, str]] = field(default_factory=dict)
     placed: dict[str, tuple[str, Pose]] = field(default_factory=dict)
@@ -98,7 +98,9 @@ class Robots:
         """Changes while a robot is being loaded."""
         return [progress(each) for each in self.loading.values()]
 
-    def load(self, text: str | None, topic: str, collisions: bool, ctx: Context) -> Model | None:
+    def load(
+        self, text: str | None, topic: str, collisions: bool, ctx: Context
+    ) -> PosedRobot | None:
         """The described robot, the previous one until it is loaded; `ctx.state.robots` is this.
 
         Args:
@@ -126,7 +128,7 @@ class Robots:
         if robot is not None:
             known = self.model is not None and self.model.robot is robot
             poser = self.model.poser if known and self.model else Poser(robot)
-            self.model = Model(robot, full, poser)
+            self.model = PosedRobot(robot, full, poser)
         if self.model is not None:
             report_robot(self.model.robot, self.model.full, ctx)
         return self.model
@@ -138,7 +140,7 @@ class Robots:
         self.placed.clear()
 
     def draw(
-        self, poses: Mapping[str, Pose], look: Look, frame: str, prefix: str, ctx: Context
+        self, poses: Mapping[str, Pose], look: RobotLook, frame: str, prefix: str, ctx: Context
     ) -> None:
         """Draw the robot once.
 
@@ -162,12 +164,12 @@ class Robots:
             self.owners[prefix + part.key] = place, part.link
             self.placed[place] = frame, poses[part.link]
 
-    def report(self, look: Look, ctx: Context) -> None:
+    def report(self, look: RobotLook, ctx: Context) -> None:
         """Report settings of links that the robot does not have."""
         if self.model is not None:
             report_strangers("Link", list(look.links), list(self.model.robot.links), ctx)
 
-    def follow(self, look: Look, prefix: str, ctx: Context) -> None:
+    def follow(self, look: RobotLook, prefix: str, ctx: Context) -> None:
         """Draw the trails of links and report their poses."""
         if self.trails_frame != ctx.frames.fixed_frame:
             self.trails, self.trails_frame = Trails(), ctx.frames.fixed_frame

@@ -8,7 +8,7 @@ from typing import Any
 
 from webviz import Pose
 from webviz_displays.moveit.bodies import Body, body_of, named
-from webviz_displays.moveit.joints import Joints, joints_of, pose_of
+from webviz_displays.moveit.joints import JointValues, joints_of, pose_of
 
 ADD, REMOVE, APPEND, MOVE = range(4)
 """Operations of moveit_msgs/CollisionObject."""
@@ -31,7 +31,7 @@ class Attached:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class KnownScene:
     """What is known of a scene. Mappings that a message does not change stay the same objects.
 
     Args:
@@ -54,7 +54,7 @@ class Scene:
     robot: str = ""
     frame: str = ""
     is_whole: bool = False
-    joints: Joints = field(default_factory=Joints)
+    joints: JointValues = field(default_factory=JointValues)
     objects: Mapping[str, Body] = field(default_factory=dict)
     gone: frozenset[str] = frozenset()
     attached: Mapping[str, Attached] = field(default_factory=dict)
@@ -64,7 +64,7 @@ class Scene:
     transforms: Mapping[str, Pose] = field(default_factory=dict)
     faults: tuple[str, ...] = ()
 
-    def over(self, base: Scene) -> Scene:
+    def over(self, base: KnownScene) -> KnownScene:
         """This scene, which has changes only, applied to a whole one."""
         objects = {key: each for key, each in base.objects.items() if key not in self.gone}
         attached = {key: each for key, each in base.attached.items() if key not in self.loose}
@@ -82,10 +82,10 @@ class Scene:
         )
 
 
-def updated(scene: Scene, message: Any) -> Scene:
+def updated(scene: KnownScene, message: Any) -> KnownScene:
     """A scene after a moveit_msgs/PlanningScene: the whole of it, or changes."""
     if not message.is_diff:
-        scene = Scene(is_whole=True)
+        scene = KnownScene(is_whole=True)
     edit = _Edit(scene)
     edit.state(message.robot_state)
     for each in message.object_colors:
@@ -104,7 +104,7 @@ def updated(scene: Scene, message: Any) -> Scene:
     )
 
 
-def updated_state(scene: Scene, state: Any) -> Scene:
+def updated_state(scene: KnownScene, state: Any) -> KnownScene:
     """A scene after a moveit_msgs/RobotState, with what the robot holds."""
     edit = _Edit(scene)
     edit.state(state)
@@ -118,7 +118,7 @@ def _parent(transforms: Iterable[Any]) -> str:
 class _Edit:
     """Changes to a scene; what they do not touch is not copied."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: KnownScene) -> None:
         self._scene = scene
         self.joints = scene.joints
         self._objects: dict[str, Body] | None = None
@@ -129,7 +129,7 @@ class _Edit:
         self._faults: list[str] = []
         self._size = 0
 
-    def done(self) -> Scene:
+    def done(self) -> KnownScene:
         """The scene with all changes."""
         before = self._scene
         return replace(

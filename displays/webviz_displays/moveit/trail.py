@@ -10,8 +10,8 @@ from webviz import Context, Details, Glb, Hit, Instances, Mesh, Models, Node, Po
 from webviz.data.rotations import multiply_many
 from webviz_displays.moveit.bodies import Primitives
 from webviz_displays.moveit.joints import F64
-from webviz_displays.moveit.paths import Path
-from webviz_displays.moveit.robots import Look, Robots
+from webviz_displays.moveit.paths import JointPath
+from webviz_displays.moveit.robots import RobotLook, Robots
 from webviz_displays.robot_model.parts import parts_of
 from webviz_displays.shared.geometry import transformed
 from webviz_urdf import glb_parts
@@ -22,7 +22,7 @@ KEY = "trail "
 
 
 @dataclass
-class Trail:
+class PathTrail:
     """Where the robot was on its path.
 
     Args:
@@ -30,13 +30,20 @@ class Trail:
     """
 
     owners: dict[str, str] = field(default_factory=dict)
-    _of: tuple[Path, int] | None = None
+    _of: tuple[JointPath, int] | None = None
     _rows: list[int] = field(default_factory=list)
     _poses: dict[str, tuple[F64, F64]] = field(default_factory=dict)
     _made: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = field(default_factory=dict)
 
     def draw(
-        self, robots: Robots, path: Path, step: int, last: int, look: Look, frame: str, ctx: Context
+        self,
+        robots: Robots,
+        path: JointPath,
+        step: int,
+        last: int,
+        look: RobotLook,
+        frame: str,
+        ctx: Context,
     ) -> None:
         """Draw every `step`th state and the last one, as far as `last`.
 
@@ -78,7 +85,7 @@ class Trail:
             return None
         return Details(f"Link {self.owners[hit.key]}", {"Point": str(self._rows[hit.id] + 1)})
 
-    def _place(self, robots: Robots, path: Path, step: int) -> None:
+    def _place(self, robots: Robots, path: JointPath, step: int) -> None:
         assert robots.model is not None
         poser, end = robots.model.poser, len(path) - 1
         self._rows = sorted({*range(0, end, step), end})

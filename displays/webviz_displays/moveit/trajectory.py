@@ -35,7 +35,7 @@ from webviz_displays.moveit.robots import Robots
 
 
 @dataclass
-class State:
+class TrajectoryDrawing:
     """What is drawn."""
 
     robots: Robots = field(default_factory=Robots)
@@ -68,9 +68,9 @@ class Trajectory(Display):
     all_links_enabled: AllLinks = True
     links: Links = msgspec.field(default_factory=dict)
 
-    def new_state(self) -> State:
+    def new_state(self) -> TrajectoryDrawing:
         """Nothing."""
-        return State()
+        return TrajectoryDrawing()
 
     def waits(self, name: str) -> bool:
         """Paths are played when they arrive."""
@@ -78,18 +78,18 @@ class Trajectory(Display):
 
     def talk(self, wire: Wire, ctx: Context) -> None:
         """Ask for the next turn while the robot moves."""
-        state: State = ctx.state
+        state: TrajectoryDrawing = ctx.state
         if state.view.player.is_moving:
             wire.wake()
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, and the point of the path."""
-        state: State = ctx.state
+        state: TrajectoryDrawing = ctx.state
         return state.robots.progress(), state.view.advance(playback_of(self), ctx.frames.now_ns)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """The robot at the current point."""
-        state: State = ctx.state
+        state: TrajectoryDrawing = ctx.state
         newest = {sample.input: sample.message for sample in samples}
         description, path = newest.get("robot_description"), newest.get("trajectory_topic")
         robots, playback = state.robots, playback_of(self)
@@ -105,10 +105,10 @@ class Trajectory(Display):
 
     def tick(self, ctx: Context) -> None:
         """The trails of links."""
-        state: State = ctx.state
+        state: TrajectoryDrawing = ctx.state
         state.robots.follow(playback_of(self).look, PREFIX, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A link, or what the robot holds."""
-        state: State = ctx.state
+        state: TrajectoryDrawing = ctx.state
         return state.view.inspect(hit, ctx)

@@ -10,19 +10,19 @@ from webviz import Context, Details, Hit, Pose
 from webviz.data.words import counted, listed
 from webviz_displays.moveit.bodies import Body, named
 from webviz_displays.moveit.drawing import (
-    Drawn,
-    Held,
-    Shown,
+    DrawnObjects,
+    HeldObjects,
+    ShownObject,
     body_details,
     drawn,
     owner_of,
     with_alpha,
 )
-from webviz_displays.moveit.joints import Joints, Poser, Stance
+from webviz_displays.moveit.joints import JointValues, Poser, Stance
 from webviz_displays.moveit.octomap import Octomap
 from webviz_displays.moveit.properties import SceneGeometry, SceneRobot
-from webviz_displays.moveit.robots import Look, Robots
-from webviz_displays.moveit.scene import Rgba, Scene
+from webviz_displays.moveit.robots import RobotLook, Robots
+from webviz_displays.moveit.scene import KnownScene, Rgba
 
 NAMED = 5
 """Objects, joints and faults that are listed."""
@@ -30,7 +30,7 @@ NO_LINKS: Mapping[str, Pose] = {}
 
 
 @dataclass
-class World:
+class DrawnWorld:
     """What is drawn of a scene.
 
     Args:
@@ -44,12 +44,12 @@ class World:
 
     robots: Robots
     owners: Mapping[str, object] = field(default_factory=dict)
-    held: Held = field(default_factory=Held)
+    held: HeldObjects = field(default_factory=HeldObjects)
     octomap: Octomap = field(default_factory=Octomap)
-    scene: Scene = field(default_factory=Scene)
+    scene: KnownScene = field(default_factory=KnownScene)
     frame: str = ""
-    _made: tuple[object, object, Rgba, Drawn] | None = None
-    _stance: tuple[Poser, Joints, float, Stance] | None = None
+    _made: tuple[object, object, Rgba, DrawnObjects] | None = None
+    _stance: tuple[Poser, JointValues, float, Stance] | None = None
 
     def is_late(self, interval_s: float) -> bool:
         """Whether the robot may move now to where the scene has it."""
@@ -57,7 +57,9 @@ class World:
             return False
         return time.monotonic() - self._stance[2] >= interval_s
 
-    def draw(self, scene: Scene, geometry: SceneGeometry, robot: SceneRobot, ctx: Context) -> None:
+    def draw(
+        self, scene: KnownScene, geometry: SceneGeometry, robot: SceneRobot, ctx: Context
+    ) -> None:
         """Draw a scene.
 
         Args:
@@ -91,7 +93,7 @@ class World:
             lost_held = self.held.draw(scene, links, color, frame, "", ctx)
         report_objects(scene, lost, lost_held, ctx)
 
-    def _objects(self, scene: Scene, default: Rgba) -> Drawn:
+    def _objects(self, scene: KnownScene, default: Rgba) -> DrawnObjects:
         """The objects as nodes, made anew only if one of them or its colour has changed."""
         world = self.held.places.world
         made = self._made
@@ -102,7 +104,7 @@ class World:
             or made[2] != default
         ):
             shown = [
-                Shown(body, pose, scene.colors.get(key, default))
+                ShownObject(body, pose, scene.colors.get(key, default))
                 for key, (body, pose) in world.items()
             ]
             made = self._made = world, scene.colors, default, drawn(shown, "object ")
@@ -129,9 +131,9 @@ class World:
         return body_details(body, {f"Pose in {self.frame}": place[1]} if place else {})
 
 
-def look_of(robot: SceneRobot) -> Look:
+def look_of(robot: SceneRobot) -> RobotLook:
     """How the robot of a scene is drawn."""
-    return Look(
+    return RobotLook(
         robot.show_robot_visual,
         robot.show_robot_collision,
         robot.robot_alpha,
@@ -141,7 +143,7 @@ def look_of(robot: SceneRobot) -> Look:
 
 
 def report_joints(
-    scene: Scene, assumed: tuple[str, ...], strangers: tuple[str, ...], ctx: Context
+    scene: KnownScene, assumed: tuple[str, ...], strangers: tuple[str, ...], ctx: Context
 ) -> None:
     """Report joints that the scene or the robot does not know."""
     known = len(scene.joints.positions) + len(scene.joints.poses)
@@ -175,7 +177,7 @@ def report_names(
         ctx.ok("Joints", f"The positions of {counted(known, 'joint')} are known.")
 
 
-def report_objects(scene: Scene, lost: list[Body], lost_held: list[str], ctx: Context) -> None:
+def report_objects(scene: KnownScene, lost: list[Body], lost_held: list[str], ctx: Context) -> None:
     """Report how many objects there are, and which cannot be drawn."""
     name = f"{named(scene.name)}: " if scene.name else ""
     count = len(scene.objects)

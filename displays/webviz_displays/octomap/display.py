@@ -12,9 +12,9 @@ from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Sample, To
 from webviz_displays.octomap.octree import LEVELS, SLOW_BYTES, Octree, OctreeFault, read_octree
 from webviz_displays.octomap.seen import (
     MOST_VOXELS,
-    Choice,
     Rendering,
-    Seen,
+    VisibleVoxels,
+    VoxelChoice,
     by_height,
     by_probability,
     probabilities,
@@ -51,9 +51,9 @@ class _State:
     tree: Octree | None = None
     fault: str = ""
     span: tuple[float, float] = (0.0, 0.0)
-    choice: Choice | None = None
-    seen: Seen | None = None
-    drawn: tuple[Octree, Seen] | None = None
+    choice: VoxelChoice | None = None
+    seen: VisibleVoxels | None = None
+    drawn: tuple[Octree, VisibleVoxels] | None = None
 
 
 class OctreeDisplay(Display):
@@ -120,7 +120,7 @@ class OctreeDisplay(Display):
             ctx.error("Octree", state.fault)
             return
         levels = self.max_octree_depth or LEVELS
-        choice = Choice(self.voxel_rendering, levels, self.min_height, self.max_height)
+        choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
         if state.seen is None or state.choice != choice:
             state.choice, state.seen = choice, seen_of(tree, choice)
         state.drawn = tree, state.seen
@@ -173,7 +173,7 @@ class OctreeDisplay(Display):
         colors, ctx.color_scale = by_height(voxels, *state.span)
         return colors
 
-    def _report(self, tree: Octree, seen: Seen, levels: int, ctx: Context) -> None:
+    def _report(self, tree: Octree, seen: VisibleVoxels, levels: int, ctx: Context) -> None:
         """Say what the tree is, what of it is drawn, and what is not as chosen."""
         nodes = len(tree.codes)
         ctx.ok("Octree", f"{tree.kind} of {nodes} nodes, smallest voxels {tree.resolution:g} m.")

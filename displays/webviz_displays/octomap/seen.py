@@ -26,7 +26,7 @@ _STOPS = 7
 
 
 @dataclass(frozen=True)
-class Choice:
+class VoxelChoice:
     """Which voxels of a tree are wanted.
 
     Args:
@@ -42,7 +42,7 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class VisibleVoxels:
     """The voxels that can be seen from outside.
 
     Args:
@@ -56,7 +56,7 @@ class Seen:
     depth: int
 
 
-def seen_of(tree: Octree, choice: Choice) -> Seen:
+def seen_of(tree: Octree, choice: VoxelChoice) -> VisibleVoxels:
     """What is to be drawn of a tree: no deeper than allowed, until it is few enough voxels."""
     for depth in range(choice.depth, -1, -1):
         voxels = voxels_of(tree, depth)
@@ -67,7 +67,7 @@ def seen_of(tree: Octree, choice: Choice) -> Seen:
         wanted = voxels.only(is_wanted & is_drawable(voxels.centers))
         seen = wanted.only(is_exposed(tree, wanted))
         if len(seen.nodes) <= MOST_VOXELS:
-            return Seen(seen, len(wanted.nodes), depth)
+            return VisibleVoxels(seen, len(wanted.nodes), depth)
     raise AssertionError("a tree has one root")
 
 

@@ -21,7 +21,7 @@ from webviz_displays.odometry.covariance import (
     tip_discs,
     wedges,
 )
-from webviz_displays.shared.pose_history import Trail
+from webviz_displays.shared.pose_history import PoseTrail
 from webviz_displays.shared.pose_properties import (
     Covariance,
     OrientationCovariance,
@@ -41,7 +41,7 @@ _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def draw_covariances(
-    look: Covariance, newest: Sequence[F64], poses: Trail, group: Group, ctx: Context, ids: Ids
+    look: Covariance, newest: Sequence[F64], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
 ) -> None:
     """Draw the covariances of the newest poses, if they are switched on, and report invalid ones.
 

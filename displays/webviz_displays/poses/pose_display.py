@@ -16,7 +16,7 @@ from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Length, origin_near
 from webviz_displays.shared.history import HistoryLength
-from webviz_displays.shared.pose_history import GrowingTrail, PoseOf, Trail, fault
+from webviz_displays.shared.pose_history import GrowingTrail, PoseOf, PoseTrail, fault
 from webviz_displays.shared.pose_marks import draw_poses, report_orientations
 from webviz_displays.shared.pose_properties import PoseShape
 
@@ -55,7 +55,7 @@ class PoseDisplay(Display):
         """All poses as one node, each in the frame and at the stamp of its header."""
         if not samples:
             return
-        every: Trail = ctx.state.of(samples)
+        every: PoseTrail = ctx.state.of(samples)
         ids = np.flatnonzero(every.ok)
         if len(ids):
             ctx.ok("Pose", f"Showing {counted(len(ids), 'pose')}.")
@@ -70,7 +70,7 @@ class PoseDisplay(Display):
             ctx.error("Pose", f"{fault(self.pose_of()(samples[-1].message))} Fix the publisher.")
 
     def draw_more(
-        self, samples: Sequence[Sample], poses: Trail, group: Group, ctx: Context, ids: Ids
+        self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
     ) -> None:
         """Draw what else the messages say about their poses.
 

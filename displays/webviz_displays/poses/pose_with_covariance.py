@@ -10,7 +10,7 @@ from webviz.api.nodes import Ids
 from webviz_displays.odometry.covariance_marks import MOST_COVARIANCES, draw_covariances
 from webviz_displays.odometry.details import covariance_details
 from webviz_displays.poses.pose_display import PoseDisplay
-from webviz_displays.shared.pose_history import PoseOf, Trail
+from webviz_displays.shared.pose_history import PoseOf, PoseTrail
 from webviz_displays.shared.pose_properties import Covariance
 
 
@@ -31,7 +31,7 @@ class PoseWithCovariance(PoseDisplay):
         return lambda message: message.pose.pose
 
     def draw_more(
-        self, samples: Sequence[Sample], poses: Trail, group: Group, ctx: Context, ids: Ids
+        self, samples: Sequence[Sample], poses: PoseTrail, group: Group, ctx: Context, ids: Ids
     ) -> None:
         """The covariances of the newest poses."""
         rows = [sample.message.pose.covariance for sample in samples[-MOST_COVARIANCES:]]

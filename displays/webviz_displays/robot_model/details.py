@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from webviz import Details, Frames, Pose
-from webviz_urdf import Link, Robot, Shape
+from webviz_urdf import Link, Robot, RobotShape
 
 TRAIL = " trail"
 """Ends the key of a trail, after the name of its link."""
@@ -34,7 +34,7 @@ def link_details(robot: Robot, name: str, pose: Pose | None, frame: str, frames:
     return Details(f"Link {name}", values | _inertia(link) | {"Robot": robot.name})
 
 
-def _shapes(kind: str, shapes: tuple[Shape, ...]) -> dict[str, object]:
+def _shapes(kind: str, shapes: tuple[RobotShape, ...]) -> dict[str, object]:
     sources = {shape.name: shape.source or "a box, sphere or cylinder" for shape in shapes}
     if len(sources) > 1:
         return {f"{kind} shapes": sources}

@@ -10,11 +10,11 @@ import msgspec
 
 from webviz import Context, Details, Display, Hit, Input, Prop, Sample, Topic
 from webviz_displays.robot_model.details import TRAIL, link_details
-from webviz_displays.robot_model.joint_states import Received
+from webviz_displays.robot_model.joint_states import ReceivedRobot
 from webviz_displays.robot_model.loading import last_written, load, progress
 from webviz_displays.robot_model.parts import GREY, Choices, JointSettings, LinkSettings, parts_of
 from webviz_displays.robot_model.placing import ByJoints, ByTransforms, JointPlacer, Placing
-from webviz_displays.robot_model.state import Model, State
+from webviz_displays.robot_model.state import LoadedRobot, RobotDrawing
 from webviz_displays.robot_model.statuses import (
     NAMED,
     report_joint,
@@ -107,9 +107,9 @@ class RobotModel(Display):
         msgspec.field(default_factory=dict)
     )
 
-    def new_state(self) -> State:
+    def new_state(self) -> RobotDrawing:
         """No robot."""
-        return State()
+        return RobotDrawing()
 
     def listens(self, name: str) -> bool:
         """A description from a file needs no topic, nor do transforms need joint states."""
@@ -121,23 +121,23 @@ class RobotModel(Display):
         """Positions of joints need no transform."""
         return False
 
-    def fold(self, name: str, sample: Sample, state: Received | None) -> Received:
+    def fold(self, name: str, sample: Sample, state: ReceivedRobot | None) -> ReceivedRobot:
         """Remember the description, and of each joint its newest position."""
-        return (state or Received()).with_sample(name, sample)
+        return (state or ReceivedRobot()).with_sample(name, sample)
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, and which links lack a transform; those turn grey.
 
         Links lost when it was drawn count too: a robot just loaded has no earlier state.
         """
-        state: State = ctx.state
+        state: RobotDrawing = ctx.state
         loading = [progress(loading) for loading in state.loading.values()]
         lost = state.model.lost(ctx.frames) if state.model else []
         return loading, lost, state.grey, self._round(ctx)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the current robot; each link moves with its frame."""
-        state: State = ctx.state
+        state: RobotDrawing = ctx.state
         model = state.model = self._model(samples, ctx)
         if model is None:
             return
@@ -165,7 +165,7 @@ class RobotModel(Display):
 
     def tick(self, ctx: Context) -> None:
         """Report where links are, and draw their trails."""
-        model: Model | None = ctx.state.model
+        model: LoadedRobot | None = ctx.state.model
         if model is None:
             return
         lost = model.lost(ctx.frames)
@@ -180,7 +180,7 @@ class RobotModel(Display):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """A link, by one of its shapes, its trail or a joint on it."""
-        model: Model | None = ctx.state.model
+        model: LoadedRobot | None = ctx.state.model
         if model is None:
             return None
         link = ctx.state.owners.get(hit.key) or hit.key.removesuffix(TRAIL)
@@ -189,17 +189,17 @@ class RobotModel(Display):
         pose, frame = model.placing.pose(link, ctx.frames), model.placing.frame(link)
         return link_details(model.full or model.robot, link, pose, frame, ctx.frames)
 
-    def _reasons(self, model: Model, lost: list[str], ctx: Context) -> dict[str, str]:
+    def _reasons(self, model: LoadedRobot, lost: list[str], ctx: Context) -> dict[str, str]:
         """Why the first links are lost; the texts contain times and are renewed every second."""
-        state: State = ctx.state
+        state: RobotDrawing = ctx.state
         moment = (lost, ctx.frames.now_ns // SECOND)
         if state.reasons_of != moment:
             state.reasons_of = moment
             state.reasons = model.placing.reasons(model.robot, lost, ctx.frames)
         return state.reasons
 
-    def _draw_trails(self, model: Model, links: list[str], ctx: Context) -> None:
-        state: State = ctx.state
+    def _draw_trails(self, model: LoadedRobot, links: list[str], ctx: Context) -> None:
+        state: RobotDrawing = ctx.state
         if state.trails_frame != ctx.frames.fixed_frame:
             state.trails, state.trails_frame = Trails(), ctx.frames.fixed_frame
         poses = {link: model.placing.pose(link, ctx.frames) for link in links}
@@ -218,9 +218,9 @@ class RobotModel(Display):
             self.all_links_enabled,
         )
 
-    def _model(self, samples: Sequence[Sample], ctx: Context) -> Model | None:
+    def _model(self, samples: Sequence[Sample], ctx: Context) -> LoadedRobot | None:
         """The described robot; the previous one until it is loaded."""
-        state: State = ctx.state
+        state: RobotDrawing = ctx.state
         before, state.loading = state.loading, {}
         request = self._request(samples, ctx)
         if request is None:
@@ -240,16 +240,16 @@ class RobotModel(Display):
             robot, full = state.model.robot, state.model.full
         choices = self._choices()
         shown = tuple(link for link in robot.links if choices.of(link).enabled)
-        return Model(robot, full, self._placing(robot, samples, ctx), shown)
+        return LoadedRobot(robot, full, self._placing(robot, samples, ctx), shown)
 
     def _placing(self, robot: Robot, samples: Sequence[Sample], ctx: Context) -> Placing:
-        state: State = ctx.state
+        state: RobotDrawing = ctx.state
         prefix = prefixed(self.tf_prefix, "")
         if self.joint_source == "Transforms":
             return ByTransforms(prefix)
         if state.placer is None or state.placer.robot is not robot:
             state.placer = JointPlacer(robot)
-        received = samples[-1].message if samples else Received()
+        received = samples[-1].message if samples else ReceivedRobot()
         return state.placer.place(prefix + robot.root, received, self._round(ctx))
 
     def _round(self, ctx: Context) -> int | None:

@@ -17,7 +17,7 @@ MOST_JOINTS = 10_000
 
 
 @dataclass(frozen=True)
-class Received:
+class ReceivedRobot:
     """What publishers said about a robot.
 
     Args:
@@ -30,7 +30,7 @@ class Received:
     positions: Mapping[str, float] = field(default_factory=dict)
     fault: str = ""
 
-    def with_sample(self, name: str, sample: Sample) -> Received:
+    def with_sample(self, name: str, sample: Sample) -> ReceivedRobot:
         """The same with a message of the input `name`."""
         if name == "description_topic":
             return replace(self, description=sample.message.data)

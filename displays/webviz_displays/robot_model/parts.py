@@ -12,7 +12,7 @@ import numpy as np
 from webviz import Arrows, Axes, Glb, Mesh, Node, Pose, Prop, Rgb
 from webviz_displays.robot_model.statuses import has_axis
 from webviz_displays.shared.colors import Alpha
-from webviz_urdf import Joint, Link, Robot, Shape, glb_with, inertia_box, mass_sphere
+from webviz_urdf import Joint, Link, Robot, RobotShape, glb_with, inertia_box, mass_sphere
 
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
@@ -153,7 +153,9 @@ def parts_of(
     ]
 
 
-def _shapes(link: Link, collision: Link | None, choices: Choices) -> Iterator[tuple[str, Shape]]:
+def _shapes(
+    link: Link, collision: Link | None, choices: Choices
+) -> Iterator[tuple[str, RobotShape]]:
     if choices.visual:
         yield from ((f"visual {shape.name}", shape) for shape in link.visuals)
     if collision is not None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from webviz import Context, Frames, Group, Pose, compose
 from webviz.api.frames import is_placeable
 from webviz.data.transforms import distinct
-from webviz_displays.robot_model.joint_states import Received
+from webviz_displays.robot_model.joint_states import ReceivedRobot
 from webviz_displays.robot_model.statuses import NAMED, why_lost
 from webviz_urdf import Kinematics, Robot
 
@@ -142,7 +142,7 @@ class JointPlacer:
         self._round: object = None
         self._placing: ByJoints | None = None
 
-    def place(self, root: str, received: Received, round: object) -> ByJoints:
+    def place(self, root: str, received: ReceivedRobot, round: object) -> ByJoints:
         """Places for the positions received.
 
         Args:
@@ -154,7 +154,7 @@ class JointPlacer:
             self._placing, self._round = self._placed(root, received), round
         return self._placing
 
-    def _placed(self, root: str, received: Received) -> ByJoints:
+    def _placed(self, root: str, received: ReceivedRobot) -> ByJoints:
         kinematics, known = self._kinematics, received.positions
         values = np.array([known.get(joint, 0.0) for joint in kinematics.joints], float)
         needed = {*kinematics.joints, *kinematics.free}

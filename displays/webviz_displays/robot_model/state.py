@@ -13,7 +13,7 @@ from webviz_urdf import Robot
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class LoadedRobot:
     """A loaded robot.
 
     Args:
@@ -35,7 +35,7 @@ class Model:
 
 
 @dataclass
-class State:
+class RobotDrawing:
     """The robot that is shown, and what follows from it.
 
     Args:
@@ -54,7 +54,7 @@ class State:
 
     loading: Loadings = field(default_factory=dict)
     written: Written = field(default_factory=Written)
-    model: Model | None = None
+    model: LoadedRobot | None = None
     grey: set[str] | None = None
     paint: Paint = field(default_factory=Paint)
     reasons: dict[str, str] = field(default_factory=dict)

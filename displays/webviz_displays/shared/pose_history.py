@@ -26,7 +26,7 @@ UNIT_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True)
-class Trail:
+class PoseTrail:
     """Poses of N samples in the fixed frame.
 
     Args:
@@ -45,9 +45,9 @@ class Trail:
     squares: F64
     ok: Mask
 
-    def __getitem__(self, rows: Any) -> Trail:
+    def __getitem__(self, rows: Any) -> PoseTrail:
         """Some of the poses."""
-        return Trail(*(getattr(self, f.name)[rows] for f in fields(Trail)))
+        return PoseTrail(*(getattr(self, f.name)[rows] for f in fields(PoseTrail)))
 
 
 def fault(pose: messages.Pose) -> str:
@@ -75,7 +75,7 @@ class GrowingTrail:
         self._samples: list[Sample] = []
         self._trail = trail([], pose_of)
 
-    def of(self, samples: Sequence[Sample]) -> Trail:
+    def of(self, samples: Sequence[Sample]) -> PoseTrail:
         """`trail` of these samples; only new ones are read."""
         first = next((i for i, old in enumerate(self._samples) if old is samples[0]), None)
         known = 0 if first is None else len(self._samples) - first
@@ -83,17 +83,17 @@ class GrowingTrail:
             self._trail = trail(samples, self._pose_of)
         elif first or known < len(samples):
             new = trail(samples[known:], self._pose_of)
-            self._trail = Trail(
+            self._trail = PoseTrail(
                 *(
                     np.concatenate((getattr(self._trail, f.name)[first:], getattr(new, f.name)))
-                    for f in fields(Trail)
+                    for f in fields(PoseTrail)
                 )
             )
         self._samples = list(samples)
         return self._trail
 
 
-def trail(samples: Sequence[Sample], pose_of: PoseOf) -> Trail:
+def trail(samples: Sequence[Sample], pose_of: PoseOf) -> PoseTrail:
     """Where samples were, in the fixed frame."""
     table = np.array([_row(sample, pose_of(sample.message)) for sample in samples]).reshape(-1, 14)
     ok = is_drawable(table[:, :3]) & np.isfinite(table[:, 3:7]).all(axis=1)
@@ -105,7 +105,7 @@ def trail(samples: Sequence[Sample], pose_of: PoseOf) -> Trail:
     frames = matrices(frame_wxyzs)
     wxyzs = multiply_many(frame_wxyzs, local_wxyzs)
     positions = np.einsum("nij,nj->ni", frames, table[:, :3]) + table[:, 7:10]
-    return Trail(positions, matrices(wxyzs), wxyzs, frames, squares, ok)
+    return PoseTrail(positions, matrices(wxyzs), wxyzs, frames, squares, ok)
 
 
 def _row(sample: Sample, pose: messages.Pose) -> tuple[float, ...]:

@@ -7,13 +7,13 @@ import numpy as np
 from webviz import Context, Group
 from webviz.api.nodes import Ids
 from webviz_displays.shared.geometry import along_x
-from webviz_displays.shared.pose_history import UNIT_TOLERANCE, Trail
+from webviz_displays.shared.pose_history import UNIT_TOLERANCE, PoseTrail
 from webviz_displays.shared.pose_properties import PoseShape
 from webviz_displays.shared.rods import add_solid_arrows
 
 
 def draw_poses(
-    look: PoseShape, poses: Trail, group: Group, ctx: Context, ids: Ids | None = None
+    look: PoseShape, poses: PoseTrail, group: Group, ctx: Context, ids: Ids | None = None
 ) -> None:
     """Draw poses in the coordinates of a group, and say if they are invisible.
 

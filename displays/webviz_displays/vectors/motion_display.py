@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Color, Prop
-from webviz_displays.vectors.vector_display import Look, VectorDisplay
+from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 
 
 class MotionDisplay(VectorDisplay):
@@ -30,12 +30,12 @@ class MotionDisplay(VectorDisplay):
         """SI units of the linear and the angular part."""
         raise NotImplementedError
 
-    def looks(self) -> tuple[Look, Look]:
+    def looks(self) -> tuple[VectorLook, VectorLook]:
         """The linear and the angular part."""
         linear, angular = self.units()
         return (
-            Look("linear", linear, self.linear_color, self.linear_arrow_scale),
-            Look("angular", angular, self.angular_color, self.angular_arrow_scale),
+            VectorLook("linear", linear, self.linear_color, self.linear_arrow_scale),
+            VectorLook("angular", angular, self.angular_color, self.angular_arrow_scale),
         )
 
     def hides(self, lengths: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ F64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-class Look(NamedTuple):
+class VectorLook(NamedTuple):
     """How to draw one of the vectors.
 
     Attributes:
@@ -52,7 +52,7 @@ class VectorDisplay(Display):
         """The linear and the angular vector of a message."""
         raise NotImplementedError
 
-    def looks(self) -> tuple[Look, Look]:
+    def looks(self) -> tuple[VectorLook, VectorLook]:
         """How to draw them."""
         raise NotImplementedError
 

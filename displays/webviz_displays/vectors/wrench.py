@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from webviz import Color, Input, Prop, Topic
 from webviz.data import messages
 from webviz_displays.shared.history import HistoryLength
-from webviz_displays.vectors.vector_display import Look, VectorDisplay
+from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 
 
 class Wrench(VectorDisplay):
@@ -39,11 +39,11 @@ class Wrench(VectorDisplay):
             return _without_nan(wrench.force), _without_nan(wrench.torque)
         return wrench.force, wrench.torque
 
-    def looks(self) -> tuple[Look, Look]:
+    def looks(self) -> tuple[VectorLook, VectorLook]:
         """Force and torque."""
         return (
-            Look("force", "N", self.force_color, self.force_arrow_scale),
-            Look("torque", "Nm", self.torque_color, self.torque_arrow_scale),
+            VectorLook("force", "N", self.force_color, self.force_arrow_scale),
+            VectorLook("torque", "Nm", self.torque_color, self.torque_arrow_scale),
         )
 
 

@@ -9,7 +9,7 @@ from webviz.data.images.compressed import (
     read_png16,
 )
 from webviz.data.images.compressed_depth import decode_depth
-from webviz.data.images.encodings import ENCODINGS, Layout, layout_of
+from webviz.data.images.encodings import ENCODINGS, PixelLayout, layout_of
 from webviz.data.images.errors import ImageError
 from webviz.data.images.headers import read_header
 from webviz.data.images.lens import Lens
@@ -23,8 +23,8 @@ __all__ = [
     "CameraModel",
     "CompressedInfo",
     "ImageError",
-    "Layout",
     "Lens",
+    "PixelLayout",
     "RawImage",
     "Tone",
     "calibration_problem",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from webviz.data.images.errors import ImageError
-from webviz.data.images.headers import PNG, Header, read_header
+from webviz.data.images.headers import PNG, ImageHeader, read_header
 from webviz.data.images.raw import MAX_PIXELS
 
 _MIME = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
@@ -120,7 +120,7 @@ def _chunks(data: memoryview) -> Iterator[memoryview]:
     raise ValueError(f"it has more than {_MAX_CHUNKS} parts")
 
 
-def _header(data: NDArray[np.uint8], format_: str) -> Header:
+def _header(data: NDArray[np.uint8], format_: str) -> ImageHeader:
     """Of an image that is not too large."""
     header = read_header(np.ascontiguousarray(data).data)
     if header is None:

@@ -16,7 +16,7 @@ Order = Literal["plain", "rgb", "bgr", "bayer", "uyvy", "yuyv", "nv21", "nv24"]
 
 
 @dataclass(frozen=True)
-class Layout:
+class PixelLayout:
     """How the pixels of an encoding lie in the bytes of an image.
 
     Args:
@@ -43,8 +43,8 @@ class Layout:
         return self.dtype.itemsize * self.channels
 
 
-def _color(depth: int, channels: int, order: Order) -> Layout:
-    return Layout(np.dtype(f"u{depth // 8}"), channels, order)
+def _color(depth: int, channels: int, order: Order) -> PixelLayout:
+    return PixelLayout(np.dtype(f"u{depth // 8}"), channels, order)
 
 
 _U8, _U16 = np.dtype(np.uint8), np.dtype(np.uint16)
@@ -55,19 +55,19 @@ _NAMED = {
         for alpha in ("", "a")
         for depth in (8, 16)
     },
-    "mono8": Layout(_U8, 1, "plain"),
-    "mono16": Layout(_U16, 1, "plain", is_scaled=True),
+    "mono8": PixelLayout(_U8, 1, "plain"),
+    "mono16": PixelLayout(_U16, 1, "plain", is_scaled=True),
     **{
-        f"bayer_{pattern}{depth}": Layout(np.dtype(f"u{depth // 8}"), 1, "bayer", pattern)
+        f"bayer_{pattern}{depth}": PixelLayout(np.dtype(f"u{depth // 8}"), 1, "bayer", pattern)
         for pattern in ("rggb", "bggr", "gbrg", "grbg")
         for depth in (8, 16)
     },
-    "uyvy": Layout(_U8, 2, "uyvy"),
-    "yuv422": Layout(_U8, 2, "uyvy"),
-    "yuyv": Layout(_U8, 2, "yuyv"),
-    "yuv422_yuy2": Layout(_U8, 2, "yuyv"),
-    "nv21": Layout(_U8, 1, "nv21"),
-    "nv24": Layout(_U8, 1, "nv24"),
+    "uyvy": PixelLayout(_U8, 2, "uyvy"),
+    "yuv422": PixelLayout(_U8, 2, "uyvy"),
+    "yuyv": PixelLayout(_U8, 2, "yuyv"),
+    "yuv422_yuy2": PixelLayout(_U8, 2, "yuyv"),
+    "nv21": PixelLayout(_U8, 1, "nv21"),
+    "nv24": PixelLayout(_U8, 1, "nv24"),
 }
 _MATRIX = re.compile(r"(8U|8S|16U|16S|32S|32F|64F)C([1-4]?)")
 _KINDS = {"U": "u", "S": "i", "F": "f"}
@@ -86,7 +86,7 @@ ENCODINGS = (
 
 
 @functools.cache
-def layout_of(encoding: str) -> Layout:
+def layout_of(encoding: str) -> PixelLayout:
     """The layout of an encoding.
 
     Raises:
@@ -100,11 +100,13 @@ def layout_of(encoding: str) -> Layout:
     dtype = np.dtype(f"{_KINDS[depth[-1]]}{int(depth[:-1]) // 8}")
     order = _CHANNELS[channels - 1]
     if depth == "8U" and channels != 2:
-        return Layout(dtype, channels, order)
+        return PixelLayout(dtype, channels, order)
     name = f"{depth}C{channels}"
     is_millimetres = name == "16UC1"
     unit = {"16UC1": "mm", "32FC1": "m"}.get(name, "")
-    return Layout(dtype, channels, order, is_scaled=True, zero_is_invalid=is_millimetres, unit=unit)
+    return PixelLayout(
+        dtype, channels, order, is_scaled=True, zero_is_invalid=is_millimetres, unit=unit
+    )
 
 
 def _unknown(encoding: str) -> str:

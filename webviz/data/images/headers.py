@@ -31,7 +31,7 @@ _FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}
 _MAX_SEGMENTS = 1000
 
 
-class Header(NamedTuple):
+class ImageHeader(NamedTuple):
     """What a file says of itself.
 
     Args:
@@ -51,7 +51,7 @@ class Header(NamedTuple):
         return self.width, self.height
 
 
-def read_header(data: memoryview) -> Header | None:
+def read_header(data: memoryview) -> ImageHeader | None:
     """What the first bytes of a file say; None if it is not an image.
 
     Raises:
@@ -70,7 +70,7 @@ def read_header(data: memoryview) -> Header | None:
             case "WEBP":
                 header = _webp(bytes(data[12:30]))
             case _:
-                return Header(kind) if kind else None
+                return ImageHeader(kind) if kind else None
     except (struct.error, IndexError):
         header = None
     if header is None or not header.width or not header.height:
@@ -78,12 +78,12 @@ def read_header(data: memoryview) -> Header | None:
     return header
 
 
-def _png(data: memoryview) -> Header | None:
+def _png(data: memoryview) -> ImageHeader | None:
     _, name, width, height, bits, color = _IHDR.unpack_from(data, len(PNG))
-    return Header("PNG", width, height, (bits, color) == (16, 0)) if name == b"IHDR" else None
+    return ImageHeader("PNG", width, height, (bits, color) == (16, 0)) if name == b"IHDR" else None
 
 
-def _jpeg(data: memoryview) -> Header | None:
+def _jpeg(data: memoryview) -> ImageHeader | None:
     at = 2
     for _ in range(_MAX_SEGMENTS):
         found = _MARKER.match(data, at)
@@ -92,20 +92,22 @@ def _jpeg(data: memoryview) -> Header | None:
         at = found.end()
         if found[1][0] in _FRAMES:
             height, width = struct.unpack_from(">HH", data, at + 3)
-            return Header("JPEG", width, height)
+            return ImageHeader("JPEG", width, height)
         at += struct.unpack_from(">H", data, at)[0]
     return None
 
 
-def _webp(data: bytes) -> Header | None:
+def _webp(data: bytes) -> ImageHeader | None:
     match data[:4]:
         case b"VP8 " if data[11:14] == b"\x9d\x01\x2a":
             width, height = struct.unpack_from("<HH", data, 14)
-            return Header("WEBP", width & 0x3FFF, height & 0x3FFF)
+            return ImageHeader("WEBP", width & 0x3FFF, height & 0x3FFF)
         case b"VP8L" if data[8] == 0x2F:
             bits = struct.unpack_from("<I", data, 9)[0]
-            return Header("WEBP", (bits & 0x3FFF) + 1, (bits >> 14 & 0x3FFF) + 1)
+            return ImageHeader("WEBP", (bits & 0x3FFF) + 1, (bits >> 14 & 0x3FFF) + 1)
         case b"VP8X":
             low, middle, high = struct.unpack_from("<HHH", data, 12)
-            return Header("WEBP", (low | (middle & 0xFF) << 16) + 1, (middle >> 8 | high << 8) + 1)
+            return ImageHeader(
+                "WEBP", (low | (middle & 0xFF) << 16) + 1, (middle >> 8 | high << 8) + 1
+            )
     return None

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.data.images.bayer import demosaic
-from webviz.data.images.encodings import Layout, layout_of
+from webviz.data.images.encodings import PixelLayout, layout_of
 from webviz.data.images.errors import ImageError
 from webviz.data.images.yuv import packed_to_rgb, planes_to_rgb
 
@@ -83,7 +83,7 @@ class RawImage:
         return RawImage(width, height, encoding, step, _NATIVE_BIG, data)
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> PixelLayout:
         """Of its encoding."""
         return layout_of(self.encoding)
 
@@ -128,7 +128,7 @@ def values(image: RawImage) -> NDArray[Any]:
     return pixels[..., 0] if layout.channels == 1 else pixels
 
 
-def _grid(image: RawImage, layout: Layout) -> NDArray[Any]:
+def _grid(image: RawImage, layout: PixelLayout) -> NDArray[Any]:
     """The numbers of an image, (H, W, channels), in the byte order of this machine."""
     size = layout.dtype.itemsize
     row = image.width * layout.pixel_bytes
@@ -144,13 +144,13 @@ def _grid(image: RawImage, layout: Layout) -> NDArray[Any]:
     return numbers.reshape(image.height, image.width, layout.channels)
 
 
-def _needed(layout: Layout, width: int, height: int, step: int) -> int:
+def _needed(layout: PixelLayout, width: int, height: int, step: int) -> int:
     """Bytes that an image has at least; the gap behind the last row may be missing."""
     last_gap = step - width * layout.pixel_bytes
     return _whole(layout, height, step) - (0 if layout.order.startswith("nv") else last_gap)
 
 
-def _whole(layout: Layout, height: int, step: int) -> int:
+def _whole(layout: PixelLayout, height: int, step: int) -> int:
     match layout.order:
         case "nv21":  # a colour for each 2 x 2 pixels
             return step * (height + (height + 1) // 2)

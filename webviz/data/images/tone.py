@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz.data.images.color_maps import COLOR_MAPS
-from webviz.data.images.encodings import Layout
+from webviz.data.images.encodings import PixelLayout
 
 U8 = NDArray[np.uint8]
 
@@ -46,7 +46,7 @@ def value_range(values: NDArray[Any], zero_is_invalid: bool) -> tuple[float, flo
     return (float(valid.min()), float(valid.max())) if valid.size else None
 
 
-def to_rgb(values: NDArray[Any], layout: Layout, tone: Tone) -> U8:
+def to_rgb(values: NDArray[Any], layout: PixelLayout, tone: Tone) -> U8:
     """Pixels for a screen.
 
     Numbers that are measurements are scaled by the tone; invalid ones are black. Colours of 16 bits

@@ -12,7 +12,7 @@ import numpy as np
 
 from webviz.data.messages import geometry, markers, trajectories, types
 from webviz.data.messages.geometry import zeros
-from webviz.data.messages.typestore import Field, constants, fields, full_name
+from webviz.data.messages.typestore import MessageField, constants, fields, full_name
 
 DTYPES = {
     name: np.dtype(dtype)
@@ -109,7 +109,7 @@ def attribute(name: str) -> str:
     return f"{name}_" if keyword.iskeyword(name) else name
 
 
-def _default(field: Field) -> Any:
+def _default(field: MessageField) -> Any:
     """ROS's default of a field: zero, empty, or a message of defaults."""
     if field.size is None:
         if field.is_message:

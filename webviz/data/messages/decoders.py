@@ -16,7 +16,7 @@ from typing import Any
 from webviz.data.messages.cdr import ENCAPSULATION_SIZE, CdrError, Reader
 from webviz.data.messages.classes import CODES, DTYPES, VECTORS, message_class
 from webviz.data.messages.sequences import SEQUENCE_READERS
-from webviz.data.messages.typestore import Field, fields, full_name
+from webviz.data.messages.typestore import MessageField, fields, full_name
 
 Step = Callable[[Reader, list[Any]], None]
 """Reads one or several fields and appends them."""
@@ -47,7 +47,7 @@ def decoder(type_name: str, order: str) -> Read:
     return read
 
 
-def _codes(field: Field) -> str | None:
+def _codes(field: MessageField) -> str | None:
     """The `struct` codes of a field of fixed size, else None."""
     if field.size is not None:
         return None
@@ -57,7 +57,7 @@ def _codes(field: Field) -> str | None:
     return None if None in inner else "".join(filter(None, inner))
 
 
-def _run(run: list[Field], order: str) -> Step:
+def _run(run: list[MessageField], order: str) -> Step:
     """Read neighbouring fields of fixed size at once."""
     codes = "".join(_codes(field) or "" for field in run)
     layouts = [_layout(codes, order, start) for start in range(8)]
@@ -88,7 +88,7 @@ def _layout(codes: str, order: str, start: int) -> Struct:
     return Struct(order + padded)
 
 
-def _build(field: Field) -> Build:
+def _build(field: MessageField) -> Build:
     if not field.is_message:
         return next
     make = message_class(field.base)
@@ -100,13 +100,13 @@ def _build(field: Field) -> Build:
     return lambda numbers: make(*[build(numbers) for build in builds])
 
 
-def _step(field: Field, order: str) -> Step:
+def _step(field: MessageField, order: str) -> Step:
     """Read one field of varying size, or an array."""
     read = _reader_of(field, order)
     return lambda reader, values: values.append(read(reader))
 
 
-def _reader_of(field: Field, order: str) -> Read:
+def _reader_of(field: MessageField, order: str) -> Read:
     base, size = field.base, field.size
     if size == 0 and base in SEQUENCE_READERS:
         return SEQUENCE_READERS[base]
@@ -133,7 +133,7 @@ def _array_of(base: str, width: int, size: int) -> Read:
     return read
 
 
-def _reader_of_one(field: Field, order: str) -> Read:
+def _reader_of_one(field: MessageField, order: str) -> Read:
     if field.is_message:
         return decoder(full_name(field.base), order)
     if field.base == "string":

@@ -19,7 +19,7 @@ from webviz.data.messages.geometry import (
     PoseStampedSequence,
 )
 from webviz.data.messages.trajectories import JointTrajectoryPointSequence
-from webviz.data.messages.typestore import Field, fields, full_name
+from webviz.data.messages.typestore import MessageField, fields, full_name
 
 Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
@@ -83,7 +83,7 @@ def encoder(type_name: str) -> Write:
     return write
 
 
-def _writer(field: Field) -> Write:
+def _writer(field: MessageField) -> Write:
     one = _writer_of_one(field)
     if field.size is None:
         return one
@@ -94,7 +94,7 @@ def _writer(field: Field) -> Write:
     return _elements(field, one)
 
 
-def _writer_of_one(field: Field) -> Write:
+def _writer_of_one(field: MessageField) -> Write:
     if field.is_message:
         return encoder(field.base)
     if field.base == "string":
@@ -135,7 +135,7 @@ def _string(longest: int) -> Write:
     return write
 
 
-def _numbers(field: Field, base: str, width: int = 1) -> Write:
+def _numbers(field: MessageField, base: str, width: int = 1) -> Write:
     """An array of numbers, (N,) or (N, width)."""
     dtype = DTYPES[base]
 
@@ -183,7 +183,7 @@ def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
         raise misfit
 
 
-def _elements(field: Field, one: Write, many: Write | None = None) -> Write:
+def _elements(field: MessageField, one: Write, many: Write | None = None) -> Write:
     """An array of messages or strings; `many` writes those given as a numpy array."""
 
     def write(out: bytearray, value: Any) -> None:
@@ -246,7 +246,7 @@ def _components(name: str, names: list[str], values: Any) -> dict[str, Any]:
     return dict(zip(names, values, strict=True))
 
 
-def _count(out: bytearray, field: Field, count: int) -> None:
+def _count(out: bytearray, field: MessageField, count: int) -> None:
     """Append the number of elements, unless it is fixed."""
     if field.size and count != field.size:
         raise Misfit(f"expected {field.size} elements, got {count}")

@@ -20,7 +20,7 @@ from webviz.data.messages.errors import DefinitionError, MessageError, UnknownTy
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
-class Field(NamedTuple):
+class MessageField(NamedTuple):
     """One field of a message.
 
     Attributes:
@@ -71,7 +71,7 @@ def type_exists(type_name: str) -> bool:
         return False
 
 
-def fields(type_name: str) -> list[Field]:
+def fields(type_name: str) -> list[MessageField]:
     """The fields of a type in the order of the wire.
 
     Raises:
@@ -174,11 +174,11 @@ def _definition(type_name: str) -> Any:
     return found
 
 
-def _fields_of(definition: Any) -> list[Field]:
+def _fields_of(definition: Any) -> list[MessageField]:
     return [_field(name, *description) for name, description in definition[1]]
 
 
-def _field(name: str, kind: Nodetype, value: Any) -> Field:
+def _field(name: str, kind: Nodetype, value: Any) -> MessageField:
     size, most = None, 0
     if kind == Nodetype.ARRAY:
         (inner, base), size = value
@@ -189,5 +189,5 @@ def _field(name: str, kind: Nodetype, value: Any) -> Field:
         inner, base = kind, value
     is_message = inner == Nodetype.NAME
     if is_message:
-        return Field(name, base, True, size, most)
-    return Field(name, base[0], False, size, most, base[1])
+        return MessageField(name, base, True, size, most)
+    return MessageField(name, base[0], False, size, most, base[1])

@@ -18,7 +18,7 @@ from webviz.data.transforms.filter import MessageFilter
 from webviz.data.transforms.geometry import REACH_M
 from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.reasons import Explanation, Kind, distinct
-from webviz.data.transforms.records import Link, Rejection, Transform
+from webviz.data.transforms.records import NewestTransform, Rejection, Transform
 
 __all__ = [
     "REACH_M",
@@ -32,9 +32,9 @@ __all__ = [
     "FramesIn",
     "InvalidArgumentException",
     "Kind",
-    "Link",
     "LookupException",
     "MessageFilter",
+    "NewestTransform",
     "NoDataForExtrapolationException",
     "Rejection",
     "TimeoutException",

@@ -18,7 +18,7 @@ from webviz.data.transforms.many_frames import FramesIn
 from webviz.data.transforms.many_inserts import ManyInserts
 from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Publishers
-from webviz.data.transforms.records import Link, Rejection, Transform, fault_of, too_old
+from webviz.data.transforms.records import NewestTransform, Rejection, Transform, fault_of, too_old
 from webviz.data.transforms.topology import Topology
 from webviz.data.transforms.tree import FrameTree
 
@@ -281,13 +281,13 @@ class TransformBuffer:
         for publishers in self._publishers.values():
             publishers.forget()
 
-    def link(self, frame: str) -> Link | None:
+    def link(self, frame: str) -> NewestTransform | None:
         """The newest transform of a frame to its parent; None for roots and without data."""
         cache = self._tree.caches.get(frame)
         if cache is None or (newest := cache.newest) is None:
             return None
         pose, parent = newest
-        return Link(parent, _transform(pose, cache.newest_stamp), cache.is_static)
+        return NewestTransform(parent, _transform(pose, cache.newest_stamp), cache.is_static)
 
     def rigid_root(self, frame: str) -> str:
         """The uppermost frame that static transforms join with this one; itself if there is none.

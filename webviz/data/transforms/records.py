@@ -24,7 +24,7 @@ class Transform:
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class NewestTransform:
     """The newest transform of a frame to its parent.
 
     Attributes:

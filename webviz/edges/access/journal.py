@@ -20,7 +20,7 @@ MAX_TEXT = 200
 
 
 @dataclass(frozen=True)
-class Entry:
+class JournalEntry:
     """Something that was done.
 
     Args:
@@ -46,11 +46,11 @@ class Journal:
     def __init__(self, keep: Callable[[str], object] | None = None) -> None:
         self._keep = keep
         self._lock = threading.Lock()
-        self._entries: tuple[Entry, ...] = ()
-        self._newest: deque[Entry] = deque(maxlen=MAX_ENTRIES)
+        self._entries: tuple[JournalEntry, ...] = ()
+        self._newest: deque[JournalEntry] = deque(maxlen=MAX_ENTRIES)
 
     @property
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[JournalEntry, ...]:
         """The newest first; the same object until there is another."""
         return self._entries
 
@@ -61,7 +61,7 @@ class Journal:
             name, role, address = visitor.name, visitor.role.label, visitor.address
         # Names of files may contain what terminals obey.
         plain = "".join(c if c.isprintable() else "?" for c in text)[:MAX_TEXT]
-        entry = Entry(time.time(), name, role, address, plain)
+        entry = JournalEntry(time.time(), name, role, address, plain)
         with self._lock:
             self._newest.appendleft(entry)
             self._entries = tuple(self._newest)

@@ -31,8 +31,8 @@ from webviz.edges.page.messages import (
     Watch,
     You,
 )
-from webviz.edges.page.outgoing import Outgoing
-from webviz.edges.page.pace import Pace, Stretch
+from webviz.edges.page.outgoing import PageQueue
+from webviz.edges.page.pace import LinkPace, Stretch
 from webviz.edges.page.refusals import answer
 from webviz.edges.page.stores import Stores
 
@@ -47,7 +47,7 @@ M = TypeVar("M", bound=FromPage)
 _OWN: Any = Hello | Watch | Unwatch
 
 
-class Connection(Protocol):
+class Websocket(Protocol):
     """What is needed of a websocket."""
 
     logger: Any
@@ -103,8 +103,8 @@ class Channel:
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._thread: int | None = None
-        self._outboxes: dict[int, Outgoing] = {}
-        self._visitors: dict[int, tuple[Visitor, Connection]] = {}
+        self._outboxes: dict[int, PageQueue] = {}
+        self._visitors: dict[int, tuple[Visitor, Websocket]] = {}
         self._kept: dict[type[ToPage], ToPage] = {}
         self._stores = Stores()
         self.may_watch: Callable[[int, str], bool] = lambda browser, store: True
@@ -145,7 +145,7 @@ class Channel:
             with contextlib.suppress(RuntimeError):  # the server has stopped
                 loop.call_soon_threadsafe(call)
 
-    def pace(self, browser: int) -> Pace | None:
+    def pace(self, browser: int) -> LinkPace | None:
         """How fast a browser takes what it is sent; None if it is gone. From any thread."""
         with self._lock:
             outbox = self._outboxes.get(browser)
@@ -213,7 +213,7 @@ class Channel:
 
     # Called on the event loop
 
-    def join(self, browser: int, pace: Pace) -> str:
+    def join(self, browser: int, pace: LinkPace) -> str:
         """Expects the page of a browser, and returns the key that it has to name.
 
         Args:
@@ -223,7 +223,7 @@ class Channel:
         key = secrets.token_urlsafe(32)
         with self._lock:
             self._loop, self._thread = asyncio.get_running_loop(), threading.get_ident()
-            outbox = self._outboxes[browser] = Outgoing(key, pace)
+            outbox = self._outboxes[browser] = PageQueue(key, pace)
             for message in self._kept.values():
                 outbox.put(message, msgspec.json.encode(message))
         return key
@@ -237,7 +237,7 @@ class Channel:
             outbox.abort()
 
     async def serve(
-        self, connection: Connection, inside: Callable[[], contextlib.AbstractContextManager[None]]
+        self, connection: Websocket, inside: Callable[[], contextlib.AbstractContextManager[None]]
     ) -> None:
         """Talks to a page until one of both ends.
 
@@ -269,7 +269,7 @@ class Channel:
                 self._visitors.pop(browser, None)
             self.on_lost(browser)
 
-    async def _introduce(self, connection: Connection) -> tuple[int, Outgoing]:
+    async def _introduce(self, connection: Websocket) -> tuple[int, PageQueue]:
         hello = msgspec.json.decode(await connection.recv(), type=Hello)
         with self._lock:
             keys = {outbox.key: browser for browser, outbox in self._outboxes.items()}
@@ -278,7 +278,7 @@ class Channel:
             outbox.key = None  # it serves once
         return browser, outbox
 
-    async def _write(self, connection: Connection, outbox: Outgoing) -> None:
+    async def _write(self, connection: Websocket, outbox: PageQueue) -> None:
         with contextlib.suppress(ConnectionClosed):
             while True:
                 outbox.filled.clear()
@@ -289,7 +289,7 @@ class Channel:
                         await connection.send(message)
                 await outbox.filled.wait()
 
-    def _next(self, outbox: Outgoing) -> str | bytes | None:
+    def _next(self, outbox: PageQueue) -> str | bytes | None:
         with self._lock:
             if (values := outbox.watched.next(self._stores)) is not None:
                 return msgspec.json.encode(values).decode()
@@ -297,7 +297,7 @@ class Channel:
                 return outbox.waiting.pop(next(iter(outbox.waiting))).decode()
             return outbox.bulk.pop(next(iter(outbox.bulk))) if outbox.bulk else None
 
-    def _hear(self, browser: int, text: str, connection: Connection) -> None:
+    def _hear(self, browser: int, text: str, connection: Websocket) -> None:
         log = connection.logger
         if len(text) > (limit := LIMITS[connection.grant.role].max_characters):
             log.warning("A message of a page was ignored: %d characters.", len(text))
@@ -350,7 +350,7 @@ class Channel:
         else:
             log.warning("A page may not watch a store that it asked for, or not so many.")
 
-    def _wake_soon(self, outboxes: list[Outgoing]) -> None:
+    def _wake_soon(self, outboxes: list[PageQueue]) -> None:
         """Have these sent; from any thread, each of which costs a wake-up of the event loop."""
         if threading.get_ident() == self._thread:
             self._wake(outboxes)
@@ -358,7 +358,7 @@ class Channel:
             self.call_soon(partial(self._wake, outboxes))
 
     @staticmethod
-    def _wake(outboxes: Iterable[Outgoing]) -> None:
+    def _wake(outboxes: Iterable[PageQueue]) -> None:
         for outbox in outboxes:
             if outbox.is_full:
                 outbox.abort()

@@ -13,7 +13,7 @@ from webviz.edges.page.widgets import Widget, clean
 MAX_CURVES = 32
 
 
-class Chart(Widget):
+class ChartWidget(Widget):
     """A chart; see `webviz.api.chart.Chart`.
 
     Args:

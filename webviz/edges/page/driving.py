@@ -10,18 +10,18 @@ from typing import TypeAlias
 
 from webviz.api.vehicle import Velocity
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.messages import Drive, Helm
-from webviz.engine.driving import Answer
+from webviz.edges.page.messages import Drive, HelmReport
+from webviz.engine.driving import HelmAnswer
 
 FRESH_S = 0.5
 """A heartbeat counts if it answers a beat no older than this."""
 BEAT_S = 0.05
 """Between two beats."""
 
-Steer: TypeAlias = Callable[[str, int, Velocity | None], Answer]
+Steer: TypeAlias = Callable[[str, int, Velocity | None], HelmAnswer]
 
 
-class Driving:
+class DrivingMessages:
     """Passes on what is held on pages.
 
     A page that is gone may have left messages behind, in buffers of the network or because it sent
@@ -55,4 +55,4 @@ class Driving:
         if not self._beats or now - self._beats[-1][0] >= BEAT_S:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]
-        self._channel.send(Helm(drive.tool, beat, answer.driver, answer.problem), browser)
+        self._channel.send(HelmReport(drive.tool, beat, answer.driver, answer.problem), browser)

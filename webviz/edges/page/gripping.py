@@ -35,7 +35,7 @@ class _Hand:
     heard_s: float = 0.0
 
 
-class Gripping:
+class GripMessages:
     """Passes on grips as commands.
 
     Args:

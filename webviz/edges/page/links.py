@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.messages import ToPage
-from webviz.edges.page.pace import Pace
+from webviz.edges.page.pace import LinkPace
 
 ORDINALS = {1: "st", 2: "nd", 3: "rd"}
 SIZES = {2: "half size", 4: "a quarter of their size", 8: "an eighth of their size"}
@@ -42,7 +42,7 @@ class Links:
         self._told = told
 
 
-def reduced(pace: Pace) -> str:
+def reduced(pace: LinkPace) -> str:
     """What is reduced because of a link, as a sentence; "" if nothing is."""
     parts = []
     if pace.every > 1:

@@ -82,7 +82,7 @@ class Beat(ToPage, frozen=True):
     wall: float
 
 
-class ShowView(ToPage, frozen=True):
+class PlaceCamera(ToPage, frozen=True):
     """Puts the camera where a view says.
 
     Args:
@@ -105,7 +105,7 @@ class ShowView(ToPage, frozen=True):
     scale: float | None
 
 
-class StartView(ShowView, frozen=True):
+class StartView(PlaceCamera, frozen=True):
     """The same for a page that has just joined; one that was here before stays as it is."""
 
 
@@ -169,7 +169,7 @@ class PixelValue(ToPage, frozen=True):
     text: str
 
 
-class SaveImage(ToPage, frozen=True):
+class SaveCanvas(ToPage, frozen=True):
     """Lets a page download what it shows as a PNG of that name, "" for one made of the time."""
 
     name: str
@@ -239,7 +239,7 @@ class Drive(FromPage, frozen=True):
 
     Args:
         tool: id of the tool.
-        beat: the newest that the page has received in a `Helm`, 0 for none.
+        beat: the newest that the page has received in a `HelmReport`, 0 for none.
         linear, lateral, angular: ahead, to the left and counter-clockwise.
     """
 
@@ -250,7 +250,7 @@ class Drive(FromPage, frozen=True):
     angular: Share
 
 
-class Helm(ToPage, frozen=True):
+class HelmReport(ToPage, frozen=True):
     """Answers a `Drive`.
 
     Args:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import msgspec
 
 from webviz.edges.page.messages import ToPage
-from webviz.edges.page.pace import Pace
+from webviz.edges.page.pace import LinkPace
 from webviz.edges.page.stores import Watched
 
 MAX_WAITING = 256
@@ -18,7 +18,7 @@ MAX_WAITING_BYTES = 32 << 20
 """Of these messages together; the largest are configs to download."""
 
 
-class Outgoing:
+class PageQueue:
     """The messages that wait for one page.
 
     Args:
@@ -26,7 +26,7 @@ class Outgoing:
         pace: of its link.
     """
 
-    def __init__(self, key: str, pace: Pace) -> None:
+    def __init__(self, key: str, pace: LinkPace) -> None:
         self.key: str | None = key
         self.pace = pace
         self.abort: Callable[[], None] = lambda: None

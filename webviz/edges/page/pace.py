@@ -62,7 +62,7 @@ class Mark:
     is_limited: bool
 
 
-class Pace:
+class LinkPace:
     """The link to one browser, over all of its connections; belongs to the event loop.
 
     Only `rate`, `every` and `shrink` are for other threads, too.
@@ -216,12 +216,12 @@ class Stretch:
         pace: of the browser.
     """
 
-    def __init__(self, pace: Pace) -> None:
+    def __init__(self, pace: LinkPace) -> None:
         self.pace = pace
         self._size = 0
         self._began = 0.0
 
-    def join(self, pace: Pace) -> None:
+    def join(self, pace: LinkPace) -> None:
         """Counts for another pace from now on: that of all connections of its browser."""
         pace.send(self._size)
         self.pace = pace

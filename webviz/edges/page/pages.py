@@ -11,12 +11,12 @@ from webviz.edges.access.journal import Journal
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
-from webviz.edges.page.driving import Driving, Steer
-from webviz.edges.page.gripping import Gripping
+from webviz.edges.page.driving import DrivingMessages, Steer
+from webviz.edges.page.gripping import GripMessages
 from webviz.edges.page.messages import Shell, ShowPictures
 from webviz.edges.page.people import People
 from webviz.edges.page.plugin_panels import PluginPanels
-from webviz.edges.page.reading import Reading
+from webviz.edges.page.reading import StateReading
 from webviz.edges.page.toolbar import Toolbar
 from webviz.edges.page.wishes import Wishes
 from webviz.engine.commands import Command, Refresh, Sender
@@ -55,9 +55,9 @@ class Pages:
 
         self._toolbar = Toolbar(channel, enqueue, note)
         self._acts = Acts(channel, enqueue, note)
-        self._driving = Driving(channel, steer, note)
+        self._driving = DrivingMessages(channel, steer, note)
         people = People(channel, journal, access or Access())
-        self._gripping = Gripping(channel, enqueue)
+        self._gripping = GripMessages(channel, enqueue)
         self._wishes = Wishes(enqueue)
         self._panels = panels = PluginPanels(channel, enqueue)
         self._of_panels = {
@@ -69,7 +69,7 @@ class Pages:
             "panel_properties": panels.properties,
             "panels": panels.panels,
         }
-        self._read: dict[str, Reading] = {}
+        self._read: dict[str, StateReading] = {}
         """What the stores were made of that are kept."""
         self._types = display_types()
         # A store that a page begins to watch is filled on the next turn of the frame loop.
@@ -100,7 +100,7 @@ class Pages:
         if (make := self._of_panels.get(name)) is not None:
             self._channel.show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
-            reading = Reading(state)
+            reading = StateReading(state)
             self._channel.show(store, make(reading.state, argument))
             self._read[store] = reading
 

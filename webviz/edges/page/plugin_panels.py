@@ -13,7 +13,7 @@ from typing import Any
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.chart import Chart
+from webviz.edges.page.chart import ChartWidget
 from webviz.edges.page.content.forms import form, values_of
 from webviz.edges.page.messages import Done, Use
 from webviz.edges.page.recorded_ui import RecordedUi
@@ -82,7 +82,7 @@ class PluginPanels:
         parts = {
             f"{id_}/{name}": part
             for id_, widget in widgets.items()
-            if isinstance(widget, Chart)
+            if isinstance(widget, ChartWidget)
             for name, part in widget.parts.items()
         }
         return {**values, **parts, "/order": list(widgets), "/failure": tab.failure}

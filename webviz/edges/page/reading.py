@@ -7,7 +7,7 @@ from typing import Any, cast
 from webviz.engine.state import State
 
 
-class Reading:
+class StateReading:
     """Notes which fields of a state are read.
 
     Args:

@@ -7,8 +7,17 @@ from typing import TypeVar
 
 from webviz.api.chart import Remove
 from webviz.api.panel import Act, Edit, Modifier
-from webviz.edges.page.chart import Chart
-from webviz.edges.page.widgets import Area, Button, Choice, Field, Shortcut, Sliders, Widget, clean
+from webviz.edges.page.chart import ChartWidget
+from webviz.edges.page.widgets import (
+    AreaWidget,
+    ButtonWidget,
+    ChoiceWidget,
+    FieldWidget,
+    Shortcut,
+    SlidersWidget,
+    Widget,
+    clean,
+)
 
 _W = TypeVar("_W", bound=Widget)
 
@@ -25,33 +34,33 @@ class RecordedUi:
         """A widget or command."""
         return self.widgets.get(id_) or self.commands.get(id_)
 
-    def area(self) -> Area:
+    def area(self) -> AreaWidget:
         """Add a place for text."""
-        return self._add(Area())
+        return self._add(AreaWidget())
 
-    def button(self, label: str, act: Act, hint: str = "", width: float = 1.0) -> Button:
+    def button(self, label: str, act: Act, hint: str = "", width: float = 1.0) -> ButtonWidget:
         """Add a button."""
-        return self._add(Button(label, act, hint, max(0.1, min(1.0, width))))
+        return self._add(ButtonWidget(label, act, hint, max(0.1, min(1.0, width))))
 
-    def checkbox(self, label: str, value: bool, edit: Edit, hint: str = "") -> Field:
+    def checkbox(self, label: str, value: bool, edit: Edit, hint: str = "") -> FieldWidget:
         """Add a check box."""
-        return self._add(Field("checkbox", label, bool(value), edit, hint))
+        return self._add(FieldWidget("checkbox", label, bool(value), edit, hint))
 
-    def field(self, label: str, value: str, edit: Edit, hint: str = "") -> Field:
+    def field(self, label: str, value: str, edit: Edit, hint: str = "") -> FieldWidget:
         """Add a line of text."""
-        return self._add(Field("field", label, clean(value), edit, hint))
+        return self._add(FieldWidget("field", label, clean(value), edit, hint))
 
-    def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> Choice:
+    def choice(self, label: str, value: str, edit: Edit, hint: str = "") -> ChoiceWidget:
         """Add a list to choose from."""
-        return self._add(Choice(label, clean(value), edit, hint))
+        return self._add(ChoiceWidget(label, clean(value), edit, hint))
 
-    def sliders(self, edit: Callable[[str, float, int | None], object]) -> Sliders:
+    def sliders(self, edit: Callable[[str, float, int | None], object]) -> SlidersWidget:
         """Add a place for sliders."""
-        return self._add(Sliders(edit))
+        return self._add(SlidersWidget(edit))
 
-    def chart(self, remove: Remove) -> Chart:
+    def chart(self, remove: Remove) -> ChartWidget:
         """Add a chart."""
-        return self._add(Chart(remove))
+        return self._add(ChartWidget(remove))
 
     def command(
         self, label: str, act: Act, key: str = "", modifier: Modifier | None = None

@@ -10,7 +10,7 @@ from webviz.edges.page.messages import (
     FromPage,
     Gripped,
     GripRefused,
-    Helm,
+    HelmReport,
     Result,
     StrokeDone,
     ToPage,
@@ -35,6 +35,6 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         case Invite():
             return Invitation(message.number, reason, "", "")
         case Drive():
-            return Helm(message.tool, 0, None, reason)
+            return HelmReport(message.tool, 0, None, reason)
         case _:
             return None

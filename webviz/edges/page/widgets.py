@@ -43,7 +43,7 @@ class Widget:
         raise ValueError("This widget takes no input.")
 
 
-class Area(Widget):
+class AreaWidget(Widget):
     """A place for text; see `webviz.api.panel.Area`."""
 
     def __init__(self) -> None:
@@ -73,7 +73,7 @@ class Area(Widget):
         self.values = {"kind": "area", "html": clean(markup, MAX_HTML)}
 
 
-class Button(Widget):
+class ButtonWidget(Widget):
     """A button; see `webviz.api.panel.Button`."""
 
     def __init__(self, label: str, act: Act, hint: str, width: float) -> None:
@@ -94,7 +94,7 @@ class Button(Widget):
         self._act(browser)
 
 
-class Field(Widget):
+class FieldWidget(Widget):
     """A value that browsers edit; see `webviz.api.panel.Field`."""
 
     def __init__(self, kind: str, label: str, value: Any, edit: Edit, hint: str) -> None:
@@ -123,7 +123,7 @@ class Field(Widget):
         self._edit(value, browser)
 
 
-class Choice(Field):
+class ChoiceWidget(FieldWidget):
     """One of several texts; see `webviz.api.panel.Choice`."""
 
     def __init__(self, label: str, value: str, edit: Edit, hint: str) -> None:
@@ -142,7 +142,7 @@ class Choice(Field):
         super().use(value, browser)
 
 
-class Sliders(Widget):
+class SlidersWidget(Widget):
     """Sliders by name; see `webviz.api.panel.Sliders`."""
 
     def __init__(self, edit: Callable[[str, float, int | None], object]) -> None:

@@ -60,7 +60,7 @@ class Controlled(Protocol):
         ...
 
 
-class Control:
+class ControlNode:
     """Mirrors the state of a viewer in parameters of a node, and offers services to change it.
 
     All methods but `open` must be called in the thread that spins the node.

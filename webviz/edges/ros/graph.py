@@ -10,7 +10,7 @@ from rclpy.node import Node
 from webviz.edges.ros.calls import Calls
 from webviz.edges.ros.goals import Goals
 from webviz.edges.ros.jobs import Jobs
-from webviz.edges.ros.publishers import Publishers
+from webviz.edges.ros.publishers import OutletPublishers
 from webviz.engine.sources.graph import Goal, Outlet
 
 
@@ -25,7 +25,7 @@ class RosGraph:
     def __init__(self, node: Node, wake: Callable[[], None]) -> None:
         self._node = node
         self._jobs = Jobs(wake)
-        self._publishers = Publishers(node)
+        self._publishers = OutletPublishers(node)
         self._calls = Calls(node)
         self._goals = Goals(node, self._calls, self.call)
         self._nodes: tuple[str, ...] = ()

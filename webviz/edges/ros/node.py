@@ -24,7 +24,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.edges.ros import qos
 from webviz.edges.ros.bell import Bell
-from webviz.edges.ros.control import Control
+from webviz.edges.ros.control import ControlNode
 from webviz.edges.ros.graph import RosGraph
 from webviz.edges.ros.heap import Heap
 from webviz.edges.ros.shared_memory import remove_abandoned
@@ -82,7 +82,7 @@ class RosSource:
         self._clock_messages = 0
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
         self._bell = Bell()
-        self.control = Control(self._node, self._bell.ring)
+        self.control = ControlNode(self._node, self._bell.ring)
         self._executor = _executor(self._context)
         self.graph = RosGraph(self._node, self._bell.ring)
         self._wanted: Mapping[str, Subscription] = {}

@@ -16,7 +16,7 @@ from webviz.engine.sources.graph import Outlet
 MOST_PUBLISHERS = 100
 
 
-class Publishers:
+class OutletPublishers:
     """Publishers by outlet, made when they are needed. All calls come from the node's thread.
 
     Args:

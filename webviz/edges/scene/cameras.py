@@ -24,11 +24,11 @@ from webviz.api.views import (
     type_of,
     view_of,
 )
-from webviz.edges.page.messages import SaveImage, ShowView, StartView, ViewReport
+from webviz.edges.page.messages import PlaceCamera, SaveCanvas, StartView, ViewReport
 from webviz.edges.scene.adapter import Adapter
 from webviz.edges.scene.names import node_path
 
-M = TypeVar("M", bound=ShowView)
+M = TypeVar("M", bound=PlaceCamera)
 
 ASSUMED_PX = 800.0
 """Height of a picture before the page reports it; the page corrects the distance."""
@@ -94,7 +94,7 @@ class ViserCameras:
             if browser in (None, id_):
                 if known := self._browsers.get(id_):
                     known.view, known.number = view, number
-                self._link.channel.send(_message(ShowView, view, number), id_)
+                self._link.channel.send(_message(PlaceCamera, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
         """The current view of every browser, by its id."""
@@ -118,7 +118,7 @@ class ViserCameras:
 
     def save_image(self, name: str, browser: int | None = None) -> None:
         """Make one browser or all of them download their picture as a PNG of that name."""
-        self._link.channel.send(SaveImage(name), browser)
+        self._link.channel.send(SaveCanvas(name), browser)
 
     def _take_reports(self) -> dict[int, viser.ClientHandle]:
         """Apply the reports of pages, and return the connected browsers."""

@@ -16,7 +16,7 @@ from websockets.protocol import State
 
 from webviz.edges.access.access import EVERYBODY, Grant
 from webviz.edges.access.roles import LIMITS, Role
-from webviz.edges.page.pace import Mark, Pace, Stretch
+from webviz.edges.page.pace import LinkPace, Mark, Stretch
 from webviz.edges.scene.frame_header import header
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.edges.scene.listener import Handshakes
@@ -39,7 +39,7 @@ FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
 
-class Gate:
+class ConnectionLimits:
     """Limits the connections of a server: opening ones, those of browsers, and their channels.
 
     Args:
@@ -136,9 +136,11 @@ class Connection(websocket.ServerConnection):
         rate: bytes a second that links to browsers are known to take; None to measure it.
     """
 
-    def __init__(self, gate: Gate, rate: float | None, *arguments: Any, **options: Any) -> None:
+    def __init__(
+        self, gate: ConnectionLimits, rate: float | None, *arguments: Any, **options: Any
+    ) -> None:
         super().__init__(*arguments, **options)
-        self.stretch = Stretch(Pace(rate))
+        self.stretch = Stretch(LinkPace(rate))
         """What was sent and may not have arrived."""
         self._asking: asyncio.Task[None] | None = None
         # websockets fails, and logs it, if a browser is gone before it is answered.
@@ -292,7 +294,7 @@ class Connection(websocket.ServerConnection):
         asyncio.ensure_future(pong).add_done_callback(heard)
 
     @staticmethod
-    def _heard(pace: Pace, mark: Mark, pong: asyncio.Future[float]) -> None:
+    def _heard(pace: LinkPace, mark: Mark, pong: asyncio.Future[float]) -> None:
         if pong.cancelled() or pong.exception() is not None:
             pace.lose(mark)
         else:

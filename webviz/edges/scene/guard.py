@@ -26,7 +26,7 @@ from webviz.edges.access.access import CHECK_S, Access
 from webviz.edges.access.proxies import Proxies
 from webviz.edges.page.channel import Channel, objection
 from webviz.edges.page.modules import CHANNEL, Modules
-from webviz.edges.scene.connections import Connection, Gate
+from webviz.edges.scene.connections import Connection, ConnectionLimits
 from webviz.edges.scene.hosts import HostList
 from webviz.edges.scene.http_requests import NOT_FOUND, PAGES, add_policy, is_upgrade
 from webviz.edges.scene.listener import Listener
@@ -42,7 +42,7 @@ Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 def guarded_serve(
     serve: Callable[..., Any],
     listener: Listener,
-    gate: Gate,
+    gate: ConnectionLimits,
     hosts: HostList,
     proxies: Proxies,
     tls: ssl.SSLContext | None,

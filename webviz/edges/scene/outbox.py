@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from webviz.edges.page.pace import Pace
+from webviz.edges.page.pace import LinkPace
 from webviz.edges.scene.pieces import Piece, Pieces
 from webviz.edges.scene.thinning import Thinning, is_cloud, thinned
 
@@ -85,7 +85,7 @@ class Outbox:
         pace: of the link.
     """
 
-    def __init__(self, last: type, pace: Pace) -> None:
+    def __init__(self, last: type, pace: LinkPace) -> None:
         self._last = last
         self._pace = pace
         self.cursor = -1

@@ -17,7 +17,7 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.modules import Modules
 from webviz.edges.scene.adapter.background import set_background
 from webviz.edges.scene.adapter.greeting import greet
-from webviz.edges.scene.connections import Gate
+from webviz.edges.scene.connections import ConnectionLimits
 from webviz.edges.scene.constants import CONSTANTS
 from webviz.edges.scene.guard import guarded_serve
 from webviz.edges.scene.hosts import HostList
@@ -65,7 +65,7 @@ def open_server(
     listener = listen(host, port)
     if tls is not None:
         listener.handshakes = Handshakes()
-    gate = Gate(listener.handshakes)
+    gate = ConnectionLimits(listener.handshakes)
     hosts, channel = HostList(host, allowed_hosts), Channel()
     modules = Modules(CONSTANTS)
     serve = guarded_serve(

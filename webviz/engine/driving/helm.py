@@ -19,7 +19,7 @@ TAIL = 5
 
 
 @dataclass(frozen=True)
-class Answer:
+class HelmAnswer:
     """What a browser learns about a helm.
 
     Args:

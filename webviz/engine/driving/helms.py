@@ -10,7 +10,7 @@ from concurrent.futures import Future, wait
 
 from webviz.api.vehicle import STILL, Vehicle, Velocity
 from webviz.data.messages import encode
-from webviz.engine.driving.helm import PERIOD_S, Answer, Helm
+from webviz.engine.driving.helm import PERIOD_S, Helm, HelmAnswer
 from webviz.engine.sources import Gate, Outlet
 
 log = logging.getLogger("webviz")
@@ -113,7 +113,7 @@ class Helms:
 
     # For the edges
 
-    def steer(self, tool: str, browser: int, share: Velocity | None) -> Answer:
+    def steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
         """Take a set-point; from any thread.
 
         Args:
@@ -128,7 +128,7 @@ class Helms:
         with self._lock:
             helm = self._helms.get(tool)
             if helm is None or self._has_ended:
-                return Answer(problem=ENDED if self._has_ended else UNKNOWN)
+                return HelmAnswer(problem=ENDED if self._has_ended else UNKNOWN)
             self._looked[tool] = now
             driver = self._driver(helm.outlet.topic, now)
             refusal = self._gate.refusal(helm.outlet.topic)
@@ -137,7 +137,7 @@ class Helms:
                 self._begin()
                 self._woken.set()
             problem = refusal or self._problems.get(helm.outlet, "")
-            return Answer(helm.driver(now) if driver is None else driver, problem)
+            return HelmAnswer(helm.driver(now) if driver is None else driver, problem)
 
     def _driver(self, topic: str, now: float) -> int | None:
         """The browser that drives what listens to a topic; several tools may publish there."""

@@ -23,7 +23,7 @@ from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Origin
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
-from webviz.engine.state import File
+from webviz.engine.state import ConfigFile
 from webviz.engine.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
@@ -125,7 +125,7 @@ class FilesPart(Part):
         if self._listing is not None and self._listing.done():
             self._others, self._listing = self._listing.result(), None
         path = str(self._path) if self._path else ""
-        return {"file": File(path, self._is_changed, str(self._folder), self._others)}
+        return {"file": ConfigFile(path, self._is_changed, str(self._folder), self._others)}
 
     def statuses(self) -> Mapping[str, Status]:
         """The unsupported parts of the open .rviz file."""

@@ -11,7 +11,7 @@ from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.pace import PaceMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
-from webviz.engine.state import Clock
+from webviz.engine.state import PanelTimes
 
 
 class TimePart(Part):
@@ -54,7 +54,7 @@ class TimePart(Part):
         ros_ns, wall_s = self.core.frames.now_ns, time.time()
         self._began_ns = self._began_ns or ros_ns
         messages = self.core.source.clock_messages()
-        clock = Clock(
+        clock = PanelTimes(
             ros_ns,
             ros_ns - self._began_ns,
             wall_s,

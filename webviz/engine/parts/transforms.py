@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from webviz.api.robots import Robot
+from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Status
 from webviz.data.transforms import Diagnosis, TransformException, diagnose, explain
 from webviz.engine.commands import Command, InspectTransforms, Sender
@@ -26,10 +26,10 @@ class TransformsPart(Part):
 
     name = "Transforms"
 
-    def __init__(self, core: Core, robots: Callable[[], Sequence[Robot]]) -> None:
+    def __init__(self, core: Core, robots: Callable[[], Sequence[NamespacedRobot]]) -> None:
         super().__init__(core)
         self._robots = robots
-        self._followed: Sequence[Robot] = ()
+        self._followed: Sequence[NamespacedRobot] = ()
         self._listener = TransformListener(core.buffer, core.clock)
         self._wanted = InspectTransforms(tree=False)
         self._tree: tuple[float, int, Diagnosis] | None = None

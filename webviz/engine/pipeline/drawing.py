@@ -19,8 +19,8 @@ from webviz.engine.pipeline.picking import Found, Shot, found_in
 _IDENTITY = Pose()
 
 
-class Scene(Protocol):
-    """Draws groups of nodes; see `webviz.edges.scene.Scene`."""
+class DrawingScene(Protocol):
+    """Draws groups of nodes; see `webviz.edges.scene.ViserScene`."""
 
     def set_pose(self, group: str, pose: Pose) -> None:
         """Place a group in the fixed frame."""
@@ -72,7 +72,7 @@ class Drawing:
         prefix: of group names, unique to the display.
     """
 
-    def __init__(self, scene: Scene, prefix: str) -> None:
+    def __init__(self, scene: DrawingScene, prefix: str) -> None:
         self._scene = scene
         self._prefix = prefix
         self._scopes: dict[str, dict[str, _Drawn]] = {}

@@ -6,13 +6,13 @@ import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from webviz.api.declared import Topic
-from webviz.api.robots import Robot
+from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.clocks import clock_problem
 from webviz.data.transforms.quarrels import quarrels
-from webviz.engine.pipeline.transform_layout import Batch, Layouts
+from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
 from webviz.engine.sources import Offer, Raw, Subscription
 
 TOPICS = {"tf": False, "tf_static": True}
@@ -66,7 +66,7 @@ class TransformListener:
         self._reviewed_at: float | None = None
         self._found: dict[str, Status] = {}
 
-    def follow(self, robots: Sequence[Robot]) -> None:
+    def follow(self, robots: Sequence[NamespacedRobot]) -> None:
         """Read the topics of these robots as well."""
         self._topics = _topics(robots)
         self._names.clear()
@@ -111,7 +111,7 @@ class TransformListener:
             self._found = self._review(offers, now_ns)
         return self._faults | self._found
 
-    def _insert(self, topic: str, raw: Raw, is_static: bool, robot: Robot | None) -> None:
+    def _insert(self, topic: str, raw: Raw, is_static: bool, robot: NamespacedRobot | None) -> None:
         named = robot.frame if robot else _as_sent
         if not is_static and (batch := self._layouts.read(raw.cdr)) is not None:
             self._faults.pop(topic, None)
@@ -140,7 +140,7 @@ class TransformListener:
                 raw.received_ns,
             )
 
-    def _names_of(self, topic: str, batch: Batch, robot: Robot | None) -> Names:
+    def _names_of(self, topic: str, batch: TransformBatch, robot: NamespacedRobot | None) -> Names:
         """The frames of a batch by their names in the viewer, made once for equal messages."""
         if robot is None:
             return batch.names
@@ -209,9 +209,12 @@ class TransformListener:
         return {key: Status(Level.WARN, text) for key, text in found.items() if text}
 
 
-def _topics(robots: Sequence[Robot]) -> dict[str, tuple[bool, Robot | None]]:
+def _topics(robots: Sequence[NamespacedRobot]) -> dict[str, tuple[bool, NamespacedRobot | None]]:
     """The topics of tf2: whether each is static, and whose it is."""
-    roots: list[tuple[str, Robot | None]] = [("/", None), *((each.root, each) for each in robots)]
+    roots: list[tuple[str, NamespacedRobot | None]] = [
+        ("/", None),
+        *((each.root, each) for each in robots),
+    ]
     return {
         root + name: (is_static, robot)
         for root, robot in roots

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from webviz.engine.state import Pace
+from webviz.engine.state import ClockPace
 
 SPAN_S = 3.0
 """Over how long the rate is measured."""
@@ -17,14 +17,14 @@ NEARLY = 0.02
 
 
 class PaceMeter:
-    """Follows ROS time, and makes a new `Pace` only if the last one is no longer right."""
+    """Follows ROS time, and makes a new `ClockPace` only if the last one is no longer right."""
 
     def __init__(self) -> None:
         self._samples: deque[tuple[int, float]] = deque()
         self._moved_s = 0.0
-        self._pace = Pace()
+        self._pace = ClockPace()
 
-    def step(self, ros_ns: int, wall_s: float, is_paused: bool = False) -> Pace:
+    def step(self, ros_ns: int, wall_s: float, is_paused: bool = False) -> ClockPace:
         """Take both times of one moment; how ROS time goes on from there."""
         samples = self._samples
         if is_paused or (samples and not 0.0 <= wall_s - samples[-1][1] <= SPAN_S):
@@ -38,7 +38,7 @@ class PaceMeter:
         pace = self._pace
         is_right = abs(pace.at(wall_s) - ros_ns) <= TOLERANCE_NS and (rate == 0) == (pace.rate == 0)
         if not is_right or (rate == 0 and pace.ros_ns != ros_ns):
-            self._pace = Pace(ros_ns, wall_s, rate)
+            self._pace = ClockPace(ros_ns, wall_s, rate)
         return self._pace
 
     def _rate(self, ros_ns: int, wall_s: float) -> float:

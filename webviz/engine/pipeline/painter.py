@@ -18,7 +18,7 @@ from webviz.api.status import Status
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
-from webviz.engine.pipeline.drawing import Drawing, Scene
+from webviz.engine.pipeline.drawing import Drawing, DrawingScene
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.pipeline.history import Held, Histories, History, held_samples
 from webviz.engine.pipeline.picking import Found
@@ -58,7 +58,7 @@ class Painter:
         points: how many points each display may show.
     """
 
-    def __init__(self, id: str, scene: Scene, workers: Workers, points: PointBudget) -> None:
+    def __init__(self, id: str, scene: DrawingScene, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
         """Whether everything must be redrawn, such as after a property changed."""

@@ -12,7 +12,7 @@ from webviz.api.evidence import Evidence
 from webviz.api.frames import Frames
 from webviz.api.handles import Grip, Handle
 from webviz.api.picking import Details
-from webviz.api.robots import Robot, RobotFrames, robot_of
+from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import Level, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.gripping import Gripping
@@ -50,7 +50,7 @@ class Runner:
         self._gripping = Gripping(id, services)
         self._guard = self._new_guard()
         self._holder = self._new_holder()
-        self._robot: Robot | None = None
+        self._robot: NamespacedRobot | None = None
         self._known_by: object = None
         """What the robot was found by."""
 

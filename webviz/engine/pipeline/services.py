@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from webviz.api.nodes import POINTS_HELD
-from webviz.api.robots import Robot
+from webviz.api.robots import NamespacedRobot
 from webviz.engine.pipeline.background import Workers
-from webviz.engine.pipeline.drawing import Scene
+from webviz.engine.pipeline.drawing import DrawingScene
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.sources import Gate
 from webviz.engine.trace import Tracer
@@ -32,7 +32,7 @@ class Services:
         points: how many points each display may show.
     """
 
-    scene: Scene
+    scene: DrawingScene
     workers: Workers
     resolve: Callable[[str], str]
     strict: bool = False
@@ -40,5 +40,5 @@ class Services:
     tracer: Tracer = field(default_factory=lambda: Tracer(time.monotonic))
     gate: Gate | None = None
     wake: Callable[[], None] = lambda: None
-    robots: Callable[[], Sequence[Robot]] = tuple
+    robots: Callable[[], Sequence[NamespacedRobot]] = tuple
     points: PointBudget = field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))

@@ -21,7 +21,7 @@ _NATIVE = b"\0\1" if sys.byteorder == "little" else b"\0\0"
 
 
 @dataclass(frozen=True)
-class Batch:
+class TransformBatch:
     """The transforms of a message.
 
     Args:
@@ -35,7 +35,7 @@ class Batch:
     poses: NDArray[np.float64]
 
 
-class Layout:
+class TransformLayout:
     """The byte layout of messages with certain frames.
 
     Args:
@@ -62,7 +62,7 @@ class Layout:
         self._expected = _words(cdr)[self._fixed] if len(cdr) == pos else None
         self._head = cdr[:4]
 
-    def read(self, cdr: bytes) -> Batch | None:
+    def read(self, cdr: bytes) -> TransformBatch | None:
         """The transforms of another message, None if its frames differ."""
         if len(cdr) != self._size or cdr[:4] != self._head or self._expected is None:
             return None
@@ -72,16 +72,16 @@ class Layout:
         seconds, nanoseconds = words[self._stamps].T
         stamps = seconds.view(np.int32) * np.int64(1_000_000_000) + nanoseconds
         poses = words[self._numbers].view(np.float64)
-        return Batch(self._names, stamps.tolist(), poses)
+        return TransformBatch(self._names, stamps.tolist(), poses)
 
 
 class Layouts:
     """The layouts of recurring messages."""
 
     def __init__(self) -> None:
-        self._by_size: dict[int, list[Layout]] = {}
+        self._by_size: dict[int, list[TransformLayout]] = {}
 
-    def read(self, cdr: bytes) -> Batch | None:
+    def read(self, cdr: bytes) -> TransformBatch | None:
         """The transforms of a message, None if its layout is unknown."""
         for layout in self._by_size.get(len(cdr), ()):
             if (batch := layout.read(cdr)) is not None:
@@ -96,7 +96,7 @@ class Layouts:
             self._by_size.clear()
         layouts = self._by_size.setdefault(len(cdr), [])
         if len(layouts) < SAME_SIZE:
-            layouts.append(Layout(cdr, message))
+            layouts.append(TransformLayout(cdr, message))
 
 
 def _behind(pos: int, text: str) -> int:

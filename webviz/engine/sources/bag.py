@@ -9,7 +9,7 @@ from pathlib import Path
 
 from webviz.data.messages import MessageError, register
 from webviz.engine.sources.bag_extras import Extra
-from webviz.engine.sources.bag_file import BagError, BagFile, Channel, Recorded
+from webviz.engine.sources.bag_file import BagChannel, BagError, BagFile, Recorded
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
@@ -173,7 +173,7 @@ class BagSource:
 
     # Internal
 
-    def _channels(self) -> list[Channel]:
+    def _channels(self) -> list[BagChannel]:
         """The subscribed channels that can be read."""
         return [
             channel
@@ -183,7 +183,7 @@ class BagSource:
             and channel.topic not in self._problems
         ]
 
-    def _channels_to_read(self) -> list[Channel]:
+    def _channels_to_read(self) -> list[BagChannel]:
         """The channels to read, always including the clock."""
         wanted = self._channels()
         return wanted + [c for c in self._time.clocks if c not in wanted]

@@ -37,7 +37,7 @@ class Recorded(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Channel:
+class BagChannel:
     """Messages of one type on one topic.
 
     Args:
@@ -69,7 +69,7 @@ class BagFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.channels: tuple[Channel, ...] = ()
+        self.channels: tuple[BagChannel, ...] = ()
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
         self.remark = ""
@@ -84,7 +84,7 @@ class BagFile:
         self._look()
 
     def messages(
-        self, channels: Collection[Channel], start_ns: int, end_ns: int | None = None
+        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[Recorded]:
         """The messages of channels by time of recording, both ends included.
 
@@ -192,7 +192,7 @@ def _obstacle(connection: Connection) -> str:
     return ""
 
 
-def _channel(connection: Connection, who: str) -> Channel:
+def _channel(connection: Connection, who: str) -> BagChannel:
     type_name = full_name(connection.msgtype)
     profiles = getattr(connection.ext, "offered_qos_profiles", [])
     publishers = []
@@ -203,7 +203,7 @@ def _channel(connection: Connection, who: str) -> Channel:
         durability: Durability = "transient_local" if is_latched else "volatile"
         publishers.append(Publisher(who, type_name, reliability, durability))
     is_msg = connection.msgdef.format is MessageDefinitionFormat.MSG
-    return Channel(
+    return BagChannel(
         connection.topic,
         type_name,
         tuple(publishers) or (Publisher(who, type_name, "reliable", "volatile"),),

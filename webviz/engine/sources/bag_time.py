@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.data.messages import Clock, MessageError, TFMessage, decode
-from webviz.engine.sources.bag_file import BagFile, Channel, Recorded
+from webviz.engine.sources.bag_file import BagChannel, BagFile, Recorded
 
 CLOCK = "rosgraph_msgs/msg/Clock"
 TF = "tf2_msgs/msg/TFMessage"
@@ -27,7 +27,7 @@ class BagTime:
     def __init__(self, file: BagFile) -> None:
         self.remark = ""
         """A warning, "" for none."""
-        self.clocks: list[Channel] = [
+        self.clocks: list[BagChannel] = [
             c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
         ]
         """The channels of /clock."""

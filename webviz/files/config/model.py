@@ -13,7 +13,7 @@ from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
 from webviz.api.registry import display_types, plugin_types
-from webviz.api.robots import Namespace, Robot
+from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
 from webviz.files.config.robots import Template
@@ -45,7 +45,7 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
         ),
     ] = None
     robots: Annotated[
-        tuple[Namespace | Robot, ...],
+        tuple[Namespace | NamespacedRobot, ...],
         msgspec.Meta(max_length=50),
         Prop(help="Namespaces of robots that publish /tf with frames of the same names."),
     ] = ()

@@ -21,7 +21,7 @@ BACK_S = 0.1
 Point = tuple[float, float]
 
 
-class History:
+class CurveHistory:
     """The values of one curve.
 
     Args:

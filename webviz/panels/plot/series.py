@@ -7,7 +7,7 @@ from typing import Any
 
 from webviz.data.messages.geometry import Header
 from webviz.data.messages.paths import FieldPath, PathError
-from webviz.panels.plot.history import History
+from webviz.panels.plot.history import CurveHistory
 
 How = tuple[float, str]
 """Window in seconds, and which time is used."""
@@ -31,7 +31,7 @@ class Series:
         self.has_stamp = True
         self._path: FieldPath | None = None
         self._invalid = ""
-        self.history = History(how[0])
+        self.history = CurveHistory(how[0])
         try:
             self._path = FieldPath(path)
         except PathError as error:
@@ -62,7 +62,7 @@ class Series:
 
     def clear(self) -> None:
         """Forget all values."""
-        self.history = History(self.how[0])
+        self.history = CurveHistory(self.how[0])
         self.problem = ""
 
     def explanation(self, types: Mapping[str, str]) -> str:

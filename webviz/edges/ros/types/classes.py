@@ -13,7 +13,7 @@ from rclpy.utilities import get_rmw_implementation_identifier
 from webviz.data.messages import MessageError, UnknownTypeError, interfaces
 from webviz.edges.ros.types.composing import composed_message, composed_service
 from webviz.edges.ros.types.descriptions import describe
-from webviz.edges.ros.types.wire import Raw
+from webviz.edges.ros.types.wire import RawPayload
 
 _FEEDBACK = "_FeedbackMessage"
 
@@ -76,12 +76,12 @@ def service_class(type_name: str) -> Any:
 
 def from_cdr(cdr: bytes, cls: Any) -> Any:
     """A request or response of a class from its serialised bytes."""
-    return cls(cdr) if issubclass(cls, Raw) else deserialize_message(cdr, cls)
+    return cls(cdr) if issubclass(cls, RawPayload) else deserialize_message(cdr, cls)
 
 
 def to_cdr(message: Any) -> bytes:
     """The serialised bytes of a request or response."""
-    return message.cdr if isinstance(message, Raw) else serialize_message(message)
+    return message.cdr if isinstance(message, RawPayload) else serialize_message(message)
 
 
 def _installed(package: str, kind: str, name: str) -> Any:

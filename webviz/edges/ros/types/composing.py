@@ -63,12 +63,12 @@ def composed_message(type_name: str) -> type:
 
 @functools.cache
 def composed_service(type_name: str) -> type:
-    """The class of a service type, composed from its definition; its requests are `wire.Raw`."""
+    """The class of a service type, composed from its definition; requests are `RawPayload`."""
     parts = interfaces.service(type_name)
     cls = _class(type_name, _ComposedType, (), {"_TYPE_SUPPORT": capsule(_service(type_name))})
     for name, part in (("Request", parts.request), ("Response", parts.response)):
         attributes = wire.conversions() | {"_TYPE_SUPPORT": capsule(_message_support(part))}
-        setattr(cls, name, _class(part, _ComposedType, (wire.Raw,), attributes))
+        setattr(cls, name, _class(part, _ComposedType, (wire.RawPayload,), attributes))
     return cls
 
 

@@ -23,7 +23,7 @@ ARRAY, BOUNDED_SEQUENCE, SEQUENCE = 48, 96, 144  # added to a FieldType's number
 _PLACEHOLDER = ("structure_needs_at_least_one_member", (Nodetype.BASE, ("uint8", 0)))
 
 
-class Field(NamedTuple):
+class Member(NamedTuple):
     """One member of a type.
 
     Args:
@@ -46,7 +46,7 @@ class Field(NamedTuple):
         return self.type_name not in _DESCRIBED
 
 
-def fields(type_name: str) -> list[Field]:
+def fields(type_name: str) -> list[Member]:
     """The members of a type in order of serialisation.
 
     Raises:
@@ -62,7 +62,7 @@ def fields(type_name: str) -> list[Field]:
             (node, detail), capacity = detail
             repeated = ARRAY if is_array else BOUNDED_SEQUENCE if capacity else SEQUENCE
         base, bound = (detail, 0) if node == Nodetype.NAME else detail
-        result.append(Field(name, base, bound, repeated, capacity))
+        result.append(Member(name, base, bound, repeated, capacity))
     return result
 
 
@@ -104,7 +104,7 @@ def type_hash(type_name: str) -> str:
     return f"RIHS01_{hashlib.sha256(text.encode()).hexdigest()}"
 
 
-def _describe_field(field: Field) -> dict[str, Any]:
+def _describe_field(field: Member) -> dict[str, Any]:
     number = _DESCRIBED.get(field.type_name, _DESCRIBED_NESTED)
     return {
         "type_id": field.repeated + (_DESCRIBED_BOUNDED_STRING if field.string_bound else number),

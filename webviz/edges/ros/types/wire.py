@@ -22,7 +22,7 @@ _FastBuffer = struct("virtual_table buffer size:size")
 _pointer = ctypes.c_void_p
 
 
-class Raw:
+class RawPayload:
     """A request or response of a composed service.
 
     Args:
@@ -91,18 +91,18 @@ def serialized_size(blob: int) -> int:
     return len(_blobs[blob]) - len(ENCAPSULATION)
 
 
-def _from_python(message: Raw, blob: int) -> bool:
+def _from_python(message: RawPayload, blob: int) -> bool:
     _blobs[blob] = message.cdr
     return True
 
 
-def _to_python(blob: int) -> Raw:
-    return Raw(_blobs[blob])
+def _to_python(blob: int) -> RawPayload:
+    return RawPayload(_blobs[blob])
 
 
 @functools.cache
 def conversions() -> dict[str, object]:
-    """The capsules with which rclpy converts a `Raw` for the middleware, and back."""
+    """The capsules with which rclpy converts a `RawPayload` for the middleware, and back."""
     return {
         "_CREATE_ROS_MESSAGE": capsule(function(_create, _pointer)),
         "_DESTROY_ROS_MESSAGE": capsule(function(_destroy, None, _pointer)),

@@ -13,7 +13,7 @@ from webviz.edges.scene.late import Late
 from webviz.edges.scene.quiet_server import Server
 
 
-class Marker(wire.RunJavascriptMessage, include_in_scene_serialization=True):
+class AcknowledgementRequest(wire.RunJavascriptMessage, include_in_scene_serialization=True):
     """Makes a page answer once it has handled all messages queued before."""
 
     def redundancy_key(self) -> str:
@@ -52,7 +52,9 @@ class Acknowledgements:
         """
         socket = self._server._websock_server
         tokens = [uuid.uuid4().hex for _ in range(3)]
-        shared, own = (Marker(self._server.modules.answer(token)) for token in tokens[:2])
+        shared, own = (
+            AcknowledgementRequest(self._server.modules.answer(token)) for token in tokens[:2]
+        )
         answered = {token: set[int]() for token in tokens}
         self._answered |= answered
         asked = self._server.get_clients()

@@ -15,7 +15,7 @@ from webviz.edges.page.channel import Channel
 from webviz.edges.page.links import Links
 from webviz.edges.page.messages import Beat
 from webviz.edges.page.modules import Modules
-from webviz.edges.page.pace import Pace
+from webviz.edges.page.pace import LinkPace
 from webviz.edges.scene.connections import Connection
 
 FAREWELL_S = 1.0
@@ -24,7 +24,7 @@ BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
 
 
-def pace_of(connection: ServerConnection) -> Pace:
+def pace_of(connection: ServerConnection) -> LinkPace:
     """The pace of a browser, by its connection for viser."""
     assert isinstance(connection, Connection)
     return connection.stretch.pace

@@ -13,7 +13,7 @@ from viser import _messages as wire
 
 from webviz.edges.page.messages import Ping, Pong
 from webviz.edges.page.pictures import Pictures
-from webviz.edges.scene.adapter.acknowledging import Acknowledgements, Marker
+from webviz.edges.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements
 from webviz.edges.scene.adapter.hints import evaluate_hints_once
 from webviz.edges.scene.adapter.poses import (
     Move,
@@ -23,7 +23,7 @@ from webviz.edges.scene.adapter.poses import (
     Wxyz,
     queue_moves,
 )
-from webviz.edges.scene.adapter.sender import Sender
+from webviz.edges.scene.adapter.sender import SceneSender
 from webviz.edges.scene.late import Late
 from webviz.edges.scene.quiet_server import Server
 
@@ -55,7 +55,9 @@ class Adapter:
         self._queue = self._socket.queue_message
         self._acknowledgements = Acknowledgements(server, self.late)
         self._removed = 0
-        self._sender = Sender(self._buffer, self._socket._live_connections, last=Marker)
+        self._sender = SceneSender(
+            self._buffer, self._socket._live_connections, last=AcknowledgementRequest
+        )
         evaluate_hints_once()
 
     def set_position(self, name: str, position: Position) -> None:

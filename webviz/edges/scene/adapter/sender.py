@@ -11,14 +11,14 @@ import websockets.asyncio.server as websocket
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
-from webviz.edges.page.pace import Pace
+from webviz.edges.page.pace import LinkPace
 from webviz.edges.scene.adapter.packing import Packer
 from webviz.edges.scene.connections import Connection
 from webviz.edges.scene.outbox import URGENT, Outbox, Progress
 from webviz.edges.scene.pieces import Piece
 
 
-class Sender:
+class SceneSender:
     """Sends each browser what it lacks, packed once for all that lack the same.
 
     viser has a task for each browser, which packs every message anew, and which walks all message
@@ -191,7 +191,7 @@ class _Browser:
     resting: asyncio.Future[None] | None = None
 
     @property
-    def pace(self) -> Pace:
+    def pace(self) -> LinkPace:
         """How fast it takes what it is sent."""
         return self.connection.stretch.pace
 

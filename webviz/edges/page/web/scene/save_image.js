@@ -18,5 +18,5 @@ function save({ name }) {
 }
 
 export function install() {
-  channel.on("SaveImage", save);
+  channel.on("SaveCanvas", save);
 }

@@ -247,6 +247,6 @@ export function install() {
     setTimeout(report, SENT_MS);
   }).observe(canvas);
 
-  channel.on("ShowView", show);
+  channel.on("PlaceCamera", show);
   channel.on("StartView", join);
 }

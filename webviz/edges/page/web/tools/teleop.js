@@ -45,7 +45,7 @@ export function install() {
   document.addEventListener("focusin", (event) => {
     if (isTyping(event) || event.target.closest("dialog")) release();
   });
-  channel.on("Helm", hear);
+  channel.on("HelmReport", hear);
   channel.onOpen(() => {
     if (driven) driven.beat = 0;
     release();
