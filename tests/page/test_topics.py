@@ -241,8 +241,8 @@ def test_a_topic_is_shown_by_the_display_that_fits_or_says_why_not(loop: Loop, p
     panel.wait_for(lambda: "Added Boxes for /cloud." in panel.text())
 
 
-def test_name_and_message_are_copied(loop: Loop, open_tab: Callable[..., Tab]) -> None:
-    tab = open_tab(permissions=["clipboard-read", "clipboard-write"])
+def test_name_and_message_are_copied(loop: Loop, tab: Tab) -> None:
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     tab.show_tab("Topics")
     show(loop, scan=(SCAN,))
     choose(tab, "/scan")

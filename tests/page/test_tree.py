@@ -268,10 +268,8 @@ def test_the_button_of_a_row_opens_its_menu_which_renames(
     tree.tab.wait_for_command(SetProperty("b", "name", "c"))
 
 
-def test_several_are_copied_as_yaml(
-    loop: Loop, make_row: MakeRow, open_tab: Callable[..., Tab]
-) -> None:
-    tree = Tree(open_tab(permissions=["clipboard-read", "clipboard-write"]))
+def test_several_are_copied_as_yaml(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    tree.tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     loop.show(make_row("a"), make_row("b"), make_row("c"))
     tree.click("a")
     tree.click("b", modifiers=["Control"])

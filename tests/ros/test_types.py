@@ -284,11 +284,11 @@ import sys
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 from webviz.edges.ros.types import service_class
-from webviz.edges.ros.types.wire import Raw
+from webviz.edges.ros.types.wire import RawPayload
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
 node = rclpy.create_node("server")
 def answer(request, response):
-    return Raw.__init__(response, bytes([0, 1, 0, 0, request.cdr[4]])) or response
+    return RawPayload.__init__(response, bytes([0, 1, 0, 0, request.cdr[4]])) or response
 node.create_service(service_class("nav2_msgs/srv/ManageLifecycleNodes"), "/manage", answer)
 print("ready", flush=True)
 rclpy.spin(node)

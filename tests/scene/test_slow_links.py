@@ -138,7 +138,7 @@ def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
     sent = [queue.window()]
     queue.cloud("/a")
     sent += [queue.window(), queue.window(), queue.window()]
-    assert sent == [["/a"], ["/b", "Marker"], ["/a"], []]
+    assert sent == [["/a"], ["/b", "AcknowledgementRequest"], ["/a"], []]
 
 
 def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
