@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import socket
 import time
 from collections.abc import Callable, Iterator
@@ -16,6 +17,7 @@ import zstandard
 
 from webviz.edges.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
+from webviz.shell.pictures.browser_scripts import CANVAS
 
 Point = tuple[float, float, float]
 
@@ -79,6 +81,10 @@ class View(Page):
                 client.camera.position = position
                 client.camera.look_at = at
         self.show()
+        middle = [edge / 2 for edge in self.evaluate(CANVAS)]
+        self.wait_for(
+            lambda: self.draw(1) or math.dist(self.pixel_of(*at), middle) < 1.0, "the camera there"
+        )
 
     def show(self) -> None:
         """Sends what was changed and waits until it is drawn."""
