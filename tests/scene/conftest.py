@@ -21,6 +21,9 @@ from webviz.shell.pictures.browser_scripts import CANVAS
 
 Point = tuple[float, float, float]
 
+SIZE = (320, 240)
+"""Of a tab in pixels."""
+
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
@@ -65,14 +68,15 @@ def view(tab: View) -> Iterator[View]:
 
 
 class View(Page):
-    """One browser tab of 320 x 240 pixels with the scene."""
+    """One browser tab with the scene."""
 
     def __init__(self, browser: playwright.Browser, scene: ViserScene) -> None:
         self.scene = scene
         server = scene.link.server
         others = set(server.get_clients())
-        super().__init__(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
+        super().__init__(browser, f"http://127.0.0.1:{server.get_port()}", *SIZE)
         self.wait_for(lambda: set(server.get_clients()) > others, "the server knows the tab")
+        self.wait_for(lambda: self.evaluate(CANVAS) == [*SIZE], "the canvas has its size")
 
     def look(self, position: Point, at: Point) -> None:
         """Puts the camera at `position`."""
@@ -81,7 +85,7 @@ class View(Page):
                 client.camera.position = position
                 client.camera.look_at = at
         self.show()
-        middle = [edge / 2 for edge in self.evaluate(CANVAS)]
+        middle = SIZE[0] / 2, SIZE[1] / 2
         self.wait_for(
             lambda: self.draw(1) or math.dist(self.pixel_of(*at), middle) < 1.0, "the camera there"
         )

@@ -169,16 +169,16 @@ def _stroke(tool: Tool, command: UseTool, sender: Sender) -> Stroke:
 def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
     tooltip = (inspect.getdoc(tool) or "").partition("\n")[0]
     return ToolButton(
-        id,
-        tool.name,
-        tooltip,
-        shortcut,
-        tool.gesture,
-        tool.icon,
-        tool.surface,
-        tool.stays,
-        tool.asks,
-        refusal,
-        tool.several,
-        tool,
+        id=id,
+        name=tool.name,
+        tooltip=tooltip,
+        shortcut=shortcut,
+        gesture=tool.gesture,
+        icon=tool.icon,
+        surface=tool.surface,
+        stays=tool.stays,
+        asks=tool.asks,
+        refusal=refusal,
+        several=tool.several,
+        tool=tool,
     )
