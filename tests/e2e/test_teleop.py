@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import signal
 import subprocess
 import sys
@@ -49,15 +48,19 @@ class Robot:
     """Hears /cmd_vel in a thread of its own."""
 
     def __init__(self) -> None:
-        self.heard: list[Twist] = []
+        self.heard: list[tuple[float, Twist]] = []
+        """Each command and when it came."""
         self._context = Context()
         rclpy.init(context=self._context)
         self._node = rclpy.create_node("robot", context=self._context)
-        self._node.create_subscription(Twist, "/cmd_vel", self.heard.append, 100)
+        self._node.create_subscription(Twist, "/cmd_vel", self._hear, 100)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._thread = threading.Thread(target=self._executor.spin)
         self._thread.start()
+
+    def _hear(self, twist: Twist) -> None:
+        self.heard.append((time.monotonic(), twist))
 
     def close(self) -> None:
         self._executor.shutdown()
@@ -69,7 +72,7 @@ class Robot:
         return self._node.count_publishers("/cmd_vel")
 
     def speeds(self) -> list[float]:
-        return [twist.linear.x for twist in self.heard]
+        return [twist.linear.x for _, twist in self.heard]
 
     def has_stopped(self) -> bool:
         """Whether a drive ended with a zero; of several, those that wait give way to the next."""
@@ -157,16 +160,18 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
     page: Page, robot: Robot, viewer: webviz.Viewer
 ) -> None:
     with blocked(viewer):
+        pressed = time.monotonic()
         hold(page, robot)
         page.tab.keyboard.up("w")
         wait_until_stopped(page, robot)
         until(lambda: not viewer._loop.helms._is_moving())
         page.tab.wait_for_timeout(100)
         speeds = robot.speeds()
-        assert all(b - a <= 0.05 + 1e-9 for a, b in itertools.pairwise([0.0, *speeds]))  # 1 m/s²
+        # 1 m/s² from the first step of 50 ms on; a busy machine leaves out commands.
+        assert all(twist.linear.x <= at - pressed + 0.05 for at, twist in robot.heard)
         page.tab.wait_for_timeout(300)
         assert robot.speeds() == speeds
-        assert {(twist.linear.y, twist.angular.z) for twist in robot.heard} == {(0.0, 0.0)}
+        assert {(twist.linear.y, twist.angular.z) for _, twist in robot.heard} == {(0.0, 0.0)}
 
 
 def cut(page: Page, viewer: webviz.Viewer) -> None:
