@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from concurrent.futures import Future, wait
+from contextlib import closing
+from typing import Any
 
 import pytest
 
@@ -40,3 +43,23 @@ def test_all_calls_of_a_drawing_get_the_same_answer(
     assert tasks.has_news()
     assert tasks("mesh", load) == "mesh"
     assert not tasks.is_busy()
+
+
+class Immediate(Workers):
+    """Has done the work when it returns."""
+
+    def submit(self, *args: Any, **options: Any) -> Future[Any]:
+        future = super().submit(*args, **options)
+        wait([future], 60)
+        return future
+
+
+def test_work_that_is_done_at_once_is_left_to_the_next_drawing() -> None:
+    with closing(Immediate(lambda: None)) as workers:
+        tasks = Tasks(workers)
+        assert tasks("mesh", str.upper, "mesh") is None  # much may have been drawn without it
+        assert tasks.is_busy()
+        assert tasks.has_news()
+        tasks.cancel_unrequested()
+        assert tasks("mesh", str.upper, "mesh") == "MESH"
+        assert not tasks.is_busy()

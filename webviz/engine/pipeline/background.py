@@ -88,13 +88,14 @@ class Tasks:
         Raises:
             Exception: raised by `fn`.
         """
-        is_known_to_wait = key in self._requested & self._pending
+        # Who asked first in a drawing must not miss what became ready before the next one asks, nor
+        # what was drawn before the request miss work that is done at once.
+        has_to_wait = key not in self._futures or key in self._requested & self._pending
         self._requested.add(key)
         if key not in self._futures:
             self._futures[key] = self._workers.submit(fn, *args, stop=stop)
         future = self._futures[key]
-        # Who asked first in a drawing must not miss what became ready before the next one asked.
-        if is_known_to_wait or not future.done():
+        if has_to_wait or not future.done():
             self._pending.add(key)
             return None
         self._pending.discard(key)
