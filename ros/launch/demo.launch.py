@@ -12,7 +12,8 @@ from launch_ros.actions import Node
 
 SHARE = Path(get_package_share_directory("webviz"))
 ARGUMENTS = {
-    "config": (str(SHARE / "config" / "demo.yaml"), "Config to show, YAML or .rviz."),
+    "config": ("", "Config to show, YAML or .rviz; empty: the template."),
+    "template": (str(SHARE / "config" / "demo.yaml"), "Config to start with, never overwritten."),
     "world": (
         "",
         "Map to drive in, a yaml for map_server or an SVG plan; empty: as the parameters say.",

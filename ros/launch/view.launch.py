@@ -7,7 +7,8 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
 ARGUMENTS = {
-    "config": ("", "Config to show, YAML or .rviz; empty: the usual topics."),
+    "config": ("", "Config to show, YAML or .rviz; empty: the template."),
+    "template": ("", "Config to start with, never overwritten; empty: the usual topics."),
     "fixed_frame": ("", "Draw everything in this frame; empty: that of the config."),
     "port": ("8080", "Port of the page; 0 picks a free one."),
     "use_sim_time": ("false", "Follow the time of /clock."),
@@ -32,7 +33,11 @@ def _viewer(context: LaunchContext) -> list[Node]:
         return LaunchConfiguration(name).perform(context)
 
     options = ["--port", value("port")]
-    for option, name in (("--display-config", "config"), ("--fixed-frame", "fixed_frame")):
+    for option, name in (
+        ("--display-config", "config"),
+        ("--template", "template"),
+        ("--fixed-frame", "fixed_frame"),
+    ):
         if value(name):
             options += [option, value(name)]
     if yaml.safe_load(value("open_browser")):

@@ -111,6 +111,13 @@ def test_show_args_lists_the_arguments(path: Path, env: dict[str, str]) -> None:
     assert set(shown.stdout.split()) >= {*declared(path)}
 
 
+@pytest.mark.parametrize("path", sorted(LAUNCH.glob("*.py")), ids=lambda path: path.name)
+def test_no_installed_file_is_what_save_overwrites(path: Path) -> None:
+    text = path.read_text()
+    assert '"config": ("",' in text
+    assert "SHARE" not in text or '"template": (str(SHARE / "config" / "demo.yaml"),' in text
+
+
 @needs_launch
 def test_the_demo_starts_and_stops_cleanly(tmp_path: Path, env: dict[str, str]) -> None:
     arguments = ["port:=0", "use_sim_time:=true", "respawn:=true"]

@@ -36,12 +36,14 @@ def serve(
         The exit status.
     """
 
+    template = options.template or standard
+
     @functools.cache
     def read(path: Path | None) -> Config:
         saved = options.autosave and _last_session().exists()
-        return options.read(path or (_last_session() if saved else standard))
+        return options.read(path or (_last_session() if saved else template))
 
-    if options.display_config is not None and not options.plugin:
+    if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
         # later, once it has loaded the displays that the file may name.
         read(options.display_config)

@@ -16,6 +16,8 @@ LOCAL = "127.0.0.1"
 class ViewingOptions(ConfigOptions):
     """Where to serve the page, and what to save."""
 
+    template: File | None = None
+    """Config to start with if --display-config is not given; saving asks for a name."""
     port: Annotated[int, Parameter(validator=validators.Number(gte=0, lte=65535))] = 8080
     """Port of the page; 0 picks a free one."""
     host: Annotated[str, Parameter(metavar="ADDRESS")] = LOCAL
