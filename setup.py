@@ -1,5 +1,6 @@
 """What colcon needs to know too, which does not read pyproject.toml; the rest stands there."""
 
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -18,8 +19,20 @@ def files(folder: str, *patterns: str) -> list[str]:
     return sorted(str(path) for pattern in patterns for path in Path(folder).glob(pattern))
 
 
+def readme() -> str:
+    """The README without pictures and links to files, which only a clone has.
+
+    colcon runs a link to this file elsewhere.
+    """
+    text = Path(__file__).resolve().with_name("README.md").read_text(encoding="utf-8")
+    text = re.sub(r"!\[[^\]]*\]\((?!https?:)[^)]*\)\n\n", "", text)
+    return re.sub(r"\[([^\]]*)\]\((?!https?:)[^)]*\)", r"\1", text)
+
+
 setup(
     name="webviz",
+    long_description=readme(),
+    long_description_content_type="text/markdown",
     # The one place of the version, which tools of ROS read there.
     version=ElementTree.parse("package.xml").findtext("version"),
     license="Apache-2.0",
@@ -114,6 +127,7 @@ setup(
         ("share/webviz/params", files("ros/params", "*.yaml")),
         ("share/webviz/config", files("webviz/shell/cli", "*.yaml")),
         ("share/webviz/worlds", files("ros/worlds", "*.*")),
+        ("share/webviz_urdf", ["ros/webviz_urdf/package.xml"]),
         ("share/webviz_urdf/demo", files("ros/robot", "*.urdf")),
         ("share/webviz_urdf/demo/meshes", files("ros/robot/meshes", "*.*")),
         ("lib/webviz", ["ros/sim"]),

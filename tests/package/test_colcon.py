@@ -7,6 +7,7 @@ import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from ruamel.yaml import YAML
@@ -40,6 +41,7 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
     # Where RViz looks for the demo robot's meshes.
     assert (prefix / "share/ament_index/resource_index/packages/webviz_urdf").is_file()
     assert (prefix / "share/webviz_urdf/demo/meshes/body.stl").is_file()
+    assert (prefix / "share/webviz_urdf/package.xml").is_file()
 
     source = f". {tmp_path}/install/local_setup.sh && "
     where = """python -c 'from importlib.util import find_spec as f; print(f("webviz").origin)'"""
@@ -49,6 +51,11 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
     programs = "cd $COLCON_PREFIX_PATH/webviz/lib/webviz && ./webviz --version && ./sim --help"
     shown = run(["sh", "-c", source + programs])
     assert "usage: webviz-sim" in shown
+
+
+def test_both_packages_have_one_version() -> None:
+    files = (ROOT / "package.xml", ROOT / "ros/webviz_urdf/package.xml")
+    assert len({ElementTree.parse(file).findtext("version") for file in files}) == 1
 
 
 def test_the_parameters_of_the_launch_file_exist() -> None:

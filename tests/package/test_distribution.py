@@ -53,6 +53,17 @@ def test_every_file_of_the_packages_is_installed() -> None:
     assert missing == []
 
 
+def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
+    about = metadata.metadata("webviz")
+    text = about.get_payload()
+    assert isinstance(text, str)
+    assert "## Two commands" in text
+    links = re.findall(r"\]\(([^)]*)\)", text)
+    assert [each for each in links if not each.startswith("http")] == []
+    assert about["Author-email"]
+    assert about["Keywords"]
+
+
 def test_every_imported_library_is_required() -> None:
     known = {name.replace("-", "_") for name in requirements()} | OPTIONAL
     known |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
