@@ -10,7 +10,7 @@ from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode
 from webviz.engine.driving import Helms
 from webviz.engine.parts.part import Batches, Core, Part
-from webviz.engine.sources import Raw, Subscription
+from webviz.engine.sources import Raw, Subscriber, Subscription
 from webviz.engine.state import Driving
 
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -39,10 +39,14 @@ class DrivingPart(Part):
         self._helms = helms
         self._odometry = odometry
         self._newest: dict[str, tuple[Raw, float]] = {}
+        self._subscriber = Subscriber()
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The odometry of attended vehicles; none while nobody drives."""
-        return {name: Subscription(ODOMETRY, topic) for name, topic in self._topics().values()}
+        topics = self._topics().values()
+        return self._subscriber.subscribe(
+            {name: Subscription(ODOMETRY, topic) for name, topic in topics}
+        )
 
     def take(self, batches: Batches) -> None:
         """Keep the newest odometry."""
@@ -55,6 +59,7 @@ class DrivingPart(Part):
     def reset(self) -> None:
         """Forget what was received."""
         self._newest.clear()
+        self._subscriber.ask()
 
     def state(self) -> Mapping[str, Any]:
         """What attended vehicles do."""

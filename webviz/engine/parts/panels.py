@@ -26,7 +26,7 @@ from webviz.engine.commands import (
 from webviz.engine.parts.outlets import outlet_of, publish
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
-from webviz.engine.sources import Outlet, Subscription
+from webviz.engine.sources import Outlet, Subscriber, Subscription, merged
 from webviz.engine.state import PanelTab
 from webviz.files.config import MAX_PLUGINS, ConfigError, mistakes, nearest, sentences
 
@@ -40,6 +40,7 @@ class PanelsPart(Part):
         super().__init__(core)
         self.list = PluginList(Panel)
         self._open: frozenset[str] = frozenset()
+        self._subscribers: dict[str, Subscriber] = {}
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -55,15 +56,18 @@ class PanelsPart(Part):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """What the open panels read."""
-        wanted: dict[str, Subscription] = {}
-        for panel in self._attended():
-            for topic, type_ in self._topics(panel, "subscriptions").items():
-                wanted.setdefault(topic, Subscription(type_, Topic(topic)))
-        return wanted
+        known, self._subscribers = self._subscribers, {}
+        wanted = []
+        for tab in self._attended():
+            subscriber = self._subscribers[tab.tab] = known.get(tab.tab) or Subscriber()
+            topics = self._topics(tab.panel, "subscriptions").items()
+            subscriptions = {topic: Subscription(type_, Topic(topic)) for topic, type_ in topics}
+            wanted.append(subscriber.subscribe(subscriptions))
+        return merged(wanted)
 
     def take(self, batches: Batches) -> None:
         """Pass messages on to the open panels that read them."""
-        for panel in self._attended():
+        for panel in self._panels():
             for topic, type_ in self._topics(panel, "subscriptions").items():
                 offer = self.core.offers.get(topic)
                 if topic in batches and (offer is None or offer.type in ("", type_)):
@@ -72,14 +76,16 @@ class PanelsPart(Part):
 
     def reset(self) -> None:
         """Let the open panels start over."""
-        for panel in self._attended():
+        for panel in self._panels():
             self.core.guard(f"The panel {panel.name}", panel.start_over)
+        for subscriber in self._subscribers.values():
+            subscriber.ask()
 
     def outlets(self) -> Collection[Outlet]:
         """Where the open panels publish."""
         topics = [
             (type_, Topic(topic))
-            for panel in self._attended()
+            for panel in self._panels()
             for topic, type_ in self._topics(panel, "publications").items()
         ]
         return {outlet for each in topics if (outlet := outlet_of(self.core, *each))}
@@ -92,10 +98,13 @@ class PanelsPart(Part):
         """Which panels cannot be used."""
         return self.list.statuses()
 
-    def _attended(self) -> list[Panel]:
+    def _attended(self) -> list[PanelTab]:
         if not self._open:
             return []
-        return [tab.panel for tab in self._tabs() if tab.tab in self._open]
+        return [tab for tab in self._tabs() if tab.tab in self._open]
+
+    def _panels(self) -> list[Panel]:
+        return [tab.panel for tab in self._attended()]
 
     def _tabs(self) -> Iterator[PanelTab]:
         count: Counter[str] = Counter()

@@ -11,7 +11,7 @@ from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode, peek_header, to_tree
 from webviz.engine.commands import Command, InspectTopic, InspectTopics, Sender
 from webviz.engine.parts.part import Batches, Core, Handler, Part
-from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 from webviz.engine.state import Inspected, Traffic
 
 SPAN_S = 3.0
@@ -30,6 +30,7 @@ class TopicsPart(Part):
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
+        self._subscriber = Subscriber()
         self._own = ""
         self._of_pages: frozenset[str] = frozenset()
         self._offers: Mapping[str, Offer] | None = None
@@ -47,14 +48,15 @@ class TopicsPart(Part):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """The topics that are looked into while a browser is open, as the first type of each."""
-        if not self.core.is_watched():
-            return {}
-        offers = {topic: self.core.offers.get(topic) for topic in self._inspected()}
-        return {
-            topic: Subscription(offer.publishers[0].type, Topic(topic))
-            for topic, offer in offers.items()
-            if offer and offer.publishers
-        }
+        inspected = self._inspected() if self.core.is_watched() else ()
+        offers = {topic: self.core.offers.get(topic) for topic in inspected}
+        return self._subscriber.subscribe(
+            {
+                topic: Subscription(offer.publishers[0].type, Topic(topic))
+                for topic, offer in offers.items()
+                if offer and offer.publishers
+            }
+        )
 
     def take(self, batches: Batches) -> None:
         """Keep the newest messages of the topics that are looked into, and measure delays."""

@@ -11,7 +11,7 @@ from webviz.data.transforms.reasons import in_words
 from webviz.engine.pipeline.guard import Guard
 from webviz.engine.pipeline.intake import PATIENCE_S, Arrival, Intake, intakes_of
 from webviz.engine.pipeline.synchronizer import Gap, Synchronizer
-from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 
 Set = Mapping[str, Arrival]
 """Messages that are drawn together, by input, at the pose of the first; usually just one."""
@@ -28,6 +28,7 @@ class Inputs:
 
     def __init__(self, display: Display, guard: Guard, resolve: Callable[[str], str]) -> None:
         self.intakes = intakes_of(display, resolve)
+        self._subscriber = Subscriber()
         self._synchronizer: Synchronizer[Arrival] | None = None
         self._waiting_since: float | None = None
         self.replace(display, guard)
@@ -39,7 +40,13 @@ class Inputs:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The subscriptions by topic."""
-        return {i.name: i.subscription() for i in self._active().values() if i.name and i.type}
+        active = self._active().values()
+        wanted = {i.name: i.subscription() for i in active if i.name and i.type}
+        return self._subscriber.subscribe(wanted)
+
+    def ask(self) -> None:
+        """Request latched messages again."""
+        self._subscriber.ask()
 
     def topics(self) -> list[str]:
         """The full names of the topics."""
@@ -57,6 +64,7 @@ class Inputs:
         """Discard waiting messages."""
         for intake in self.intakes.values():
             intake.reset()
+        self.ask()
         self._synchronizer = self._waiting_since = None
 
     def take(

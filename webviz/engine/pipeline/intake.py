@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -22,10 +21,6 @@ PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""
 LATE_S = 0.3
 """A message drawn later than this because of its transform gets a warning."""
-
-
-_ASKED = itertools.count(1)
-"""Every new or reset intake requests latched messages."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +58,6 @@ class Intake:
         self._placed_at = 0.0
         self._late_s = 0.0
         self._waiting_since: float | None = None
-        self._asked = next(_ASKED)
         self._newest = self._newest_placed = -1
 
     @property
@@ -78,7 +72,7 @@ class Intake:
 
     def subscription(self) -> Subscription:
         """The subscription of the topic."""
-        return Subscription(self.type, self.topic, self.spec.latched, self._asked)
+        return Subscription(self.type, self.topic, self.spec.latched)
 
     def take(
         self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
@@ -166,7 +160,6 @@ class Intake:
         self._filter.clear()
         self._reception.reset()
         self._waiting_since = None
-        self._asked = next(_ASKED)
 
     def statuses(
         self, offers: Mapping[str, Offer], dropped: int, frames: Frames, clock: float

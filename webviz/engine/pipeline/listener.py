@@ -13,7 +13,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.clocks import clock_problem
 from webviz.data.transforms.quarrels import quarrels
 from webviz.engine.pipeline.transform_layout import Layouts, TransformBatch
-from webviz.engine.sources import Offer, Raw, Subscription
+from webviz.engine.sources import Offer, Raw, Subscriber, Subscription
 
 TOPICS = {"tf": False, "tf_static": True}
 TYPE = "tf2_msgs/msg/TFMessage"
@@ -59,7 +59,7 @@ class TransformListener:
         self._names: dict[str, tuple[Names, Names]] = {}
         self._publishers: dict[str, tuple[str, ...]] = {}
         self._static_publishers: list[tuple[str, ...]] = []
-        self._asked = 0
+        self._subscriber = Subscriber()
         self._asked_at = 0.0
         self._settled_changes = 0
         self._settled_structure = -1
@@ -74,10 +74,10 @@ class TransformListener:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """The topics of tf2."""
-        return {
-            topic: Subscription(TYPE, Topic(topic), is_static, self._asked if is_static else 0)
-            for topic, (is_static, _) in self._topics.items()
-        }
+        topics = self._topics.items()
+        return self._subscriber.subscribe(
+            {topic: Subscription(TYPE, Topic(topic), is_static) for topic, (is_static, _) in topics}
+        )
 
     def take(self, batches: Mapping[str, Iterable[Raw]], offers: Mapping[str, Offer]) -> bool:
         """Insert what arrived; whether the transforms started over in the past."""
@@ -179,7 +179,7 @@ class TransformListener:
                 self._ask()
 
     def _ask(self) -> None:
-        self._asked += 1
+        self._subscriber.ask()
         self._asked_at = self._clock()
 
     def _review(self, offers: Mapping[str, Offer], now_ns: int) -> dict[str, Status]:

@@ -97,7 +97,8 @@ class Runner:
         self._painter.order = order
 
     def hide(self) -> None:
-        """Draw nothing until the next call of `draw`; messages are kept."""
+        """Draw nothing until the next call of `draw`; messages are kept, latched ones read anew."""
+        self._holder.inputs.ask()
         self._painter.hide()
         self._gripping.hide()
 

@@ -4,6 +4,7 @@ from webviz.engine.sources.gate import AllowList, Gate, Rights
 from webviz.engine.sources.graph import Goal, Graph, Missing, NotConnected, Outlet, ReadOnly
 from webviz.engine.sources.inbox import Inbox, Raw
 from webviz.engine.sources.source import Offer, Publisher, Source, Subscription, merged
+from webviz.engine.sources.subscriber import Subscriber
 
 __all__ = [
     "AllowList",
@@ -20,6 +21,7 @@ __all__ = [
     "ReadOnly",
     "Rights",
     "Source",
+    "Subscriber",
     "Subscription",
     "merged",
 ]

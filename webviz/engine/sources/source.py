@@ -19,7 +19,7 @@ class Subscription:
         type: the message type, such as "nav_msgs/msg/Path".
         topic: full name, and the QoS that the user chose.
         latched: transient local, whatever publishers offer.
-        asked: increased to make publishers repeat latched messages.
+        asked: increased to make publishers repeat latched messages; see `Subscriber`.
     """
 
     type: str

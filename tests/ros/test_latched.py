@@ -1,0 +1,105 @@
+"""Latched messages reach every reader of a topic, also the second one, over DDS."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+from webviz.data.messages import encode
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.edges.ros.node import RosSource
+from webviz.edges.ros.talker import Talker
+from webviz.engine.commands import AddPanel, Command, InspectTopics, OpenPanels, SetProperty
+from webviz.engine.loop import FrameLoop
+from webviz.engine.state import State
+from webviz.files.config import Config, Settings
+from webviz.panels.joints import Joints
+from webviz.shell.testing.recording import RecordingScene
+from webviz_displays.robot_model import RobotModel
+
+TOPIC = "/robot_description"
+STRING = "std_msgs/msg/String"
+
+
+class Looking:
+    """A viewer on ROS that shows a robot of the topic."""
+
+    def __init__(self, domain: int) -> None:
+        self.states: list[State] = []
+        self.talker = Talker("robot_state_publisher", domain)
+        self.publisher = self.talker.open(TOPIC, STRING, latched=True)
+        self.describe("box")
+        self.source = RosSource(domain_id=domain)
+        config = Config(Settings(fixed_frame="base"), [RobotModel(), RobotModel()])
+        scene = RecordingScene()
+        self.loop = FrameLoop(config, self.source, scene, self.states.append, strict=True)
+
+    def describe(self, name: str) -> None:
+        self.publisher.publish(encode(STRING, {"data": urdf(name)}))
+
+    def do(self, command: Command) -> None:
+        answer = self.loop.enqueue(command)
+        self.until(answer.done)
+        answer.result(0)
+
+    def send(self, command: Command, browser: int | None = None) -> None:
+        """For panels that send nothing."""
+        raise AssertionError(command)
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        deadline = time.monotonic() + 60
+        while not condition():
+            assert time.monotonic() < deadline, self.states[-1].rows
+            self.loop.turn()
+            self.source.inbox.arrived.wait(0.02)
+
+    def shows(self, index: int, name: str) -> bool:
+        return f"'{name}'" in str(self.states[-1].rows[index].statuses)
+
+    def close(self) -> None:
+        self.loop.close()
+        self.source.close()
+        self.talker.close()
+
+
+def urdf(link: str) -> str:
+    return f'<robot name="{link}"><link name="base"/><link name="{link}"/></robot>'
+
+
+@pytest.fixture
+def looking(webviz_domain: int) -> Iterator[Looking]:
+    looking = Looking(webviz_domain)
+    try:
+        looking.loop.turn()
+        looking.until(lambda: looking.shows(0, "box") and looking.shows(1, "box"))
+        yield looking
+    finally:
+        looking.close()
+
+
+def test_a_panel_gets_what_a_display_has_read_before(looking: Looking) -> None:
+    looking.do(AddPanel("Joints"))
+    panel = looking.states[-1].panels[0].panel
+    assert isinstance(panel, Joints)
+    panel.build(RecordedUi(), looking.send)
+    looking.do(OpenPanels(frozenset({"Joints"})))
+    looking.until(lambda: panel.text == urdf("box"))
+
+
+def test_the_panel_of_topics_gets_what_a_display_has_read_before(looking: Looking) -> None:
+    looking.do(InspectTopics(frozenset({TOPIC})))
+    looking.until(lambda: looking.states[-1].inspected[TOPIC].message is not None)
+
+
+def test_a_display_that_was_disabled_gets_what_it_missed(looking: Looking) -> None:
+    rows = looking.states[-1].rows
+    looking.do(SetProperty(rows[0].id, "enabled", False))
+    looking.describe("ball")
+    looking.until(lambda: looking.shows(1, "ball"))
+    looking.do(SetProperty(rows[0].id, "enabled", True))
+    looking.until(lambda: looking.shows(0, "ball"))
