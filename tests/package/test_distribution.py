@@ -55,7 +55,7 @@ def test_every_file_of_the_packages_is_installed() -> None:
 
 def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
     about = metadata.metadata("webviz")
-    text = about.get_payload()
+    text = about.json["description"]
     assert isinstance(text, str)
     assert "## Two commands" in text
     links = re.findall(r"\]\(([^)]*)\)", text)
