@@ -1,0 +1,61 @@
+"""The programs and commands of the documentation, run as they stand there."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from doc_blocks import CONFIG, Block, blocks
+from program import Program
+
+pytest.importorskip("rclpy", reason="needs rclpy")
+
+PROGRAMS = [each for each in blocks("python") if "webviz.Viewer(" in each.text]
+TESTS = [each for each in blocks("python") if "\ndef test_" in each.text]
+
+
+@pytest.mark.parametrize("block", PROGRAMS, ids=str)
+def test_a_program_shows_its_page_until_ctrl_c(
+    block: Block, tmp_path: Path, ros_env: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("lab.yaml").write_text(CONFIG.text)
+    # The default port may be taken.
+    shown = block.text.replace('("lab.yaml")', '("lab.yaml", port=0)')
+    lines = shown.replace("viewer.wait()", "print(viewer.url, flush=True)\n    viewer.wait()")
+    program = Program([sys.executable, "-c", lines], ros_env, tmp_path / "output.txt")
+    program.url()
+    assert program.end(signal.SIGINT) == 0, program.output()
+    assert "Traceback" not in program.output()
+
+
+def test_ros_parameters_name_config_frame_and_saved_view(
+    start: Callable[..., Program], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (line,) = [
+        line.partition("#")[0].split()
+        for block in blocks("sh")
+        for line in block.text.splitlines()
+        if "config_file:=" in line
+    ]
+    monkeypatch.chdir(tmp_path)
+    Path("lab.yaml").write_text(CONFIG.text)
+    program = start("webviz", "--port", "0", *line[1:])
+    program.url()
+    assert program.end() == 0, program.output()
+
+
+@pytest.mark.parametrize("block", TESTS, ids=str)
+def test_the_tests_for_a_package_pass_with_their_pictures(
+    block: Block, tmp_path: Path, ros_env: dict[str, str]
+) -> None:
+    (tmp_path / "lab.yaml").write_text(CONFIG.text)
+    (tmp_path / "test_robot.py").write_text(block.text)
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--update-pictures"]
+    program = Program([*command, str(tmp_path)], ros_env, tmp_path / "output.txt")
+    program.process.wait(180)
+    assert program.process.returncode == 0, program.output()
+    assert {path.name for path in (tmp_path / "pictures").iterdir()} == {"scan.png", "costs.png"}

@@ -1,0 +1,73 @@
+"""Commands, configs and programs in the documentation are valid.
+
+`tests/e2e/test_doc_programs.py` runs the programs.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import shlex
+import subprocess
+from pathlib import Path
+
+import pytest
+from doc_blocks import CONFIG, ROOT, Block, blocks
+
+from webviz.files import opening
+from webviz.shell.cli.main import app, split_ros_arguments
+from webviz.shell.cli.options import ConfigOptions
+
+
+def commands(program: str) -> list[tuple[str, str]]:
+    """Place and arguments of each command of a program."""
+    found: list[tuple[str, str]] = []
+    for block in blocks("sh"):
+        for line in block.text.replace("\\\n", " ").splitlines():
+            for part in line.split("#")[0].split("&&"):
+                name, _, arguments = part.strip().partition(" ")
+                if Path(name).name == program:
+                    found.append((str(block), arguments.strip()))
+    return found
+
+
+@pytest.mark.parametrize(("place", "arguments"), commands("webviz"))
+def test_every_option_of_a_command_exists_and_fits_the_config(
+    place: str, arguments: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("lab.yaml").write_text(CONFIG.text)
+    own, _ = split_ros_arguments(shlex.split(arguments))
+    _, given, _ = app.parse_args(own, exit_on_error=False, print_error=False)
+    for options in given.arguments.values():
+        if isinstance(options, ConfigOptions) and options.display_config == Path("lab.yaml"):
+            options.read(options.display_config)
+
+
+@pytest.mark.parametrize(("place", "arguments"), commands("make"))
+def test_every_target_of_make_exists(place: str, arguments: str) -> None:
+    planned = subprocess.run(
+        ["make", "--dry-run", *shlex.split(arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert planned.returncode == 0, planned.stderr
+
+
+@pytest.mark.parametrize(
+    "block", [b for b in blocks("yaml") if b.page.parent.name != "examples"], ids=str
+)
+def test_every_config_is_read_without_a_complaint(block: Block, tmp_path: Path) -> None:
+    file = tmp_path / "lab.yaml"
+    file.write_text(block.text if "version:" in block.text else f"version: 1\n{block.text}")
+    assert opening.load(file).report == []
+
+
+@pytest.mark.parametrize("block", blocks("python"), ids=str)
+def test_every_name_that_a_program_imports_exists(block: Block) -> None:
+    for statement in ast.walk(ast.parse(block.text)):
+        if isinstance(statement, ast.ImportFrom):
+            module = importlib.import_module(statement.module or "")
+            assert [a.name for a in statement.names if not hasattr(module, a.name)] == []
