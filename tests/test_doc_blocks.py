@@ -15,7 +15,7 @@ import pytest
 from doc_blocks import CONFIG, ROOT, Block, blocks
 
 from webviz.files import opening
-from webviz.shell.cli.main import app, split_ros_arguments
+from webviz.shell.cli.commands import app, split_ros_arguments
 from webviz.shell.cli.options import ConfigOptions
 
 

@@ -11,8 +11,10 @@ import demo_picture
 import PIL.Image
 import pytest
 
+import webviz
 from webviz.api.registry import display_types
 from webviz.shell import docs
+from webviz.shell.reference import ENVIRONMENT
 
 GUIDES = [docs.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")]
 DOCUMENTS = sorted([*docs.PAGES.rglob("*.md"), *GUIDES])
@@ -36,6 +38,19 @@ def anchors(text: str) -> set[str]:
 def test_a_page_is_as_the_declarations_say(name: str) -> None:
     written = (docs.PAGES / name).read_text(encoding="utf-8")
     assert written == GENERATED[name], f"run {docs.COMMAND} and commit displays/docs"
+
+
+def test_every_environment_variable_is_in_the_reference() -> None:
+    sources = [path for name in ("webviz", "urdf") for path in (docs.ROOT / name).rglob("*.py")]
+    text = "".join(path.read_text(encoding="utf-8") for path in sources)
+    used = {*re.findall(r"WEBVIZ_[A-Z]+(?:_[A-Z]+)*(?!_)\b", text), *re.findall(r"XDG_\w+", text)}
+    assert len(used) > 4
+    assert used <= {*ENVIRONMENT}
+
+
+def test_every_name_of_the_api_is_described() -> None:
+    headings = re.findall(r"^## (\w+)\n\n(.*)$", GENERATED["api.md"], re.MULTILINE)
+    assert [name for name, text in headings if len(text) > 10] == sorted(webviz.__all__)
 
 
 def test_there_is_no_page_of_a_display_that_is_gone() -> None:

@@ -1,8 +1,9 @@
 """Writes the documentation that is generated from declarations: `make docs`.
 
-That is: the pages on displays and tools; the schema of config files; and, for .rviz files
-given as arguments, the page on their support. Explanations of statuses and differences from RViz2
-are in `notes.yaml` next to the pages; the pictures are those of `tests/pictures`.
+That is: the pages on displays and tools; those on commands, keys and the Python API; the schema of
+config files; and, for .rviz files given as arguments, the page on their support. Explanations of
+statuses and differences from RViz2 are in `notes.yaml` next to the pages; the pictures are those of
+`tests/pictures`.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs_of
 from webviz.files.rviz import docs as rviz
 from webviz.files.rviz.docs import table
+from webviz.shell import reference
 from webviz.shell.cli import schema
 
 ROOT = Path(__file__).parents[2]
@@ -68,6 +70,8 @@ def pages() -> dict[str, str]:
     return found | {
         "README.md": index(types, notes["every display"]),
         "tools.md": tools_page(built_in(Tool)),
+        "reference.md": reference.reference_page(),
+        "api.md": reference.api_page(),
     }
 
 
@@ -134,7 +138,10 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
     lines += table(("display", "shows"), rows)
     lines += ["", "There are [tools](tools.md), too, and panels and tools "]
-    lines[-1] += "[of your own](examples/README.md)."
+    lines[-1] += "[of your own](examples/README.md). [Commands, options, keys of the config, and "
+    lines[-1] += (
+        "environment variables](reference.md), and [the Python API](api.md), have pages, too."
+    )
     lines += ["", "Where something looks wrong on a robot:", ""]
     for path in sorted((PAGES / "stories").glob("*.md")):
         title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")

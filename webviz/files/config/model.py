@@ -49,10 +49,8 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
         msgspec.Meta(max_length=50),
         Prop(help="Namespaces of robots that publish /tf with frames of the same names."),
     ] = ()
-    view: View = Orbit()
-    """The view new browsers start with."""
-    views: dict[str, View] = {}
-    """Saved views by name."""
+    view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
+    views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
     rviz: Annotated[
         dict[str, Any], Prop(help="Unsupported parts of a .rviz file, kept for export.")
     ] = {}  # msgspec copies it

@@ -17,6 +17,6 @@ def program() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command, by default that of `sys.argv`, and return its exit status."""
-    from webviz.shell.cli.main import run
+    from webviz.shell.cli.commands import run
 
     return run(arguments)

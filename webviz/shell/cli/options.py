@@ -26,7 +26,7 @@ Plugins = Annotated[
     Parameter(metavar="FILE", help="Load displays from a Python file (repeatable)."),
 ]
 RosArgs = Annotated[Sequence[str], Parameter(parse=False)]
-"""Arguments for ROS, split off by `webviz.shell.cli.main` before parsing."""
+"""Arguments for ROS, split off by `webviz.shell.cli.commands` before parsing."""
 MESH_ROOT = "WEBVIZ_MESH_ROOT"
 """Environment variable for the folders of --mesh-root, separated by colons."""
 ROS_ARGS_HELP = "Arguments after --ros-args, up to `--` or the end, are passed to ROS."

@@ -28,7 +28,7 @@ def main(started_s: float, arguments: list[str]) -> int:
 
         setattr(owner, name, run)
 
-    from webviz.shell.cli.main import run
+    from webviz.shell.cli.commands import run
 
     times["command line"] = time.time() - started_s
     import webviz.edges.scene
