@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from webviz import Color, Context, Details, Display, Hit, Prop, Sample
 from webviz.data.transforms import REACH_M
-from webviz_displays.shared.colors import LineAlpha, faded_color
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 from webviz_displays.shared.geometry import Metres
 
@@ -49,7 +49,7 @@ class Grid(Display):
         ),
     ] = 0.03
     color: Annotated[Color, Prop(help="Colour of the lines.")] = (160, 160, 164)
-    alpha: LineAlpha = 0.5
+    alpha: Annotated[Alpha, Prop(help="Opacity of the lines.")] = 0.5
     plane: Annotated[
         Literal["XY", "XZ", "YZ"], Prop(help="Plane of the frame in which the grid lies.")
     ] = "XY"
@@ -71,10 +71,9 @@ class Grid(Display):
             ctx.error("Grid", problem)
             return
         segments = self.cell_size * _unit_grid(plane, normal, self.plane) + np.array(self.offset)
-        color = faded_color(self.color, self.alpha)
         group = ctx.follow(frame_of(self.reference_frame))
         width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
-        group.lines("grid", segments, color, width, unit)
+        group.lines("grid", segments, self.color, width, unit, opacity=self.alpha)
         if (plane, normal) == wanted:
             ctx.ok("Grid", f"{_count(plane, normal)} lines.")
             return

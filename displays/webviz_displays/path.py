@@ -27,7 +27,7 @@ from webviz.data import messages
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import Rows, evenly
-from webviz_displays.shared.colors import LineAlpha, faded_color
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres, along_x, is_drawable, origin_near, transformed
 
 F64 = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Path(Display):
         Prop(ge=0.001, unit="m", when=("line_style", "Billboards"), help="Width of the line."),
     ] = 0.03
     color: Annotated[Color, Prop(help="Colour of the line.")] = (25, 255, 0)
-    alpha: LineAlpha = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity of the line.")] = 1.0
     buffer_length: Annotated[int, Prop(ge=1, help="How many of the newest paths to show.")] = 1
     offset: Annotated[
         tuple[float, float, float],
@@ -114,12 +114,12 @@ class Path(Display):
         corner = transformed(sample.pose, [origin])[0] + self.offset
         group = ctx.follow(None, offset=Pose(tuple(corner.tolist()), sample.pose.wxyz))
         xyz = positions - origin
-        color = faded_color(self.color, self.alpha)
         if self.alpha == 0:
             ctx.warn("Path", "The line is invisible: alpha is 0. Increase it to show the line.")
         else:
             width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
-            group.strip("line", xyz, color, width, unit, None if rows is None else rows[:-1])
+            ids = None if rows is None else rows[:-1]
+            group.strip("line", xyz, self.color, width, unit, ids, self.alpha)
         if self.pose_style != "None":
             self._draw_poses(xyz, orientations, rows, group, ctx)
 

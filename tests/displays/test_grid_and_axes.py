@@ -22,7 +22,8 @@ def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
     assert node.segments.shape == (22, 2, 3)  # 11 lines each way
     assert node.segments.min(axis=(0, 1)).tolist() == [-5, -5, 0]
     assert node.segments.max(axis=(0, 1)).tolist() == [5, 5, 0]
-    assert (node.colors, node.width, node.unit) == ((104, 104, 106), 1.0, "px")
+    assert (node.colors, node.opacity) == ((160, 160, 164), 0.5)
+    assert (node.width, node.unit) == (1.0, "px")
     assert made.statuses()["Grid"][0] == "OK"
 
 

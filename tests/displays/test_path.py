@@ -70,7 +70,7 @@ def test_colour_and_alpha_change_what_is_drawn_already(shown: Benches) -> None:
     bench.set("color", (248, 48, 48))
     assert bench.nodes()["line"].colors == (248, 48, 48)
     bench.set("alpha", 0.5)
-    assert bench.nodes()["line"].colors == (148, 48, 48)
+    assert bench.nodes()["line"].opacity == 0.5
 
 
 def test_of_a_path_of_very_many_poses_some_are_drawn_and_it_is_said(

@@ -6,6 +6,7 @@ import io
 import json
 import struct
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -182,13 +183,42 @@ def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(node: Node, view: 
     assert np.abs(np.subtract(view.color_at((0.0, 0.0, 0.0)), COLOR)).max() <= 12
 
 
-def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_round(view: Any) -> None:
+@pytest.mark.parametrize("unit", ["px", "m"])
+def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) -> None:
+    """Once, also in the bend of a line with a width in metres."""
+    cells = np.full((2, 2, 4), (230, 240, 250, 128), np.uint8)
+    width = 0.8 if unit == "m" else 40.0
+    straight, corner = floats((-2, 0, 0), (0, 0, 0)), floats((0, 0, 0), (0, 2, 0))
+    view.scene.set_pose("map", Pose((-0.5, -1.0, 0.0)))
+    view.scene.upsert("map", "it", Image(cells, 3.0, 1.8))
+    lines = Lines(np.stack((straight, corner)), COLOR, width, unit, opacity=0.25)
+    view.scene.upsert("base_link", "it", lines)
+    view.show()
+    tile = (0.75, 0.5, 0.0)
+    view.wait_for(lambda: view.draw(1) or view.color_at(tile) != BACKGROUND)
+    empty, drawn = (-1.5, 0.0, 0.0), (0.0, 0.7, 0.0)
+    places = [empty, drawn] + ([(0.25, -0.1, 0.0), (-0.1, 0.3, 0.0)] if unit == "m" else [])
+    below = [BACKGROUND] + [view.color_at(tile)] * (len(places) - 1)
+    for place, behind in zip(places, below, strict=True):
+        blended = 0.25 * np.array(COLOR) + 0.75 * np.array(behind)
+        assert view.color_at(place) == near(blended), place
+    view.scene.upsert("base_link", "it", replace(lines, opacity=1.0))
+    view.show()
+    assert view.color_at(drawn) == COLOR
+
+
+def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_mitred(view: Any) -> None:
     straight, corner = floats((-2, 0, 0), (0, 0, 0)), floats((0, 0, 0), (0, 2, 0))
     view.scene.upsert("base_link", "it", Lines(np.stack((straight, corner)), COLOR, 0.8, "m"))
     view.show()
-    inside = ((-1.9, 0.35, 0.0), (-1.9, -0.35, 0.0), (0.35, 1.9, 0.0), (0.2, -0.2, 0.0))
-    outside = ((-2.1, 0.0, 0.0), (0.0, 2.1, 0.0), (0.35, -0.35, 0.0))
+    inside = ((-1.9, 0.35, 0.0), (-1.9, -0.35, 0.0), (0.35, 1.9, 0.0), (0.35, -0.35, 0.0))
+    outside = ((-2.1, 0.0, 0.0), (0.0, 2.1, 0.0), (0.45, -0.45, 0.0))
     assert [view.color_at(point) for point in (*inside, *outside)] == [COLOR] * 4 + [BACKGROUND] * 3
+    back = floats((0, 0, 0), (-2, 0.5, 0))
+    view.scene.upsert("base_link", "it", Lines(np.stack((straight, back)), COLOR, 0.8, "m"))
+    view.show()
+    colors = [view.color_at(point) for point in ((0.35, 0.0, 0.0), (0.35, -0.35, 0.0))]
+    assert colors == [COLOR, BACKGROUND]
 
 
 EMPTY = np.zeros((0, 2, 3), np.float32)

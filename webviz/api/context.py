@@ -103,9 +103,12 @@ class Group:
         width: float = 1.0,
         unit: Literal["px", "m"] = "px",
         ids: Ids | None = None,
+        opacity: float = 1.0,
     ) -> None:
         """Draw independent segments; see `webviz.api.nodes.Lines`."""
-        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), _colors(colors), width, unit, ids)
+        self.nodes[key] = nodes.Lines(
+            _f32(segments, 2, 3), _colors(colors), width, unit, ids, opacity
+        )
 
     def strip(
         self,
@@ -115,11 +118,12 @@ class Group:
         width: float = 1.0,
         unit: Literal["px", "m"] = "px",
         ids: Ids | None = None,
+        opacity: float = 1.0,
     ) -> None:
         """Draw one line through points, float (N, 3), with an id for each segment."""
         points = _f32(xyz, 3)
         segments = np.stack([points[:-1], points[1:]], axis=1)
-        self.nodes[key] = nodes.Lines(segments, color, width, unit, ids)
+        self.nodes[key] = nodes.Lines(segments, color, width, unit, ids, opacity)
 
     def arrows(
         self,

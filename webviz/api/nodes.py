@@ -93,6 +93,7 @@ class Lines(_Node):
         width: in `unit`.
         unit: "px" is constant on the screen, "m" in the world.
         ids: (N,), such as the index of each in the message; None numbers them from 0.
+        opacity: 0 to 1, drawn in steps of 1/255.
     """
 
     segments: F32
@@ -100,6 +101,7 @@ class Lines(_Node):
     width: float = 1.0
     unit: Literal["px", "m"] = "px"
     ids: Ids | None = field(default=None, compare=False)
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from webviz import (
     compose,
 )
 from webviz.data.words import counted
-from webviz_displays.shared.colors import LineAlpha, faded_color
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import is_drawable, origin_near
 from webviz_displays.shared.history import HistoryLength
 
@@ -35,7 +35,7 @@ class Polygon(Display):
         Topic, Input("geometry_msgs/msg/PolygonStamped"), Prop(help="Topic of the polygons.")
     ] = Topic("/local_costmap/published_footprint")
     color: Annotated[Color, Prop(help="Colour of the outline.")] = (25, 255, 0)
-    alpha: LineAlpha = 1.0
+    alpha: Annotated[Alpha, Prop(help="Opacity of the outline.")] = 1.0
     history_length: HistoryLength = 1
 
     def draw(self, sample: Sample, ctx: Context) -> None:
@@ -64,7 +64,7 @@ class Polygon(Display):
         origin = origin_near(points)
         group = ctx.follow(None, offset=compose(sample.pose, Pose(origin)))
         corners = np.append(points, points[:1], axis=0) - origin
-        group.strip("outline", corners, faded_color(self.color, self.alpha))
+        group.strip("outline", corners, self.color, opacity=self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """A side, from one corner to the next."""

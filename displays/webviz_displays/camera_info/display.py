@@ -25,7 +25,7 @@ from webviz.data.images import (
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
-from webviz_displays.shared.colors import Alpha, faded_color
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres
 
 EDGE_M = 0.01
@@ -125,8 +125,8 @@ class CameraInfo(Display):
         )
         if self.alpha > 0 and self.show_edges:
             pairs = [(0, 1), (0, 2), (0, 3), (0, 4), (1, 2), (2, 3), (3, 4), (4, 1)]
-            color = faded_color(self.edge_color, self.alpha)
-            group.lines("edges", points[np.array(pairs)], color, EDGE_M, "m")
+            edges = points[np.array(pairs)]
+            group.lines("edges", edges, self.edge_color, EDGE_M, "m", opacity=self.alpha)
         if self.alpha > 0 and self.show_polygons and not self._hides_polygons():
             faces = _END if self.not_show_side_polygons else np.concatenate((_SIDES, _END))
             both = np.concatenate((faces, faces[:, ::-1]))  # seen from both sides

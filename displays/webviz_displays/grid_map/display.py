@@ -26,7 +26,7 @@ from webviz import (
 from webviz.data.words import listed
 from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_layers
 from webviz_displays.grid_map.surface import faces_of, lines_of, places
-from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, faded_color, ramp
+from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, ramp
 from webviz_displays.shared.geometry import LONGEST
 from webviz_displays.shared.points_display import MaxColor, MaxIntensity, MinColor, MinIntensity
 
@@ -185,7 +185,7 @@ class GridMap(Display):
         if self.show_grid_lines and is_valid.any():
             lines = lines_of(points, is_valid, self.grid_cell_decimation)
             width = min(self.grid_line_thickness * resolution, LONGEST)
-            group.lines("lines", lines, faded_color((0, 0, 0), self.alpha), width, "m")
+            group.lines("lines", lines, (0, 0, 0), width, "m", opacity=self.alpha)
 
     def _report(self, layers: Layers, is_valid: Mask, step: int, ctx: Context) -> None:
         rows, columns = layers.shape

@@ -16,7 +16,7 @@ from webviz_displays.shared.colors import faded
 
 
 def lines_of(batch: MarkerBatch) -> dict[str, Node]:
-    """A node for the lines of each width."""
+    """A node for the lines of each width and opacity."""
     widths, counts = batch.scales[:, 0], batch.counts
     is_list = (batch.types == Marker.LINE_LIST) & (counts % 2 == 0)
     is_line = is_list | (batch.types == Marker.LINE_STRIP)
@@ -25,12 +25,15 @@ def lines_of(batch: MarkerBatch) -> dict[str, Node]:
         items = items_of(batch, np.flatnonzero(of_width))
         ends_of = _pairing(items.rows, is_list[items.rows])
         colors = ends_of(items.colors) if len(items.colors) > 1 else items.colors[None]
-        is_visible = (colors[..., 3] > 0.0).any(axis=1)
-        chosen = slice(None) if is_visible.all() else is_visible
-        if is_visible.any():
+        # A node has one opacity: that of a segment is the mean of its ends.
+        alphas = opacities(colors[..., 3]).mean(axis=1)
+        levels = np.ceil(255 * alphas - 1e-3).astype(np.uint8)
+        for level in np.unique(levels[levels > 0]).tolist():
+            chosen = slice(None) if (levels == level).all() else levels == level
             xyz = ends_of(items.xyz)[chosen].astype(np.float32)
             ids = batch.ids[ends_of(items.rows)[chosen, 0]]
-            nodes[f"lines {width:.6g}"] = Lines(xyz, _opaque(colors[chosen]), width, "m", ids)
+            key = f"lines {width:.6g}" + (f" {level}" if level < 255 else "")
+            nodes[key] = Lines(xyz, _one(rgb(colors[chosen])), width, "m", ids, level / 255)
     return nodes
 
 
@@ -94,12 +97,13 @@ def _by_value(
 
 def _opaque(colors: F32) -> U8 | Rgb:
     """Colours (..., 4) blended with the background by their alpha; one if all are equal."""
-    flat = colors.reshape(-1, 4)
+    return _one(faded(rgb(colors), opacities(colors[..., 3])[..., None]))
+
+
+def _one(colors: U8) -> U8 | Rgb:
+    """Return the colour of all if colours (..., 3) are equal, else the colours."""
+    flat = colors.reshape(-1, 3)
     if (flat == flat[0]).all():
-        red, green, blue = _mixed(flat[:1])[0].tolist()
+        red, green, blue = flat[0].tolist()
         return red, green, blue
-    return _mixed(colors)
-
-
-def _mixed(colors: F32) -> U8:
-    return faded(rgb(colors), opacities(colors[..., 3])[..., None])
+    return colors

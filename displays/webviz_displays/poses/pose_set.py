@@ -14,7 +14,7 @@ from webviz.data.rotations import matrices, normalized, w_first
 from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.poses.pose_display import placed
-from webviz_displays.shared.colors import Alpha, faded_color
+from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
 from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows, rods
@@ -70,7 +70,7 @@ class PoseSet:
         points = self.xyz[:, None] + x * turns[:, None, :, 0] + y * turns[:, None, :, 1]
         segments = points[:, [[0, 1], [1, 2], [1, 3]]].reshape(-1, 2, 3)
         self.group.lines(
-            "poses", segments, faded_color(color, alpha), ids=np.repeat(self.ids, len(_WINGS) - 1)
+            "poses", segments, color, ids=np.repeat(self.ids, len(_WINGS) - 1), opacity=alpha
         )
 
     def draw_arrows(

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from webviz import Prop, Rgb
+from webviz import Rgb
 
 U8 = NDArray[np.uint8]
 F64 = NDArray[np.float64]
@@ -30,11 +30,6 @@ RAINBOW: tuple[Rgb, ...] = (
 
 Alpha = Annotated[float, msgspec.Meta(ge=0, le=1)]
 """An opacity, for a `Prop` that says of what."""
-
-LineAlpha = Annotated[
-    Alpha, Prop(help="Lines are opaque in the browser; alpha fades them towards dark grey.")
-]
-"""A property: what `faded` takes."""
 
 _PART = 1 << 14
 """Values per block, so that intermediate arrays stay in the cache."""
@@ -101,7 +96,7 @@ def _table(stops: tuple[Rgb, ...]) -> NDArray[np.void]:
 def faded(colors: U8, alpha: float | F64) -> U8:
     """Colours (..., 3) blended with RViz's background; `alpha` is a scalar or (..., 1).
 
-    The browser draws points, lines and arrows opaque, so this stands in for their transparency.
+    The browser draws points and arrows opaque, so this stands in for their transparency.
     """
     if np.min(alpha, initial=1.0) >= 1.0:
         return colors

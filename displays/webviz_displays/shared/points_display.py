@@ -117,16 +117,16 @@ class PointStyle(Display):
             scales = size[:, None] if isinstance(size, np.ndarray) else size
             group.instances("solids", shape, xyz, scales, colors, wxyzs, self.alpha, is_data, ids)
             return
-        if isinstance(colors, tuple):
-            colors = faded_color(colors, self.alpha)
-        else:
-            colors = faded(colors, self.alpha)
         if self.style == "Points":
             dots = np.stack((xyz - _DOT / 2, xyz + _DOT / 2), axis=1)
             if not isinstance(colors, tuple):
                 colors = np.repeat(colors[:, None], 2, axis=1)
-            group.lines("points", dots, colors, self.size_pixels, ids=ids)
+            group.lines("points", dots, colors, self.size_pixels, ids=ids, opacity=self.alpha)
             return
+        if isinstance(colors, tuple):
+            colors = faded_color(colors, self.alpha)
+        else:
+            colors = faded(colors, self.alpha)
         outline = "circle" if self.style == "Spheres" else "square"
         if self.style in _SOLIDS:
             ctx.ok(

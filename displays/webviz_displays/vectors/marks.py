@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from webviz import Group, Rgb
 from webviz.data.rotations import matrices
-from webviz_displays.shared.colors import faded_color
 from webviz_displays.shared.rods import add_solid_arrows, rods
 
 F64 = NDArray[np.float64]
@@ -77,10 +76,11 @@ def add_turning(
     group.lines(
         f"{key} circles",
         segments,
-        faded_color(color, alpha),
+        color,
         CIRCLE_LINE * width,
         "m",
         np.repeat(vectors.ids, len(_CIRCLE) - 1),
+        alpha,
     )
     ends = points[:, -1]
     heads = np.stack((ends, ends + CIRCLE_HEAD * width * turns[:, :, 1]), axis=1)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from webviz import Group, Pose
 from webviz.data.rotations import matrices
-from webviz_displays.shared.colors import RAINBOW, faded, ramp
+from webviz_displays.shared.colors import RAINBOW, ramp
 from webviz_displays.shared.rods import add_solid_arrows, rods
 
 F64 = NDArray[np.float64]
@@ -94,9 +94,9 @@ def add_rings(group: Group, rings: Rings, width: float, scale: float, alpha: flo
     points += rings.centers[:, None]
     segments = np.stack((points[:, :-1], points[:, 1:]), axis=2)
     count = segments.shape[1]
-    shades = np.repeat(faded(colors, alpha), 2 * count, axis=0).reshape(-1, 2, 3)
+    shades = np.repeat(colors, 2 * count, axis=0).reshape(-1, 2, 3)
     names = np.repeat(rings.names, count)
-    group.lines("rings", segments.reshape(-1, 2, 3), shades, width, "m", names)
+    group.lines("rings", segments.reshape(-1, 2, 3), shades, width, "m", names, alpha)
     starts = points[:, 0]
     heads = np.stack((starts, starts - HEAD * width * frames[:, :, 0]), axis=1)
     sizes = 0.0, HEAD * width, HEAD * width

@@ -7,6 +7,7 @@ from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, R
 from webviz.edges.access import rules
 from webviz.edges.page.messages import MAX_PANES
 from webviz.edges.scene.holding import FEWEST_POINTS, MOST_POINTS
+from webviz.edges.scene.lines import OPACITY_BIT
 from webviz.edges.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.edges.scene.points import PART
 
@@ -25,6 +26,7 @@ CONSTANTS = {
     "MOST_POINTS": MOST_POINTS,
     "MAX_PANES": MAX_PANES,
     "DARKEST": DARKEST,
+    "OPACITY_BIT": OPACITY_BIT,
     "RAISED": RAISED,
     "EYE": EYE,
     "FIELD_OF_VIEW": FIELD_OF_VIEW,

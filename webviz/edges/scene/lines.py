@@ -11,6 +11,9 @@ from webviz.edges.scene.drawn import Props, SingleNode, finite, rgb_array
 _NOTHING = np.zeros((0, 2, 3), np.float32)
 _BLACK = np.zeros(3, np.uint8)
 
+OPACITY_BIT = 40
+"""Binary place of the opacity in the width of lines: far below what float32 resolves."""
+
 
 class LinesDrawn(SingleNode[Lines]):
     """Lines as viser's line segments."""
@@ -27,7 +30,7 @@ class LinesDrawn(SingleNode[Lines]):
         return (
             props,
             {
-                "thickness": float(node.width),
+                "thickness": _with_opacity(node.width, node.opacity),
                 "thickness_units": "screen" if node.unit == "px" else "world",
             },
         )
@@ -52,6 +55,14 @@ class ArrowsDrawn(SingleNode[Arrows]):
                 "head_length": float(node.head_length),
             },
         )
+
+
+def _with_opacity(width: float, opacity: float) -> float:
+    """Return a width whose last bits are an opacity, in steps of 1/255.
+
+    viser's lines are opaque. Their width reaches the page as a double, which lines.js makes use of.
+    """
+    return float(np.float32(width)) * (1.0 + round(255 * (1.0 - opacity)) * 2.0**-OPACITY_BIT)
 
 
 def linear(colors: U8) -> U8:
