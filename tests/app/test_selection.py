@@ -246,6 +246,17 @@ def test_boxes_select_and_keys_add_and_remove(
     tab.keyboard.press("f")
     page.wait_for(lambda: np.allclose(on_screen(page, (1.0, 0.0)), middle(page), atol=2), "F")
 
+    viewer.do(SetProperty("display1", "selectable", False))
+
+    def is_passed_over() -> bool:
+        tab.mouse.click(*on_screen(page, (0.0, 0.0)))
+        return not tab.locator(TITLE).all_inner_texts()
+
+    page.wait_for(is_passed_over, "a display that is not selectable")
+    box(page, (-1.5, -1.5), (0.5, 0.5))
+    viewer.do(SetProperty("display1", "selectable", True))
+    page.wait_for(lambda: not is_passed_over(), "a display that is selectable again")
+
     viewer.do(RemoveDisplay("display1"))
     wait_for_titles(page, [])
     tab.keyboard.press("Escape")

@@ -420,7 +420,8 @@ def other_values(cls: type[Display], hint: Any, value: Any, folder: FilePath) ->
 def properties() -> Iterator[Any]:
     for cls in display_classes():
         for path, hint, condition in leaves(cls, cls(), "", {}):
-            if path != "name" and (cls.__name__, path) not in ELSEWHERE:
+            # What the tool Select picks is tried in a browser, see tests/app/test_selection.py.
+            if path not in ("name", "selectable") and (cls.__name__, path) not in ELSEWHERE:
                 yield pytest.param(cls, path, hint, condition, id=f"{cls.__name__}.{path}")
 
 

@@ -73,6 +73,7 @@ class PointStyle(Display):
             "towards dark grey."
         ),
     ] = 1.0
+    selectable: Annotated[bool, Prop(help="Let the tool Select pick points.")] = True
     decay_time: Annotated[
         float, Prop(ge=0, unit="s", help="How long to keep messages; 0 shows only the newest.")
     ] = 0.0

@@ -24,8 +24,11 @@ def selected(state: State, browser: str) -> Mapping[str, Any]:
 
 
 def picking(state: State, _: str) -> Mapping[str, Any]:
-    """Nothing: a page watches it while it is about to select."""
-    return {}
+    """The ids of displays that are not "selectable", each with False.
+
+    A page watches it while it is about to select.
+    """
+    return {row.id: False for row in state.rows if not getattr(row.display, "selectable", True)}
 
 
 def _of(browser: str, known: Mapping[int, Mapping[Any, Any]]) -> Mapping[Any, Any]:

@@ -20,6 +20,7 @@ const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camer
 let drag = null;
 let box = null;
 let endPicking = () => {};
+let unselectable = new Map(); // by the ids of displays
 
 export const select = {
   id: "select", name: "Select", shortcut: "s", icon: "select", order: 2, isLean: true, hint: HINT,
@@ -27,7 +28,7 @@ export const select = {
   pointer: follow,
   select() {
     // Meanwhile the server knows for a moment what it has replaced.
-    endPicking = watch("picking", () => {});
+    endPicking = watch("picking", (values) => (unselectable = values));
     window.addEventListener("keydown", onKey, { capture: true });
   },
   leave() {
@@ -90,7 +91,7 @@ function makeBox() {
 }
 
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
-  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MOST) : picked([clientX, clientY]);
+  const found = drag.isBox ? pickIn(boxTo(clientX, clientY), selection.MOST, isSelectable) : picked([clientX, clientY]);
   // At once: a moment later there may be another message.
   const find = finder();
   for (const pick of found.picks) outlineOf(pick, find, false);
@@ -109,9 +110,12 @@ function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
 }
 
 function picked(xy) {
-  const found = pickAt(xy);
+  const found = pickAt(xy, isSelectable);
   return { picks: found ? [found] : [], total: found ? 1 : 0 };
 }
+
+// The group of a node begins with the id of its display.
+const isSelectable = ({ node }) => !unselectable.has(node.group.split("/", 1)[0]);
 
 function cancel() {
   if (drag && canvas().hasPointerCapture(drag.pointer)) canvas().releasePointerCapture(drag.pointer);

@@ -35,13 +35,15 @@ export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   return best && described(best, caster);
 }
 
-/** All things whose middle is in a box of the window, the first `most`, and how many there are. */
-export function pickIn({ left, top, right, bottom }, most) {
+/**
+ * All wanted things whose middle is in a box of the window, the first `most`, and how many there are.
+ */
+export function pickIn({ left, top, right, bottom }, most, isWanted = () => true) {
   const { left: x, top: y } = viser.canvas().getBoundingClientRect();
   const box = { left: left - x, top: top - y, right: right - x, bottom: bottom - y };
   const picks = [];
   let total = 0;
-  for (const thing of things()) {
+  for (const thing of things().filter(isWanted)) {
     const take = (number) => {
       if (picks.length < most) picks.push(described({ ...thing, number }));
       total += 1;
