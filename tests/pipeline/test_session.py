@@ -15,6 +15,7 @@ from webviz.api.declared import Topic, to_values
 from webviz.api.group import DisplayGroup
 from webviz.engine.commands import (
     AddDisplay,
+    AddPanel,
     Command,
     DuplicateDisplay,
     Export,
@@ -75,6 +76,16 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
     do(b, SetProperty("display1", "length", 2.5))
     do(b, Save())
     assert "length: 2.5" in (folder / "lab.yaml").read_text()
+
+
+def test_what_rvizs_format_cannot_hold_is_named_when_saving(
+    folder: Path, bench: Callable[..., Any]
+) -> None:
+    b = bench(Axes(name="A"))
+    do(b, AddPanel("Plot"))
+    answer = b.ask(Save("lab.rviz"))
+    assert answer.startswith("Saved lab.rviz. ")
+    assert answer.endswith(" Plot: Plot: skipped, because RViz has no such panel.")
 
 
 def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Callable[..., Any]) -> None:

@@ -69,7 +69,7 @@ def test_several_files_are_checked_at_once(
     bad.write_text("a: 1")
     assert convert("--check", small, whole) == 0
     printed = capsys.readouterr().out
-    assert f"{small}: 1 of 2 displays, 1 of 1 properties\n  Mine: my_plugins/Laser" in printed
+    assert f"{small}: 1 of 2 displays, 1 of 2 tools\n  Mine: my_plugins/Laser" in printed
     assert f"{whole}: complete\n" in printed
     assert "Complete: 1 of 2 files, 50 %\n" in printed
     assert convert("--check", bad, small) == 1
@@ -81,6 +81,26 @@ def test_several_files_are_checked_at_once(
     assert "--check needs .rviz files" in capsys.readouterr().err
     assert convert(small, whole, bad) == 2
     assert "--check for several files" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("panels", "manager", "missing"),
+    [
+        ("rviz_common/Displays", "Displays: []", ""),
+        ("my_plugins/Lamp", "Displays: []", "0 of 1 panels"),
+        ("rviz_common/Help", "Displays: [{Class: a/B}]", "0 of 1 displays"),
+        ("rviz_common/Time", "Tools: [{Class: a/B}]", "0 of 1 tools"),
+        ("rviz_common/Views", "Views: {Current: {Class: a/B}}", "0 of 1 views"),
+        ("rviz/Help", "Transformation: {Current: {Class: a/B}}", "0 of 1 properties"),
+    ],
+)
+def test_a_file_is_complete_if_all_of_it_is_supported(
+    panels: str, manager: str, missing: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.rviz"
+    path.write_text(f"Panels: [{{Class: {panels}}}]\nVisualization Manager: {{{manager}}}\n")
+    assert convert("--check", path) == 0
+    assert capsys.readouterr().out.splitlines()[0] == f"{path}: {missing or 'complete'}"
 
 
 def test_mistakes_are_one_sentence(

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from webviz.api.declared import to_values
+from webviz.api.declared import Topic, to_values
 from webviz.api.display import Display
 from webviz.files import rviz
 from webviz.files.config import Branch, Config, ConfigError, Unreadable, dump
@@ -261,12 +261,11 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
         ("Alpha: 7", "Alpha: 7 is out of range, clamped to 1"),
         ("Topic: {Value: /a, Depth: deep}", "Topic/Depth: expected a number, got `deep`"),
         ("Glow: true", "Glow: unsupported"),
-        ("Selectable: false", "Selectable: every display can be selected"),
     ],
 )
 def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
     _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
-    at_line = "Scan" if what.endswith(("selected", "unsupported")) else "Scan (line 3)"
+    at_line = "Scan" if what.endswith("unsupported") else "Scan (line 3)"
     assert f"{at_line}: {what}" in said(report)
 
 
@@ -305,6 +304,70 @@ def test_a_choice_that_rviz_has_not_made_yet_is_auto_or_the_default() -> None:
     assert one("Color Transformer: ''", "PointCloud2").color_transformer == "Auto"
     _, report = opened("- {Class: rviz_default_plugins/LaserScan, Color Transformer: ''}\n")
     assert said(report) == ""
+
+
+@pytest.mark.parametrize(
+    ("cls", "key", "value"),
+    [
+        ("TwistStamped", "hide_small_values", True),
+        ("AccelStamped", "hide_small_values", True),
+        ("MarkerArray", "topic", Topic("visualization_marker_array")),
+        ("Effort", "robot_description", Topic("/robot_description")),
+        ("LaserScan", "selectable", True),
+    ],
+)
+def test_a_missing_property_has_rvizs_default_where_that_differs(
+    cls: str, key: str, value: object
+) -> None:
+    assert getattr(one("Name: A", cls), key) == value
+
+
+def test_cloud_that_cannot_be_selected_stays_so() -> None:
+    assert one("Selectable: false", "PointCloud2").selectable is False
+
+
+def test_depth_cloud_as_rviz_writes_it_is_whole() -> None:
+    text = """\
+        - Class: rviz_default_plugins/DepthCloud
+          Name: Depth
+          Channel Name: intensity
+          Color Image Topic: /rgb/image
+          Color Transport Hint: compressed
+          Depth Map Topic: /depth/image
+          Depth Map Transport Hint: raw
+          Queue Size: 2
+          Reliability Policy: Best effort
+          Topic Filter: true
+        """
+    config, report = opened(text)
+    cloud: Any = config.displays[0]
+    assert said(report) == ""
+    assert (cloud.topic.name, cloud.topic.depth) == ("/depth/image", 2)
+    assert cloud.color_topic.name == "/rgb/image/compressed"
+    assert cloud.channel_name == "z"
+    assert (report.carried["properties"], report.total["properties"]) == (6, 6)
+
+
+def test_policy_of_a_depth_cloud_is_that_of_its_images() -> None:
+    text = "Depth Map Topic: /depth\nReliability Policy: Reliable"
+    assert one(text, "DepthCloud").topic.reliability == "reliable"
+    assert one("Depth Map Topic: /depth", "DepthCloud").topic.reliability == "auto"
+
+
+def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
+    config, report = opened(
+        """\
+        - {Class: rviz/Camera, Image Topic: /image, Transport Hint: theora, Queue Size: 2}
+        - {Class: rviz/RobotModel, Robot Description: arm}
+        - {Class: rviz/InteractiveMarkers, Update Topic: /controls/update}
+        """
+    )
+    displays: list[Any] = list(config.displays)
+    camera, robot, markers = displays
+    assert (camera.topic.name, camera.camera_info_topic) == ("/image/theora", Topic())
+    assert robot.description_topic.name == "arm"
+    assert markers.interactive_markers_namespace == "/controls"
+    assert report.carried["properties"] == report.total["properties"]
 
 
 def test_what_has_no_effect_is_not_told() -> None:
@@ -349,8 +412,7 @@ def test_panels_and_tools_are_told_once() -> None:
     )
     sentences = said(report)
     assert sentences == (
-        "Panels and tools: Help, my_package/Lamp, my_package/Brush, Other: "
-        "unsupported; kept for export."
+        "Panels and tools: my_package/Lamp, my_package/Brush, Other: unsupported; kept for export."
     )
 
 

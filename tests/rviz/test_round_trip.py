@@ -19,6 +19,8 @@ from webviz.files import opening, rviz
 from webviz.files.config import Branch, Config, ConfigError, dump
 from webviz.files.opening import parse
 from webviz.files.rviz.tree import write
+from webviz.panels.nav2 import Nav2
+from webviz_displays.camera import Camera
 
 NASTY = """\
 Panels: ~
@@ -126,6 +128,14 @@ def test_real_files_come_back_whole(real_file: Path) -> None:
     assert list(lost(texts(text), texts(again(text)))) == []
 
 
+def test_real_files_mean_the_same_when_they_come_back(real_file: Path) -> None:
+    text = real_file.read_text()
+    config, back = (rviz.read(each, "x.rviz")[0] for each in (text, again(text)))
+    for each in (config, back):
+        each.settings.rviz = {}  # what comes back spells out more
+    assert dump(back) == dump(config)
+
+
 def test_nasty_files_come_back_whole() -> None:
     assert list(lost(texts(NASTY), texts(again(NASTY)))) == []
 
@@ -188,6 +198,50 @@ def test_a_new_file_hears_the_usual_publishers_and_has_panels_and_tools() -> Non
         "Durability Policy": "Volatile",
     }
     assert manager["Displays"][0]["Line Style"] == {"Line Width": 0.03, "Value": "Lines"}
+
+
+def test_qos_of_a_camera_and_the_form_of_its_topic_come_back() -> None:
+    text = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Camera
+      Topic: {Value: /a, Reliability Policy: Reliable}
+    - Class: rviz_default_plugins/Camera
+      Topic: /b
+"""
+    back = again(text)
+    assert list(lost(texts(text), texts(back))) == []
+    policy = {"auto"}
+    for config in (rviz.read(text, "x.rviz")[0], rviz.read(back, "x.rviz")[0]):
+        for camera in config.displays:
+            assert isinstance(camera, Camera)
+            assert {camera.topic.reliability, camera.camera_info_topic.reliability} == policy
+
+
+def test_all_that_a_rviz_file_cannot_hold_is_reported() -> None:
+    config = parse(
+        "robots: [one, two]\npublish: [/a]\n"
+        "panels: [{type: Plot}, {type: Joints}, {type: Nav2, namespace: one}]\n",
+        "x.yaml",
+    )
+    text, report = rviz.write(config)
+    assert report.sentences() == [
+        "Settings: publish, robots: not in RViz's format, so it is left out.",
+        "Plot: Plot: skipped, because RViz has no such panel.",
+        "Joints: Joints: skipped, because RViz has no such panel.",
+    ]
+    back, _ = rviz.read(text, "x.rviz")
+    (nav2,) = (each for each in back.panels if isinstance(each, Nav2))
+    assert nav2.namespace == "one"
+    back.panels = [each for each in back.panels if each is not nav2]
+    assert "Navigation 2" not in rviz.write(back)[0]
+
+
+def test_saving_as_rviz_returns_what_is_left_out(tmp_path: Path) -> None:
+    config = parse("robots: [one]", "x.yaml")
+    assert opening.save(config, tmp_path / "a.yaml") == []
+    (sentence,) = opening.save(config, tmp_path / "a.rviz")
+    assert sentence.startswith("Settings: robots: not in RViz's format")
 
 
 def scan(text: str) -> Config:

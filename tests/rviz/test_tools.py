@@ -197,3 +197,15 @@ Visualization Manager: {}
     every = [type(panel) for panel in all_panels()]
     assert [type(panel) for panel in config.panels] == [*every, Nav2]
     assert (report.carried["panels"], report.total["panels"]) == (3, 4)
+
+
+def test_deviations_of_ros_1_are_variances() -> None:
+    config, report = opened("[{Class: rviz_default_plugins/SetInitialPose, X std deviation: 0.2}]")
+    (estimate,) = (each for each in config.tools if isinstance(each, PoseEstimate))
+    assert estimate.covariance_x == pytest.approx(0.04)
+    assert report.sentences() == []
+    set_property(estimate, "covariance_x", 0.5)
+    (entry,) = written(config)
+    assert (entry["Covariance x"], entry["X std deviation"]) == (0.5, 0.2)
+    again, _ = rviz.read(rviz.write(config)[0], "x.rviz")
+    assert [each.covariance_x for each in again.tools if isinstance(each, PoseEstimate)] == [0.5]

@@ -171,3 +171,25 @@ def test_views_that_were_exported_are_imported_as_they_were(
     config = Config(Settings(view=view, views=saved))
     again = rviz.read(rviz.write(config)[0], "x.rviz")[0].settings
     assert (again.view, again.views) == (view, saved)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason", "counted"),
+    [
+        ("Near Clip Distance: 0.5", "the near plane follows from the distance", 1),
+        ("Enable Stereo Rendering: {Value: true}", "stereo is unsupported", 1),
+        ("Focal Shape Size: 1", "nothing marks the focal point", 0),
+        ("Focal Shape Fixed Size: false", "nothing marks the focal point", 0),
+    ],
+)
+def test_what_a_view_does_not_use_is_reported(text: str, reason: str, counted: int) -> None:
+    _, report = opened(f"Current: {{Class: rviz_default_plugins/Orbit, {text}}}\n")
+    key = text.partition(":")[0]
+    assert report.sentences() == [f"current view: {key}: {reason}; kept for export."]
+    assert report.total["properties"] == counted
+    assert report.is_complete is (counted == 0)
+
+
+def test_defaults_of_a_view_are_not_reported() -> None:
+    text = "Near Clip Distance: 0.009999999776482582, Focal Shape Size: 0.05000000074505806"
+    assert current(f"{{Class: rviz_default_plugins/Orbit, {text}}}")[1] == ""

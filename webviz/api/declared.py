@@ -38,6 +38,7 @@ def Prop(
     help: str = "",
     unit: str = "",
     rviz: str = "",
+    rviz_default: object = None,
     when: tuple[str, object] | None = None,
     widget: Literal["", "displays", "frame", "names"] = "",
     otherwise: str = "",
@@ -52,6 +53,7 @@ def Prop(
         help: one sentence, the tooltip of the control.
         unit: "m", "s", "px", ...
         rviz: RViz's name, if it differs from this name with spaces and capitals.
+        rviz_default: RViz's default, if it differs: what a .rviz file without the property means.
         when: (property, value) at which this property has an effect; several values as a tuple.
         widget: the control, if the type alone does not determine it; "frame" for the id of a frame,
             or for switches by the ids of frames; "names" for switches by names that the display
@@ -60,7 +62,9 @@ def Prop(
         gt, ge, lt, le: bounds.
     """
     hints = {"unit": unit, "rviz": rviz, "when": when, "widget": widget, "otherwise": otherwise}
-    extra = {key: value for key, value in hints.items() if value}
+    extra: dict[str, object] = {key: value for key, value in hints.items() if value}
+    if rviz_default is not None:
+        extra["rviz_default"] = rviz_default
     bounds: dict[str, Any] = {"gt": gt, "ge": ge, "lt": lt, "le": le}
     return msgspec.Meta(description=help or None, extra=extra, **bounds)
 

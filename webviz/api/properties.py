@@ -25,7 +25,7 @@ class Property:
         label: RViz's name, with the unit.
         help: one sentence, or "".
         unit: "m", "s", "px", ... or "".
-        rviz: see `webviz.Prop`.
+        rviz, rviz_default: see `webviz.Prop`.
         widget: see `webviz.Prop`.
         otherwise: path of the property that holds for names without a value here, or "".
         hint: its Python type without annotations.
@@ -42,6 +42,7 @@ class Property:
     help: str
     unit: str
     rviz: str
+    rviz_default: object
     widget: str
     otherwise: str
     hint: Any
@@ -105,6 +106,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
                 help=said.get("help", ""),
                 unit=said.get("unit", ""),
                 rviz=said.get("rviz", ""),
+                rviz_default=said.get("rviz_default"),
                 widget=said.get("widget", ""),
                 otherwise=prefix + other if (other := said.get("otherwise")) else "",
                 hint=bare(hint),

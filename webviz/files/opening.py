@@ -56,18 +56,25 @@ def text_of(config: Config, name: str) -> str:
     return rviz.write(config)[0] if is_rviz(Path(name)) else dump(config)
 
 
-def save(config: Config, path: Path) -> None:
+def save(config: Config, path: Path) -> list[str]:
     """Write a config file, in RViz's format if its name ends with .rviz.
 
     The previous version is kept, see `write_text`. Comments at the beginning of the file stay, such
     as a licence or the reference to a schema; other comments are removed, since the displays they
     belong to may have moved.
 
+    Returns:
+        Sentences on what RViz's format cannot hold, which is left out.
+
     Raises:
         ConfigError: it cannot be written.
     """
-    comments = "" if is_rviz(path) else _comments(path)
-    write_text(comments + text_of(config, path.name), path)
+    if is_rviz(path):
+        text, report = rviz.write(config)
+        write_text(text, path)
+        return report.sentences()
+    write_text(_comments(path) + dump(config), path)
+    return []
 
 
 def _is_kept(item: Item) -> bool:

@@ -156,5 +156,5 @@ class MarkerArray(Markers):
     topic: Annotated[
         Topic,
         Input("visualization_msgs/msg/MarkerArray", every=True),
-        Prop(help="Topic of the arrays of markers."),
+        Prop(rviz_default="visualization_marker_array", help="Topic of the arrays of markers."),
     ] = Topic("/visualization_marker_array")

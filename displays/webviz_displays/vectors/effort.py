@@ -69,7 +69,7 @@ class Effort(Display):
     ] = Topic("/joint_states")
     robot_description: Annotated[
         Topic,
-        Input("std_msgs/msg/String", latched=True, offered_for="robot_description"),
+        Input("std_msgs/msg/String", latched=True, is_plain=True, offered_for="robot_description"),
         Prop(help="Topic of the robot's URDF, which gives the axes and the largest efforts."),
     ] = Topic("/robot_description")
     alpha: Annotated[

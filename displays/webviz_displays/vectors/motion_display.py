@@ -23,7 +23,8 @@ class MotionDisplay(VectorDisplay):
         float, Prop(gt=0, help="Length of the shaft in metres per SI unit of the angular part.")
     ] = 2.0
     hide_small_values: Annotated[
-        bool, Prop(help="Hide arrows whose shaft is not longer than Arrow Width.")
+        bool,
+        Prop(rviz_default=True, help="Hide arrows whose shaft is not longer than Arrow Width."),
     ] = False
 
     def units(self) -> tuple[str, str]:

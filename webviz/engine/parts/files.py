@@ -182,21 +182,21 @@ class FilesPart(Part):
 
         return Job(lambda: opening.parse(text, name), then)
 
-    def _save(self, command: Save, sender: Sender) -> Job[None]:
+    def _save(self, command: Save, sender: Sender) -> Job[list[str]]:
         target = self._in_folder(command.path, sender) if command.path else self._path
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()
         check = self._check(target, sender)
 
-        def work() -> None:
+        def work() -> list[str]:
             check()
-            opening.save(config, target)
+            return opening.save(config, target)
 
-        def then(_: None) -> str:
+        def then(left_out: list[str]) -> str:
             self._path = target
             self._saved = {target: config_file.document(config)}
-            return f"Saved {target.name}."
+            return " ".join([f"Saved {target.name}.", *left_out])
 
         return Job(work, then)
 

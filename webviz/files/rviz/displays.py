@@ -15,9 +15,11 @@ from webviz.api.registry import type_name
 from webviz.files.config import Branch, Item, Location, Unreadable, read_display
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
+from webviz.files.rviz.properties import keys
 from webviz.files.rviz.quiet import is_without_effect
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import KEPT
+from webviz.files.rviz.ros1 import modern
 from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.files.rviz.values import Unfit
@@ -25,8 +27,6 @@ from webviz.files.rviz.values import Unfit
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
 NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
-NOT_USED = {"Selectable": f"every display can be selected; {KEPT}"}
-"""Why common properties are not used, by key."""
 
 
 @dataclass
@@ -75,7 +75,7 @@ def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
 
 
 def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Location) -> Display:
-    reading = Reading()
+    reading, tree = Reading(), modern(tree, keys(cls))
     display = display_from(cls, tree, reading)
     note_properties(display, tree, reading, report, place)
     return display
@@ -91,7 +91,7 @@ def note_properties(
     for path in _effective(tree):
         report.count("properties", path in reading.used, 1)
         if path not in reading.used and not any(path[: len(each)] == each for each in told):
-            report.note(declared.name, "/".join(path), NOT_USED.get(path[-1], NO_PROPERTY))
+            report.note(declared.name, "/".join(path), NO_PROPERTY)
 
 
 def _at_line(name: str, place: Location) -> str:
@@ -107,6 +107,7 @@ def _effective(tree: Tree) -> list[Path]:
 
 def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
     """A display from RViz's tree of its properties, as RViz would show it."""
+    tree = modern(tree, keys(cls))
     plain = reading.struct(cls, tree)
     if tree.get("Class") != cls.rviz:  # ROS 1's class; some topics have other names
         plain = {key: value for key, value in plain.items() if value != {"name": ""}}

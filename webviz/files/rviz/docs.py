@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool
 from webviz.files.config import read_text
@@ -23,9 +24,11 @@ INTRO = """\
 `webviz -d nav2.rviz` opens a file of RViz2 as RViz2 would show it, and `webviz convert` converts in
 both directions. Unsupported parts are reported once, on the page and in the terminal, and kept: a
 file that was opened and saved has lost no key, and values differ at most in the last digit of
-single precision.
+single precision. What RViz's format cannot hold, such as robots and the panel Plot, is reported
+when saving.
 
-- Missing keys have RViz2's default: a display without `Enabled` is off.
+- Missing keys have RViz2's default: a display without `Enabled` is off, and a TwistStamped without
+  `Hide Small Values` hides them.
 - RViz's default QoS becomes `auto`, because RViz writes it whether chosen or not; other values are
   explicit choices. A robot's description is always subscribed with transient local, as in RViz.
 - Out-of-range values are clamped and reported with their line.
@@ -39,8 +42,11 @@ WHY = """\
 ## Not carried over
 
 Unsupported displays stay in the list with a status. Properties count if they affect the scene; the
-layout of RViz's panel does not. Unsupported tools and panels stay in the file unchanged; these are
-supported: {}.
+layout of RViz's panels does not, nor does the shape that RViz draws at the focal point while the
+view is turned. A file is complete for `webviz convert --check` if every display, tool, view and
+panel, and all these properties, are supported. Unsupported tools and panels stay in the file
+unchanged; these are supported: {}. The key `?` has the bindings that `Help` lists, and transforms
+are those of tf2, the usual choice of `Transformation`.
 """
 
 
@@ -59,7 +65,8 @@ def page(paths: Iterable[Path]) -> str:
     rows.append(("", *(percent(whole.carried[kind], whole.total[kind]) for kind in kinds)))
     lines += table(("file", *kinds), rows)
     classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
-    classes += [cls.rviz for cls in plugin_types(Tool).values() if cls.rviz]
+    for base in (Tool, Panel):
+        classes += [cls.rviz for cls in plugin_types(base).values() if cls.rviz]
     lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:

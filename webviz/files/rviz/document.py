@@ -13,8 +13,9 @@ from webviz.files.config import Config, ConfigError, Location, Settings, YamlDoc
 from webviz.files.config.reading import refuse_too_many
 from webviz.files.rviz import values, views
 from webviz.files.rviz.displays import Kept, read_items, write_items
+from webviz.files.rviz.panels import read_panels, write_panels
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.rest import note_rest, read_panels
+from webviz.files.rviz.rest import note_rest
 from webviz.files.rviz.tools import NEW_TOOLS, read_tools, write_tools
 from webviz.files.rviz.tree import MANAGER, Tree, child, difference, parse, restored
 from webviz.files.rviz.tree import write as write_tree
@@ -22,6 +23,9 @@ from webviz.files.rviz.values import Unfit
 
 BASE_LINK, RVIZ_FRAME_RATE = "base_link", 30
 """RViz's defaults for missing keys."""
+
+NOT_WRITTEN = ("publish", "robots")
+"""Settings that .rviz files do not have."""
 
 NEW_FILE: Tree = {
     "Panels": [
@@ -75,7 +79,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     if displays := _worth_keeping(kept.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
-    panels = read_panels(document.get("Panels"))
+    panels = read_panels(document.get("Panels"), report)
     return Config(settings, items, tools, panels, report=report.sentences()), report
 
 
@@ -100,13 +104,21 @@ def write(config: Config) -> tuple[str, Report]:
         manager["Views"] = kept_views
     rest = {**rest, MANAGER: manager} if rest else NEW_FILE
     tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), report)
-    if config.settings.publish is not None:
-        report.note("Settings", "publish", "unsupported in .rviz files; not written")
-    own = msgspec.structs.replace(config.settings, rviz={}, views={}, publish=None)
+    no_settings = Settings()
+    for key in NOT_WRITTEN:
+        if getattr(config.settings, key) != getattr(no_settings, key):
+            report.note("Settings", key, "not in RViz's format, so it is left out")
+    own = msgspec.structs.replace(
+        config.settings,
+        rviz={},
+        views={},
+        **{key: getattr(no_settings, key) for key in NOT_WRITTEN},
+    )
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
     if tools is not None:
         tree[MANAGER]["Tools"] = tools
+    tree["Panels"] = write_panels(config.panels, tree.get("Panels"), report)
     return write_tree(tree), report
 
 
@@ -127,8 +139,11 @@ def _option(options: Tree, key: str, kind: Any, default: Any, report: Report) ->
     if key not in options:
         return default
     try:
-        return values.read(options[key], kind)
+        value = values.read(options[key], kind)
+        report.count("properties", 1, 1)
+        return value
     except Unfit as error:
+        report.count("properties", 0, 1)
         report.note("Global Options", key, f"{error}; using {default}")
         return default
 

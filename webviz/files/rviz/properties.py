@@ -26,7 +26,9 @@ class RvizProperty:
         name: here.
         path: in RViz.
         kind: its type, without annotations.
-        default: here and in RViz, except for the names of topics.
+        default: here.
+        missing: what a file without it means, if that is not the default; None if it is. A topic
+            without a name is none, see `topics.read`.
         low: least number allowed.
         high: greatest number allowed.
         port: of a topic, whether it is subscribed to or published.
@@ -37,6 +39,7 @@ class RvizProperty:
     path: Path
     kind: Any
     default: Any
+    missing: object = None
     low: float | None = None
     high: float | None = None
     port: Input | Output | None = None
@@ -50,6 +53,12 @@ def properties(cls: type[msgspec.Struct]) -> tuple[RvizProperty, ...]:
     return tuple(_property(each) for each in properties_of(cls) if each.path not in left_out)
 
 
+@functools.lru_cache(maxsize=256)
+def keys(cls: type[Declared]) -> frozenset[str]:
+    """The keys of a display or tool at the top level of its tree in RViz."""
+    return frozenset(each.path[0] for each in properties(cls))
+
+
 def _property(declared: Property) -> RvizProperty:
     ge, gt, le, lt = (getattr(declared.type, bound, None) for bound in ("ge", "gt", "le", "lt"))
     return RvizProperty(
@@ -57,6 +66,7 @@ def _property(declared: Property) -> RvizProperty:
         tuple(declared.rviz.split("/")) if declared.rviz else (_rviz_name(declared.path),),
         declared.hint,
         declared.default,
+        declared.rviz_default,
         ge if gt is None else gt + LEAST,
         le if lt is None else lt - LEAST,
         declared.port,

@@ -12,6 +12,7 @@ ALWAYS = {
     "Expand Link Details": "how RViz's panel looks",
     "Expand Joint Details": "how RViz's panel looks",
     "Link Tree Style": "how RViz's panel looks",
+    "Topic Filter": "which topics RViz's panel offers",
     **dict.fromkeys(
         (
             *("Acceleration_Scaling_Factor", "Velocity_Scaling_Factor"),
@@ -31,15 +32,15 @@ ALWAYS = {
 AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Selectable": (True,),
     "Position Transformer": ("XYZ", ""),
-    "Near Clip Distance": (0.01, 0.009999999776482582),
-    "Invert Z Axis": (False,),
-    "Target Frame": ("<Fixed Frame>",),
     "Links": (None,),
     "Show All Links": (True,),
     "Show Weight Limit": (False,),
     "Show Manipulability Index": (False,),
     "Show Manipulability": (False,),
     "Show Joint Torques": (False,),
+    "Alpha": (1,),
+    "Marker Alpha": (1,),
+    "Show Trail": (False,),
 }
 """By key: RViz's default values, which need no support."""
 
@@ -51,9 +52,15 @@ HIDDEN_OF_SCALARS = (
 """Properties of point clouds that RViz's displays of one number hide, but write."""
 
 
+IGNORED_BY_RVIZ2 = (("Queue Size",), ("Unreliable",), ("Transport Hint",))
+"""Keys of ROS 1 that files keep beside the topics of ROS 2, which have the values in use."""
+
+
 def is_without_effect(path: Path, tree: Tree) -> bool:
     """Whether the value at a path of a display has no effect on what RViz shows."""
     if any(key in ALWAYS for key in path):
+        return True
+    if path in IGNORED_BY_RVIZ2:
         return True
     if path[0] in HIDDEN_OF_SCALARS and str(tree.get("Class")).rpartition("/")[2] in SCALARS:
         return True

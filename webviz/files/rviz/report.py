@@ -42,6 +42,16 @@ class Report:
         self.carried[kind] += carried
         self.total[kind] += total
 
+    @property
+    def is_complete(self) -> bool:
+        """Whether everything that was counted is carried over."""
+        return not self.missing
+
+    @property
+    def missing(self) -> list[str]:
+        """The kinds of which something is not carried over."""
+        return [kind for kind, total in self.total.items() if self.carried[kind] < total]
+
     def sentences(self) -> list[str]:
         """The notes as sentences; a note on several places becomes one."""
         return sentences(self.notes)

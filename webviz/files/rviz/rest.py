@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.api.declared import make
 from webviz.api.panel import Panel
 from webviz.api.tool import Tool
-from webviz.files.config import PanelItem, all_panels
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.report import Report
@@ -17,7 +15,10 @@ from webviz.files.rviz.tree import MANAGER, Tree, child
 SUPPORTED = {
     "Panels": [
         f"rviz_common/{name}"
-        for name in ("Displays", "Selection", "Views", "Time", "Tool Properties")
+        for name in (
+            *("Displays", "Selection", "Views", "Time", "Tool Properties"),
+            *("Transformation", "Help"),
+        )
     ],
     "Tools": [
         f"rviz_default_plugins/{name}"
@@ -46,18 +47,8 @@ def note_rest(document: Tree, report: Report) -> None:
                 report.note("Panels and tools", name, f"unsupported; {KEPT}")
     transformer: Any = child(document, MANAGER, "Transformation", "Current").get("Class", _TF)
     if transformer != _TF:
+        report.count("properties", 0, 1)
         report.note("Transformation", values.text(transformer), f"unsupported, using tf2; {KEPT}")
-
-
-def read_panels(entries: Any) -> list[PanelItem]:
-    """The panels that every config has, and those in RViz's list that are plug-ins here."""
-    names = (
-        values.text(entry.get("Class"))
-        for entry in (entries if isinstance(entries, list) else [])
-        if isinstance(entry, Mapping)
-    )
-    found = dict.fromkeys(cls for name in names if (cls := counterpart(Panel, name)))
-    return [*all_panels(), *(make(cls, {}) for cls in found if cls.on_request)]
 
 
 def is_supported(kind: str, cls: str) -> bool:

@@ -19,8 +19,11 @@ from webviz.files.rviz.values import Unfit
 WITH_CHILDREN = ("Frames", "Joints")
 """Mappings whose switches RViz writes as {Value: true}, because they have children."""
 
-UNLISTED = {"GridMapLayer"}
-"""Values that plug-ins of RViz write without offering them as a choice; they mean the default."""
+UNLISTED = {"GridMapLayer", "intensity"}
+"""Values that RViz and its plug-ins write without offering them as a choice; they mean the default.
+
+A DepthCloud says `intensity` as all clouds do, though its points have none.
+"""
 
 
 @dataclass
@@ -45,7 +48,12 @@ class Reading:
             self.used |= {(*above, *path) for path in used}
         topics.complete(result, own)
         for place in found:
-            if not place.port and (raw := _at(tree, place.path)) is not None:
+            if place.port:
+                continue
+            raw = _at(tree, place.path)
+            if raw is None and place.missing is not None:
+                result[place.name] = place.missing
+            elif raw is not None:
                 path = (*above, *place.path)
                 try:
                     result[place.name] = self._value(place, raw, path, found)

@@ -51,6 +51,7 @@ def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], found: dict[str, b
         if name == OWN and (not groups or not isinstance(entry, Mapping)):
             continue
         path = (*groups, name)
-        found[PATH.join(path)] = values.read(values.own_value(entry), bool)
+        is_group = isinstance(entry, Mapping) and OWN not in entry
+        found[PATH.join(path)] = is_group or values.read(values.own_value(entry), bool)
         if isinstance(entry, Mapping):
             _collect(entry, path, found)

@@ -11,7 +11,9 @@ from webviz.files.config import Location, ToolItem, all_tools
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.displays import is_writable, made, note_properties
+from webviz.files.rviz.properties import keys
 from webviz.files.rviz.report import Report
+from webviz.files.rviz.ros1 import modern
 from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Tree, restored
 
@@ -41,7 +43,7 @@ def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
     tools: list[ToolItem] = []
     for index, entry in enumerate(entries):
         if cls := _counterpart(entry):
-            reading, tree = Reading(), dict(entry)
+            reading, tree = Reading(), modern(dict(entry), keys(cls))
             tool = _tool_from(cls, tree, reading)
             note_properties(tool, tree, reading, report, place.at(index))
             tools.append(tool)
@@ -85,7 +87,7 @@ def _counterpart(entry: Any) -> type[Tool] | None:
 
 def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
     """A tool from RViz's tree of its properties."""
-    return made(cls, reading.struct(cls, tree), {}, reading)
+    return made(cls, reading.struct(cls, modern(tree, keys(cls))), {}, reading)
 
 
 def _bare(tool: Tool) -> Tree:

@@ -23,8 +23,17 @@ ROS_1_QUEUE_SIZE = 10
 RELIABILITY = {"reliable": "Reliable", "best_effort": "Best Effort"}
 DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 POLICIES = ("Depth", "Filter size", "History Policy", "Reliability Policy", "Durability Policy")
+TOPIC = "Topic"
 OLD_KEYS = ("Image Topic", "Marker Topic", "Octomap Topic")
-"""ROS 1's keys for topics."""
+"""ROS 1's keys for `TOPIC`."""
+OF_DEPTH_CLOUD = {
+    "Depth Map Topic": "Depth Map Transport Hint",
+    "Color Image Topic": "Color Transport Hint",
+}
+"""The topics of a DepthCloud, which has one policy for all, and the keys of their transports."""
+HINTS = {**dict.fromkeys(OLD_KEYS, "Transport Hint"), **OF_DEPTH_CLOUD}
+"""By topic, the key beside it for the transport of its images."""
+RAW = "raw"
 
 
 def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tuple[dict, set[Path]]:
@@ -38,16 +47,22 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
     assert place.port is not None
     (*above, key) = place.path
     tree = child(tree, *above)
-    key = next((k for k in (key, *OLD_KEYS) if k in tree), key)
+    if key == TOPIC:
+        key = next((k for k in (key, *OLD_KEYS) if k in tree), key)
     raw = tree.get(key)
     result: dict[str, Any] = {"name": ""}
     used: set[Path] = set()
     name = values.own_value(raw)
-    if raw is None and isinstance(place.port, Input) and place.port.is_plain:
+    if raw is None and isinstance(place.missing, str):
+        result["name"] = place.missing
+    elif raw is None and isinstance(place.port, Input) and place.port.is_plain:
         result["name"] = place.default.name  # RViz has one, too
     elif not isinstance(name, Mapping | list) and name is not None:
         result["name"] = values.text(name)
         used.add((*above, key, "Value") if isinstance(raw, Mapping) else (*above, key))
+        if (hint := HINTS.get(key)) and hint in tree:
+            result["name"] = _with_transport(result["name"], tree[hint])
+            used.add((*above, hint))
     for field, path, value in _policies(tree, (*above, key), raw):
         used.add(path)
         try:
@@ -55,6 +70,13 @@ def read(tree: Tree, place: RvizProperty, faults: list[tuple[Path, str]]) -> tup
         except Unfit as error:
             faults.append((path, str(error)))
     return result, used
+
+
+def _with_transport(name: str, hint: Any) -> str:
+    """The topic of images of a transport, which is below that of raw ones."""
+    transport = values.text(hint)
+    is_said = transport in ("", RAW) or name.endswith(f"/{transport}") or not name
+    return name if is_said else f"{name}/{transport}"
 
 
 def complete(display: dict[str, Any], topics: list[RvizProperty]) -> None:
@@ -77,8 +99,10 @@ def write(topic: Topic, port: Input | Output, first: Topic) -> Tree | str:
 
 
 def _write_input(topic: Topic, input: Input, first: Topic) -> Tree:
-    # `auto` becomes the QoS that matches the usual publishers where RViz's defaults do not.
-    reliability = "Best Effort" if input.type.startswith("sensor_msgs/") else "Reliable"
+    # `auto` becomes the QoS that matches the usual publishers where RViz's defaults do not. A topic
+    # that is not named has no publishers, and its QoS would be an explicit choice on reading.
+    is_sensor = bool(topic.name) and input.type.startswith("sensor_msgs/")
+    reliability = "Best Effort" if is_sensor else "Reliable"
     is_latched = input.latched or input.type == "nav_msgs/msg/OccupancyGrid"
     durability = "Transient Local" if is_latched else "Volatile"
     tree = _written(topic, reliability, durability)
@@ -108,8 +132,12 @@ def _policies(tree: Tree, path: Path, raw: Any) -> Iterator[tuple[str, Path, Any
     for word in POLICIES:
         if word in inner:
             yield word, (*path, word), inner[word]
+    if raw is None:
+        return
     if "Queue Size" in tree and "Depth" not in inner:
         yield "Queue Size", (*path[:-1], "Queue Size"), tree["Queue Size"]
+    if path[-1] in OF_DEPTH_CLOUD and "Reliability Policy" in tree and not inner:
+        yield "own policy", (*path[:-1], "Reliability Policy"), tree["Reliability Policy"]
     if "Unreliable" in tree and "Reliability Policy" not in inner:
         yield "Unreliable", (*path[:-1], "Unreliable"), tree["Unreliable"]
 
@@ -129,13 +157,16 @@ def _policy(word: str, raw: Any, port: Input | Output) -> dict[str, Any]:
         case "Reliability Policy":
             label = _label(raw, ("Reliable", "Best Effort", "System Default"))
             return {"reliability": "best_effort"} if label == "Best Effort" else {}
+        case "own policy":  # of best-effort, its default, RViz hears the same as of auto
+            label = _label(raw, ("Reliable", "Best effort", "System Default"))
+            return {"reliability": "reliable"} if label == "Reliable" else {}
         case "Durability Policy":
             label = _label(raw, ("Volatile", "Transient Local", "System Default"))
             is_latched = isinstance(port, Input) and port.latched
             is_chosen = label == "Transient Local" and not is_latched
             return {"durability": "transient_local"} if is_chosen else {}
         case _:
-            _label(raw, ("Keep Last", "System Default"))
+            _label(raw, ("Keep Last", "Keep All", "System Default"))
             return {}
 
 

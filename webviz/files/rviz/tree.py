@@ -178,11 +178,21 @@ def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], obj
         candidate = _copied(tree)
         for path, value in group:
             _replace(candidate, path, value)
-        if meaning(candidate) in (meant, meaning(tree)):
+        if _is_either(meaning(candidate), meant, meaning(tree)):
             tree = candidate
         if group is others and tree is candidate:
             break
     return tree
+
+
+def _is_either(value: object, a: object, b: object) -> bool:
+    """Whether each part of a value is that of `a` or that of `b`; what a mapping lacks is None."""
+    values = (value, a, b)
+    trees = [each for each in values if isinstance(each, Mapping)]
+    if not trees or len(trees) + values.count(None) < len(values):
+        return value in (a, b)
+    parts = [each if isinstance(each, Mapping) else {} for each in values]
+    return all(_is_either(*(each.get(key) for each in parts)) for key in set().union(*trees))
 
 
 def _add_missing(tree: Tree, kept: Any, path: Path, others: list[tuple[Path, Any]]) -> None:

@@ -11,7 +11,7 @@ from webviz.api.properties import properties_of
 from webviz.api.views import FIXED_FRAME, VIEW_TYPES, Orbit, View, type_of
 from webviz.files.rviz import values
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.tree import Tree
+from webviz.files.rviz.tree import Tree, is_same
 from webviz.files.rviz.values import Unfit
 
 PREFIX = "rviz_default_plugins/"
@@ -24,6 +24,16 @@ KEYS = {
     for each in properties_of(cls)
 }
 """RViz's keys for the fields of views."""
+UNUSED: Mapping[str, tuple[Any, str]] = {
+    "Near Clip Distance": (NEAR_CLIP_DISTANCE, "the near plane follows from the distance"),
+    "Invert Z Axis": (False, "the camera is always upright"),
+    "Enable Stereo Rendering": (False, "stereo is unsupported"),
+    "Focal Shape Size": (0.05, "nothing marks the focal point"),
+    "Focal Shape Fixed Size": (True, "nothing marks the focal point"),
+}
+"""By keys of views without a field: RViz's default, and why another value is not used."""
+AIDS = ("Focal Shape Size", "Focal Shape Fixed Size")
+"""Those of what RViz shows only while the view is turned; the scene is the same without it."""
 BOUNDS = {
     "distance": (0.01, 1e6),
     "pitch": (-1.5698, 1.5698),
@@ -54,8 +64,10 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
         reason = "unsupported view type, using the default; kept for export"
         report.note(place, values.text(tree["Class"]), reason)
         return None
-    if _switched_on(tree.get("Invert Z Axis")):
-        report.note(place, "Invert Z Axis", "the camera is always upright; kept for export")
+    for key, (default, reason) in UNUSED.items():
+        if key in tree and not is_same(values.own_value(tree[key]), default):
+            report.note(place, key, f"{reason}; kept for export")
+            report.count("properties", 0, int(key not in AIDS))
     given = {
         field.name: _read_field(field, tree[KEYS[field.name]], report, place)
         for field in msgspec.structs.fields(cls)
@@ -163,10 +175,3 @@ def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, pl
 def _kind(field: msgspec.structs.FieldInfo) -> Any:
     is_point = isinstance(field.default, tuple)
     return tuple[float, float, float] if is_point else type(field.default)
-
-
-def _switched_on(raw: Any) -> bool:
-    try:
-        return values.read(raw, bool)
-    except Unfit:
-        return False

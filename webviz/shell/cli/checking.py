@@ -10,9 +10,6 @@ from webviz.files import rviz
 from webviz.files.config import ConfigError
 from webviz.files.rviz.report import percent
 
-COUNTED = ("displays", "properties")
-"""A file is complete if it has only supported ones."""
-
 
 def print_check(paths: Sequence[Path]) -> None:
     """Print the unsupported parts of each file, and totals.
@@ -30,10 +27,9 @@ def print_check(paths: Sequence[Path]) -> None:
             continue
         whole.total += report.total
         whole.carried += report.carried
-        is_complete = all(report.carried[kind] == report.total[kind] for kind in COUNTED)
-        complete += is_complete
-        counts = ", ".join(f"{report.carried[k]} of {report.total[k]} {k}" for k in COUNTED)
-        print(f"{path}: {'complete' if is_complete else counts}")
+        complete += report.is_complete
+        counts = ", ".join(f"{report.carried[k]} of {report.total[k]} {k}" for k in report.missing)
+        print(f"{path}: {counts or 'complete'}")
         for sentence in config.report:
             print(f"  {sentence}")
     print(f"\nComplete: {complete} of {len(paths)} files, {percent(complete, len(paths)).strip()}")

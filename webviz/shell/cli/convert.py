@@ -60,7 +60,9 @@ def convert(
     Args:
         files: File to read, and file to write; the latter is overwritten if it exists.
         report: Show how much of a .rviz file is supported.
-        check: List the unsupported parts of several .rviz files, and a total; writes nothing.
+        check: List the unsupported parts of several .rviz files, and how many files are complete:
+            every display, tool, view and panel is supported, and every property that affects the
+            scene. Writes nothing.
         plugin: Files with displays.
     """
     for path in plugin:

@@ -1,0 +1,68 @@
+"""The panels of .rviz files; the list is kept whole, so that unsupported ones stay in place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from webviz.api.declared import make, to_values
+from webviz.api.panel import Panel
+from webviz.files.config import PanelItem, all_panels
+from webviz.files.rviz import values
+from webviz.files.rviz.classes import counterpart
+from webviz.files.rviz.displays import is_writable
+from webviz.files.rviz.properties import keys
+from webviz.files.rviz.report import Report
+from webviz.files.rviz.structs import Reading, struct_tree
+from webviz.files.rviz.tree import Tree
+
+
+def read_panels(entries: Any, report: Report) -> list[PanelItem]:
+    """The panels that every config has, and those in RViz's list that are plug-ins here."""
+    found: list[PanelItem] = all_panels()
+    for entry in entries if isinstance(entries, list) else []:
+        cls = _counterpart(entry)
+        if cls is None or not cls.on_request or any(type(each) is cls for each in found):
+            continue
+        reading = Reading()
+        found.append(make(cls, reading.struct(cls, entry)))
+        for path, reason in reading.faults:
+            report.count("properties", 0, 1)
+            report.note(values.text(entry.get("Name", "?")), "/".join(path), reason)
+    return found
+
+
+def write_panels(panels: list[PanelItem], kept: Any, report: Report) -> list[Any] | None:
+    """Panels as RViz's list, None if it is empty.
+
+    Args:
+        panels: of a config; those that every config has are not written.
+        kept: the list of the file that they come from.
+        report: receives those that RViz does not have.
+    """
+    everywhere = {type(each) for each in all_panels()}
+    waiting = [
+        panel for panel in panels if type(panel) not in everywhere and is_writable(panel, report)
+    ]
+    by_class = {type(panel): panel for panel in waiting}
+    written: list[Any] = []
+    for entry in kept if isinstance(kept, list) else []:
+        cls = _counterpart(entry)
+        if cls is None or not cls.on_request:
+            written.append(entry)
+        elif panel := by_class.get(cls):
+            written.append({k: v for k, v in entry.items() if k not in keys(cls)} | _changed(panel))
+            waiting = [each for each in waiting if each is not panel]
+    for panel in waiting:
+        written.append({"Class": type(panel).rviz, "Name": panel.name} | _changed(panel))
+    return written or None
+
+
+def _counterpart(entry: Any) -> type[Panel] | None:
+    cls = entry.get("Class") if isinstance(entry, Mapping) else None
+    return counterpart(Panel, values.text(cls))
+
+
+def _changed(panel: Panel) -> Tree:
+    """The properties of a panel, if some are not at their defaults."""
+    return struct_tree(panel) if to_values(panel).keys() - {"name"} else {}
