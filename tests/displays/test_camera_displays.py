@@ -175,6 +175,32 @@ def test_an_image_that_comes_while_the_first_is_computed_follows_it(bench: Bench
     assert at.statuses()["Points"] == ("OK", "192 points of 192 pixels.")
 
 
+def test_depths_of_a_right_camera_are_seen_from_its_own_frame(bench: Benches) -> None:
+    at = cloud(bench)
+    p = photos.info(16, 12)["p"]
+    send_info(at, INFO, p=[*p[:3], -1.92, *p[4:]])
+    depths = np.zeros((12, 16), np.float32)
+    depths[3, 10] = 2.0
+    send_depth(at, depths)
+    at.turn()
+    at.settle()
+    # As without the last column of P, which is the place of the camera beside the left one.
+    np.testing.assert_allclose(at.xyz("points"), [(3.0, -0.3125, 0.3125)], atol=1e-5)
+
+
+def test_points_of_a_thinned_image_are_as_large_as_those_left_are_apart(bench: Benches) -> None:
+    at = cloud(bench, auto_size=True, max_points=12, style="Boxes")
+    send_info(at, INFO)
+    send_depth(at, np.full((12, 16), 2.0, np.float32))
+    at.turn()
+    at.settle()
+    solids = at.nodes()["solids"]
+    assert len(solids.positions) == 12  # every fourth pixel, at a focal length of 16 px
+    np.testing.assert_allclose(solids.scales, 2.0 * 4 / 16)
+    across = np.unique(np.round(solids.positions[:, 1], 4))
+    np.testing.assert_allclose(np.diff(across), 2.0 * 4 / 16, atol=1e-4)
+
+
 def test_points_are_as_large_as_neighbours_are_apart(bench: Benches) -> None:
     at = cloud(bench, auto_size=True, auto_size_factor=2.0)
     depths = np.full((12, 16), 1.0, np.float32)

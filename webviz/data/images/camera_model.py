@@ -113,7 +113,10 @@ class CameraModel:
         return self.rays(columns, rows) * distance + (*self.center, 0.0)
 
     def points(self, depths: NDArray[np.floating[Any]], step: int) -> F32:
-        """Points (H, W, 3) of every `step`-th pixel.
+        """Points (H, W, 3) of every `step`-th pixel, seen from the origin of the frame.
+
+        `center` is not used, as in RViz and depth_image_proc: depths of the right camera of a stereo
+        pair come in a frame of its own.
 
         Args:
             depths: (H, W) of these pixels, in metres along z.
@@ -123,10 +126,8 @@ class CameraModel:
         rays = self._rays(rows, columns, step)
         z = depths.astype(np.float32, copy=False).reshape(-1)
         points = np.empty((z.size, 3), np.float32)
-        for axis, (ray, offset) in enumerate(zip(rays, self.center, strict=True)):
+        for axis, ray in enumerate(rays):
             np.multiply(ray, z, out=points[:, axis])
-            if offset:
-                points[:, axis] += np.float32(offset)
         points[:, 2] = z
         return points.reshape(rows, columns, 3)
 
