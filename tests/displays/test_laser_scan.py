@@ -274,16 +274,36 @@ def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
     assert np.ptp(made.xyz("points")[:, 0]) > 0.5
 
 
-def test_beams_after_the_newest_transform_are_counted(bench: Benches) -> None:
+@pytest.mark.parametrize("time_increment", [0.125, 0.5], ids=["half a second", "two seconds"])
+def test_a_scan_waits_for_the_transform_of_its_last_beam(
+    bench: Benches, time_increment: float
+) -> None:
+    made = bench(LaserScan())
+    start = made.now_ns
+    lasts_ns = round(4 * time_increment * SECOND)
+    made.transform("map", "laser", (0.0, 0.0, 0.0), stamp_ns=start)
+    made.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns - 1)
+    values = scan([2.0] * 5, angle_increment=1e-9, time_increment=time_increment)
+    made.send(SCAN, values, frame="laser", stamp_ns=start)
+    made.turn()
+    assert not made.nodes()
+    made.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns)
+    made.turn()
+    np.testing.assert_allclose(made.xyz("points")[:, 1], [0, 0.25, 0.5, 0.75, 1], atol=1e-6)
+    assert "De-skew" not in made.statuses()
+
+
+def test_beams_of_an_endless_scan_without_a_transform_are_counted(bench: Benches) -> None:
     made = moving(bench)
     stamp_ns = made.now_ns + 3 * SECOND // 4
-    made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
+    values = scan([2.0] * 101, angle_increment=1e-9, time_increment=0.125)
+    made.send(SCAN, values, frame="laser", stamp_ns=stamp_ns)
     made.turn()
-    expected = [0.75, 0.875, 1, 1, 1]
+    expected = [0.75, 0.875] + [1.0] * 99
     np.testing.assert_allclose(made.xyz("points")[:, 1], expected, atol=1e-6)
     level, text = made.statuses()["De-skew"]
     assert level == "WARN"
-    assert text.startswith("2 of 5 beams")
+    assert text.startswith("98 of 101 beams")
 
 
 @pytest.mark.parametrize("time_increment", [NAN, INF, 1e30, -1e30])

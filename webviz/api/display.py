@@ -143,7 +143,7 @@ class Display(Declared, kw_only=True):
     def duration_ns(self, message: Any) -> int:
         """How long a message lasts after its stamp; it waits for transforms until then.
 
-        Messages are decoded only when drawn, so the duration of one applies to the next ones.
+        Messages of a display that defines this are decoded as they arrive, all others when drawn.
         """
         return 0
 

@@ -23,6 +23,9 @@ U8 = NDArray[np.uint8]
 LONG_SCAN_S = 1.0
 """A scan that takes longer is probably a wrong time_increment (RViz's limit)."""
 
+_LONGEST_WAIT_NS = 9e9
+"""Transforms are kept for 10 s: those of the first beam of a longer scan are gone at its end."""
+
 _ENDLESS_SCAN_S = 3600.0
 """A longer duration is not a valid scan, and its stamps may overflow."""
 
@@ -55,10 +58,10 @@ class LaserScan(PointsDisplay):
 
     def duration_ns(self, message: messages.LaserScan) -> int:
         """De-skewing needs transforms up to the last beam."""
-        duration = (len(message.ranges) - 1) * message.time_increment
-        if self.deskew == "As measured" or not 0 < duration <= LONG_SCAN_S:
+        duration_ns = (len(message.ranges) - 1) * (message.time_increment * 1e9)
+        if self.deskew == "As measured" or not 0 < duration_ns <= _LONGEST_WAIT_NS:
             return 0
-        return round(duration * 1e9)
+        return round(duration_ns)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One scan, in the frame of the laser at the stamp."""

@@ -115,8 +115,8 @@ class CameraModel:
     def points(self, depths: NDArray[np.floating[Any]], step: int) -> F32:
         """Points (H, W, 3) of every `step`-th pixel, seen from the origin of the frame.
 
-        `center` is not used, as in RViz and depth_image_proc: depths of the right camera of a stereo
-        pair come in a frame of its own.
+        `center` is not used, as in RViz and depth_image_proc: depths of the right camera of a
+        stereo pair come in a frame of its own.
 
         Args:
             depths: (H, W) of these pixels, in metres along z.

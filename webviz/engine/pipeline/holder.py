@@ -68,11 +68,7 @@ class Holder:
         for found in arrived:
             name = next(iter(found))
             self._ready_s[name] = clock
-            # The duration is known once a message is decoded; the next ones wait for that.
-            is_unknown = (
-                overrides(display, "duration_ns") and not self.inputs.intakes[name].duration_ns
-            )
-            if every_one or is_unknown:
+            if every_one:
                 self._admit(found, keep, frames)
             else:
                 self._newest[name] = found
@@ -177,15 +173,13 @@ class Holder:
             pose = frames.now(arrival.frame) or Pose()
         if pose is None:
             return None  # the buffer was cleared meanwhile
-        raw = arrival.raw
+        raw, message = arrival.raw, arrival.message
         try:
-            message = decode(intake.type, raw.cdr)
+            message = decode(intake.type, raw.cdr) if message is None else message
         except MessageError as error:
             intake.refuse(str(error))
             return None
         intake.accepted()
-        duration_ns = self._guard("duration", self._display.duration_ns, message)
-        intake.measure(duration_ns if isinstance(duration_ns, int) else 0)
         return Sample(
             message,
             arrival.frame,

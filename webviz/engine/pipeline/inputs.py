@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 from webviz.api.display import Display, Sync, inputs_of, overrides
 from webviz.api.frames import Frames
@@ -77,9 +78,10 @@ class Inputs:
         """Take the messages of this turn; those that can be drawn now, in order of arrival."""
         active = self._active()
         arrived: list[tuple[str, Arrival]] = []
+        duration_ns = self._duration_ns if overrides(self._display, "duration_ns") else None
         for name, intake in active.items():
-            raws = batches.get(intake.name, ())
-            arrivals = intake.take(raws, frames, offers.get(intake.name), clock, self.waits(name))
+            raws, offer = batches.get(intake.name, ()), offers.get(intake.name)
+            arrivals = intake.take(raws, frames, offer, clock, self.waits(name), duration_ns)
             arrived += [(name, arrival) for arrival in arrivals]
         arrived.sort(key=lambda item: item[1].raw.received_ns)
         synchronizer = self._synchronizer = self._renewed(active)
@@ -115,6 +117,10 @@ class Inputs:
         if status := self._sync_status(clock):
             result["Sync"] = status
         return result
+
+    def _duration_ns(self, message: Any) -> int:
+        duration_ns = self._guard("duration", self._display.duration_ns, message)
+        return duration_ns if isinstance(duration_ns, int) else 0
 
     def _is_replaced(self, intake: Intake, offer: Offer | None) -> bool:
         """Whether nobody publishes an input, but another one that serves as well."""

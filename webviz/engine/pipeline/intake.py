@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
 from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Status
-from webviz.data.messages import MessageError, peek_header
+from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.data.words import counted
 from webviz.engine.pipeline.reception import Reception
@@ -25,12 +25,16 @@ LATE_S = 0.3
 
 @dataclass(frozen=True)
 class Arrival:
-    """A message whose frame has a pose at its stamp, or that needs none."""
+    """A message whose frame has a pose at its stamp, or that needs none.
+
+    `message` is the decoded message if it was decoded to know how long it lasts.
+    """
 
     raw: Raw
     frame: str
     stamp_ns: int
     number: int
+    message: Any = field(default=None, compare=False)
 
 
 class Intake:
@@ -54,7 +58,6 @@ class Intake:
         self._reception = Reception(path, spec.types, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
-        self._durations: deque[int] = deque(maxlen=10)
         self._placed_at = 0.0
         self._late_s = 0.0
         self._waiting_since: float | None = None
@@ -75,7 +78,13 @@ class Intake:
         return Subscription(self.type, self.topic, self.spec.latched)
 
     def take(
-        self, raws: Iterable[Raw], frames: Frames, offer: Offer | None, clock: float, waits: bool
+        self,
+        raws: Iterable[Raw],
+        frames: Frames,
+        offer: Offer | None,
+        clock: float,
+        waits: bool,
+        duration_ns: Callable[[Any], int] | None = None,
     ) -> list[Arrival]:
         """Take messages and return those that have a pose now, oldest first.
 
@@ -85,6 +94,8 @@ class Intake:
             offer: publishers and QoS of the topic.
             clock: monotonic time in seconds.
             waits: whether messages wait for the transform at their stamp.
+            duration_ns: how long after its stamp a decoded message waits for transforms, too; None
+                if not at all.
         """
         arrivals: list[Arrival] = []
         reception = self._reception
@@ -99,8 +110,12 @@ class Intake:
             if is_latched and is_again and not self.spec.every:
                 continue  # delivered again, by a second publisher or a new subscription
             reception.note(raw, clock)
+            message, lasts_ns = None, 0
             try:
                 header = peek_header(self.type, raw.cdr)
+                if header and waits and duration_ns:
+                    message = decode(self.type, raw.cdr)
+                    lasts_ns = duration_ns(message)
             except MessageError as error:
                 self.refuse(str(error))
                 continue
@@ -108,12 +123,12 @@ class Intake:
                 arrivals.append(Arrival(raw, "", 0, reception.count - 1))
                 continue
             frame, stamp_ns = header
-            arrival = Arrival(raw, frames.named(frame), stamp_ns, reception.count - 1)
+            arrival = Arrival(raw, frames.named(frame), stamp_ns, reception.count - 1, message)
             if not waits:
                 arrivals.append(arrival)
                 continue
             self._newest = arrival.number
-            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, self.duration_ns)
+            self._filter.add(arrival, arrival.frame, stamp_ns, frames.now_ns, lasts_ns)
         placed = self._filter.ready(frames.buffer, frames.fixed_frame, frames.now_ns)
         arrivals += placed
         if placed:
@@ -137,15 +152,6 @@ class Intake:
         if type_ != self.type:
             self.type = self._reception.type = type_
             self.reset()
-
-    @property
-    def duration_ns(self) -> int:
-        """How long messages last after their stamp: the longest of the last ones."""
-        return max(self._durations, default=0)
-
-    def measure(self, duration_ns: int) -> None:
-        """Note how long a message lasts; that of lasers varies by a tenth and more."""
-        self._durations.append(duration_ns)
 
     def refuse(self, reason: str) -> None:
         """Note why the newest message cannot be shown."""
