@@ -1,1 +1,1 @@
-"""Messages, transforms and the disk, without ROS."""
+"""Messages, recordings, transforms and the disk, without ROS."""

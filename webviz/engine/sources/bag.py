@@ -12,7 +12,7 @@ from webviz.engine.sources.bag_extras import Extra
 from webviz.engine.sources.bag_file import BagChannel, BagError, BagFile, Recorded
 from webviz.engine.sources.bag_time import CLOCK, TF, BagTime
 from webviz.engine.sources.graph import ReadOnly
-from webviz.engine.sources.inbox import Inbox, Raw
+from webviz.engine.sources.inbox import MAX_BYTES, Inbox, Raw
 from webviz.engine.sources.source import Durability, Offer, Publisher, Reliability, Subscription
 
 NODE = "webviz"
@@ -80,13 +80,13 @@ class BagSource:
 
     @property
     def remarks(self) -> list[str]:
-        """Warnings: subscribed topics that cannot be read, missing files, unusual time."""
+        """Warnings: subscribed topics that cannot be read, missing files, damage, unusual time."""
         skipped = [
             f"{topic} is skipped: {why}."
             for topic, why in self._file.skipped.items()
             if topic in self._wanted
         ]
-        return [*skipped, *filter(None, (self._file.remark, self._time.remark))]
+        return [*skipped, *self._file.remarks, *filter(None, [self._time.remark])]
 
     def play(self, until_ns: int) -> None:
         """Deliver everything recorded until a time of recording.
@@ -94,7 +94,7 @@ class BagSource:
         If that is too much for the inbox, `position_ns` stays behind and the next call continues.
 
         Raises:
-            BagError: the bag is damaged after the delivered messages.
+            BagError: the file can no longer be read.
         """
         count = size = 0
         while self._next is not None and self._next.stamp_ns <= until_ns:
@@ -114,7 +114,7 @@ class BagSource:
         """Play a short step towards a time, or up to the next message if that is later.
 
         Raises:
-            BagError: the bag is damaged after the delivered messages.
+            BagError: the file can no longer be read.
         """
         next_ns = until_ns if self._next is None else self._next.stamp_ns
         self.play(min(until_ns, max(next_ns, self._position_ns + STEP_NS)))
@@ -192,9 +192,9 @@ class BagSource:
         """Register the message definitions of the bag."""
         for channel in self._file.channels:
             wish = wishes.get(channel.topic)
-            if wish and wish.type == channel.type and channel.definition:
+            if wish and wish.type == channel.type and channel.recorded.definition:
                 try:
-                    register(channel.type, channel.definition)
+                    register(channel.type, channel.recorded.definition)
                 except MessageError as error:
                     self._problems[channel.topic] = str(error)
 
@@ -211,9 +211,15 @@ class BagSource:
         ]
         # Which publishers of transforms were still running is unknown, so all of them count.
         is_tf = wish.type == TF
-        depth = None if is_tf else sum(channel.depth for channel in latched)
-        past = self._file.messages(latched, self._file.start_ns, self._position_ns)
-        for recorded in deque(past, depth):
+        depth = INBOX_LIMIT if is_tf else sum(channel.depth for channel in latched)
+        past: deque[Recorded] = deque()
+        size = 0
+        for recorded in self._file.messages(latched, self._file.start_ns, self._position_ns):
+            past.append(recorded)
+            size += len(recorded.cdr)
+            while len(past) > depth or (len(past) > 1 and size > MAX_BYTES):
+                size -= len(past.popleft().cdr)
+        for recorded in past:
             self._put(recorded)
 
     def _arrive(self, recorded: Recorded) -> None:

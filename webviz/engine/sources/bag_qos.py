@@ -1,43 +1,51 @@
-"""QoS profiles of bags: rosbags rejects a whole bag if a profile lacks a key.
+"""QoS profiles of bags, in the notations of all versions of rosbag2.
 
 Recorders other than rosbag2 write only some policies. The messages of such bags are intact.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
-from rosbags.interfaces import Qos
-from rosbags.rosbag2 import metadata, reader, storage_mcap, storage_sqlite3
 from ruamel.yaml import YAML
 
-_strict = metadata.parse_qos
-_TIMES = ("deadline", "lifespan", "liveliness_lease_duration")
+from webviz.engine.sources.source import Durability, Reliability
+
+MAX_TEXT = 1 << 20
+MAX_PROFILES = 100
 
 
-def parse_qos(given: Any) -> list[Qos]:
+class BagProfile(NamedTuple):
+    """What one publisher offered; `depth` is 0 if it is unknown."""
+
+    reliability: Reliability
+    durability: Durability
+    depth: int
+
+
+def profiles_of(text: str) -> list[BagProfile]:
     """The profiles of a topic.
 
     Args:
-        given: as recorded: YAML, or parsed YAML.
+        text: as recorded, in YAML: policies are numbers of rmw before version 9, then words.
 
     Returns:
-        The profiles, with "unknown", 0 and False for missing keys; none if they are unreadable.
+        The profiles, reliable and volatile where nothing else is recorded; none if they are
+        unreadable.
     """
+    if not text or len(text) > MAX_TEXT:
+        return []
     try:
-        profiles = YAML(typ="safe").load(given) if isinstance(given, str) else given
-        return _strict([_completed(profile) for profile in profiles or ()])
-    except Exception:  # of YAML, or of rosbags for wrong types
+        return [_profile(given) for given in YAML(typ="safe").load(text)[:MAX_PROFILES]]
+    except Exception:  # of YAML, or of wrong types
         return []
 
 
-def _completed(profile: Mapping[str, Any]) -> Any:
-    times = {name: {"sec": 0, "nsec": 0, **profile.get(name, {})} for name in _TIMES}
-    return {"depth": 0, "avoid_ros_namespace_conventions": False, **profile, **times}
-
-
-def be_lenient() -> None:
-    """Make rosbags use `parse_qos`; it has no option for that."""
-    for module in (reader, storage_mcap, storage_sqlite3):
-        vars(module)["parse_qos"] = parse_qos
+def _profile(given: dict[str, Any]) -> BagProfile:
+    is_best_effort = str(given.get("reliability")).lower() in ("2", "best_effort")
+    is_latched = str(given.get("durability")).lower() in ("1", "transient_local")
+    return BagProfile(
+        "best_effort" if is_best_effort else "reliable",
+        "transient_local" if is_latched else "volatile",
+        max(0, int(given.get("depth", 0))),
+    )

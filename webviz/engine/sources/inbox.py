@@ -7,6 +7,9 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
+MAX_BYTES = 64 << 20
+"""Of the messages of one topic between two calls of `drain`."""
+
 
 @dataclass(frozen=True, slots=True)
 class Raw:
@@ -32,7 +35,7 @@ class Inbox:
         max_bytes: per topic. The newest message is always kept, however large.
     """
 
-    def __init__(self, max_bytes: int = 64 << 20) -> None:
+    def __init__(self, max_bytes: int = MAX_BYTES) -> None:
         self._lock = threading.Lock()
         self._queues: dict[str, deque[Raw]] = {}
         self._limits: dict[str, int] = {}

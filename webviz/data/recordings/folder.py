@@ -1,0 +1,128 @@
+"""Folders of rosbag2: files that follow each other, and metadata.yaml."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path, PurePath
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from webviz.data.recordings.opening import open_file
+from webviz.data.recordings.recording import (
+    Losses,
+    RecordedChannel,
+    RecordedMessage,
+    Recording,
+    RecordingError,
+)
+from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
+
+METADATA = "metadata.yaml"
+INFORMATION = "rosbag2_bagfile_information"
+MAX_METADATA = 16 << 20
+ENDINGS = (".mcap", ".db3", ".zstd", ".zst")
+"""Of files that are read if metadata.yaml misnames all."""
+
+
+class FolderRecording:
+    """The messages of a rosbag2 folder, file by file.
+
+    Args:
+        path: of the folder.
+
+    Raises:
+        RecordingError: its metadata are missing or broken, or no file of it can be read.
+        OSError: it cannot be read.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.losses = Losses("message", "skipped")
+        names, self._compression = _metadata(path)
+        with contextlib.ExitStack() as stack:
+            self._parts = self._opened(self._existing(path, names), stack)
+            self._stack = stack.pop_all()
+        channels = (channel for part in self._parts for channel in part.channels)
+        self.channels = tuple(dict.fromkeys(channels))
+        spans = [part.span_ns for part in self._parts if part.span_ns]
+        self.span_ns = (min(s[0] for s in spans), max(s[1] for s in spans)) if spans else None
+
+    def messages(
+        self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.messages`."""
+        for part in self._parts:
+            for entry in part.messages(channels, start_ns, end_ns):
+                if not self._compression:
+                    yield entry
+                    continue
+                data, fault = unpack(entry.data, self._compression, MAX_BYTES)
+                if fault:
+                    self.losses.skipped[entry.channel, entry.stamp_ns] = fault
+                else:
+                    yield entry._replace(data=data)
+
+    def close(self) -> None:
+        """Close all files."""
+        self._stack.close()
+
+    def _existing(self, folder: Path, names: Sequence[str]) -> list[Path]:
+        """The files to read."""
+        files = [folder / name for name in names]
+        found = [file for file in files if file.exists()]
+        missing = ", ".join(file.name for file in files if file not in found)
+        if not found:
+            found = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
+        if not found:
+            raise RecordingError(
+                f"{folder} lacks the files that {METADATA} names ({missing}): copy them there, or "
+                f"run `ros2 bag reindex {folder}`."
+            )
+        if missing:
+            read = ", ".join(file.name for file in found)
+            self.losses.notes.append(f"{missing}, named by {METADATA}, is missing. Reading {read}.")
+        return found
+
+    def _opened(self, files: Sequence[Path], stack: contextlib.ExitStack) -> list[Recording]:
+        parts: list[Recording] = []
+        errors: list[RecordingError] = []
+        for file in files:
+            try:
+                part = open_file(file)
+            except RecordingError as error:
+                errors.append(error)
+                self.losses.others.append(f"{file.name} cannot be read")
+            else:
+                stack.callback(part.close)
+                parts.append(part)
+        if not parts:
+            raise errors[0]
+        return parts
+
+
+def _metadata(folder: Path) -> tuple[list[str], str]:
+    """The names of the files, and the compression of each message, "" for none.
+
+    Raises:
+        RecordingError: the metadata are missing or broken.
+        OSError: they cannot be read.
+    """
+    path = folder / METADATA
+    remedy = f"run `ros2 bag reindex {folder}`, or give one of the files in it."
+    if not path.is_file():
+        raise RecordingError(f"{folder} has no {METADATA}: {remedy}")
+    with path.open("rb") as file:
+        text = file.read(MAX_METADATA + 1)
+    try:
+        if len(text) > MAX_METADATA:
+            raise ValueError
+        information: dict[str, Any] = YAML(typ="safe").load(text)[INFORMATION]
+        names = [PurePath(name).name for name in information["relative_file_paths"]]
+        mode = str(information.get("compression_mode") or "").lower()
+        compression = str(information["compression_format"]) if mode == "message" else ""
+    except Exception as error:  # of YAML, or of the wrong types
+        raise RecordingError(f"{path} is damaged: {remedy}") from error
+    if compression not in COMPRESSIONS:
+        raise RecordingError(f"{folder} has messages in {compression!r}, which is unsupported.")
+    return list(dict.fromkeys(names)), compression

@@ -1,0 +1,113 @@
+"""Chunks of MCAP files: what their records and the summary say of them, and their contents."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from typing import BinaryIO
+from zlib import crc32
+
+from webviz.data.recordings.mcap_records import PREFIX, BrokenRecord, RecordFields
+from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
+
+CHUNK_FIELDS = struct.Struct("<QQQII")
+"""First and last time, size and checksum when unpacked, length of the compression's name."""
+CRC_OFFSET = 24
+
+
+@dataclass(frozen=True)
+class McapChunk:
+    """A part of the file that contains messages.
+
+    Args:
+        offset: of its packed data in the file.
+        packed_size: bytes of that.
+        size: bytes that it claims to unfold to.
+        crc: of these, 0 if unknown.
+        compression: "" for none.
+        start_ns, end_ns: claimed times of its messages.
+        channels: which have messages in it; None if unknown.
+        is_cut: whether the file ends within it.
+    """
+
+    offset: int
+    packed_size: int
+    size: int
+    crc: int
+    compression: str
+    start_ns: int
+    end_ns: int
+    channels: frozenset[int] | None = None
+    is_cut: bool = False
+
+
+def chunk_of(offset: int, data: bytes, length: int) -> McapChunk:
+    """The chunk whose record contains `length` bytes, of which `data` is the beginning.
+
+    Args:
+        offset: of the contents of the record in the file.
+
+    Raises:
+        BrokenRecord: it is none.
+    """
+    if len(data) < CHUNK_FIELDS.size:
+        raise BrokenRecord
+    start_ns, end_ns, size, crc, name_size = CHUNK_FIELDS.unpack_from(data)
+    begin = CHUNK_FIELDS.size + name_size + 8
+    if len(data) < begin:
+        raise BrokenRecord
+    name = data[CHUNK_FIELDS.size : begin - 8]
+    packed_size = int.from_bytes(data[begin - 8 : begin], "little")
+    if begin + packed_size != length:
+        raise BrokenRecord
+    compression = name.decode(errors="replace")
+    return McapChunk(offset + begin, packed_size, size, crc, compression, start_ns, end_ns)
+
+
+def chunk_index_of(fields: RecordFields) -> McapChunk:
+    """The chunk that a record of the summary describes; its checksum is not in there."""
+    start_ns, end_ns, offset, _ = fields.numbers("QQQQ")
+    offsets = fields.block()
+    if len(offsets) % 10:
+        raise BrokenRecord
+    channels = frozenset(number for number, _ in struct.iter_unpack("<HQ", offsets)) or None
+    fields.numbers("Q")
+    name = fields.block()
+    packed_size, size = fields.numbers("QQ")
+    offset += PREFIX.size + CHUNK_FIELDS.size + len(name) + 8
+    compression = name.decode(errors="replace")
+    return McapChunk(offset, packed_size, size, 0, compression, start_ns, end_ns, channels)
+
+
+def header_of(chunk: McapChunk) -> int:
+    """Offset of the contents of its record in the file."""
+    return chunk.offset - CHUNK_FIELDS.size - len(chunk.compression.encode()) - 8
+
+
+def contents_of(chunk: McapChunk, file: BinaryIO) -> tuple[bytes, str]:
+    """The records of a chunk.
+
+    Returns:
+        They, or of a damaged chunk the intact beginning; and what is damaged, "" for nothing and
+        for a chunk that is cut off.
+
+    Raises:
+        OSError: the file cannot be read.
+    """
+    if chunk.compression not in COMPRESSIONS:
+        return b"", f"the compression {chunk.compression!r} is unsupported"
+    if max(chunk.size, chunk.packed_size) > MAX_BYTES:
+        return b"", _spaced(f"it claims {chunk.size:,} bytes, the limit is {MAX_BYTES:,}")
+    file.seek(chunk.offset)
+    data, fault = unpack(file.read(chunk.packed_size), chunk.compression, chunk.size)
+    if chunk.is_cut:
+        return data, ""
+    if not fault and len(data) != chunk.size:
+        fault = _spaced(f"it has {len(data):,} of {chunk.size:,} bytes")
+    if not fault and chunk.crc and crc32(data) != chunk.crc:
+        return b"", "its checksum is wrong"
+    return data, fault
+
+
+def _spaced(text: str) -> str:
+    return text.replace(",", " ")

@@ -1,0 +1,121 @@
+"""Files by what they contain, whatever their name ends with."""
+
+from __future__ import annotations
+
+import contextlib
+import tempfile
+from collections.abc import Callable, Collection, Iterator
+from pathlib import Path
+
+from webviz.data.recordings.mcap import McapRecording
+from webviz.data.recordings.mcap_records import MAGIC
+from webviz.data.recordings.recording import (
+    Losses,
+    RecordedChannel,
+    RecordedMessage,
+    Recording,
+    RecordingError,
+)
+from webviz.data.recordings.sqlite import SqliteRecording
+from webviz.data.recordings.unpacking import unpack_file
+
+SQLITE = b"SQLite format 3\0"
+COMPRESSED = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
+ROS_1 = b"#ROSBAG V"
+LFS = b"version https://git-lfs.github.com/spec/"
+_LOOKED_AT = 512
+CONTAINERS: dict[str, Callable[[Path], Recording]] = {
+    "mcap": McapRecording,
+    "sqlite": SqliteRecording,
+}
+
+
+def open_file(path: Path) -> Recording:
+    """Open a file, unpacked to a temporary folder if it is compressed as a whole.
+
+    Raises:
+        RecordingError: it is not a recording, or not readable at all.
+        OSError: it cannot be read.
+    """
+    kind = _kind(path)
+    return CONTAINERS[kind](path) if kind in CONTAINERS else _Unpacked(path, kind)
+
+
+def _kind(path: Path) -> str:
+    """Container or compression of a file, by its first bytes."""
+    if not path.is_file():
+        raise RecordingError(f"{path} is not a file. Give an MCAP or db3 file.")
+    with path.open("rb") as file:
+        head = file.read(_LOOKED_AT)
+        size = file.seek(0, 2)
+        file.seek(max(0, size - len(MAGIC)))
+        tail = file.read()
+    if MAGIC in (head[: len(MAGIC)], tail):
+        return "mcap"
+    if head.startswith(SQLITE):
+        return "sqlite"
+    for mark, compression in COMPRESSED.items():
+        if head.startswith(mark):
+            return compression
+    raise RecordingError(_other(path, head))
+
+
+def _other(path: Path, head: bytes) -> str:
+    """What a file is that is not a recording of ROS 2."""
+    if not head:
+        return f"{path} is empty (0 bytes). Copy it again, or choose another bag."
+    if head.startswith(LFS):
+        return f"{path} is a Git LFS pointer, not the bag itself: run `git lfs pull`."
+    if head.startswith(ROS_1):
+        return (
+            f"{path} is a ROS 1 bag: convert it with `rosbags-convert --src {path} "
+            f"--dst {path.stem}`, and give that folder."
+        )
+    what = "not a bag"
+    with contextlib.suppress(UnicodeDecodeError):
+        # A character may be cut off at the end.
+        text = head[:-3].decode() if len(head) == _LOOKED_AT else head.decode()
+        what = "a text, not a bag" if "\0" not in text else what
+    return f"{path} is {what}. Give an MCAP or db3 file, or a rosbag2 folder."
+
+
+class _Unpacked:
+    """A recording in a file that is compressed as a whole.
+
+    Args:
+        path: of the file.
+        compression: of it.
+
+    Raises:
+        RecordingError, OSError: as `open_file`.
+    """
+
+    def __init__(self, path: Path, compression: str) -> None:
+        with contextlib.ExitStack() as stack:
+            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="webviz-bag-")))
+            file, fault = unpack_file(path, compression, folder)
+            try:
+                inner = CONTAINERS[_kind(file)](file)
+            except KeyError:
+                raise RecordingError(f"{path} is compressed twice: unpack it first.") from None
+            except RecordingError as error:
+                reason = str(error).replace(str(file), str(path))
+                raise RecordingError(f"{reason} ({fault}.)" if fault else reason) from error
+            stack.callback(inner.close)
+            self._inner = inner
+            self._stack = stack.pop_all()
+        self.channels: tuple[RecordedChannel, ...] = inner.channels
+        self.span_ns = inner.span_ns
+        self.losses: Losses = inner.losses
+        if fault:
+            self.losses.others.insert(0, fault)
+
+    def messages(
+        self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.messages`."""
+        return self._inner.messages(channels, start_ns, end_ns)
+
+    def close(self) -> None:
+        """Close the file and remove it."""
+        self._stack.close()

@@ -1,0 +1,107 @@
+"""The interface of recordings, and what is lost of damaged ones."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
+
+
+class RecordingError(Exception):
+    """A recording cannot be opened; one sentence with a remedy."""
+
+
+@dataclass(frozen=True)
+class RecordedChannel:
+    """Messages of one type on one topic.
+
+    Args:
+        topic: full name.
+        type: message type as recorded, such as "std_msgs/msg/String" or "std_msgs/String".
+        encoding: of the messages; "cdr" for those of ROS 2.
+        definition: the .msg text of the type, "" if there is none.
+        profiles: the QoS that publishers offered, as YAML; "" if unknown.
+    """
+
+    topic: str
+    type: str
+    encoding: str
+    definition: str
+    profiles: str
+
+
+class RecordedMessage(NamedTuple):
+    """One recorded message.
+
+    Args:
+        channel: of its topic and type.
+        stamp_ns: time of recording.
+        data: the serialised message.
+    """
+
+    channel: RecordedChannel
+    stamp_ns: int
+    data: bytes
+
+
+class Recording(Protocol):
+    """A file or folder of messages."""
+
+    channels: tuple[RecordedChannel, ...]
+    span_ns: tuple[int, int] | None
+    """Stamps of the first and the last message; None if there is no message."""
+    losses: Losses
+
+    def messages(
+        self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """The messages of some channels by time, both ends included; skips what is damaged."""
+        ...
+
+    def close(self) -> None:
+        """Close all files."""
+        ...
+
+
+@dataclass
+class Losses:
+    """What cannot be read of a recording.
+
+    Args:
+        unit: what may be lost, such as "message".
+        how: what happens to it, such as "skipped".
+        skipped: the reasons, by place.
+        others: further losses.
+        notes: what else is unusual, in sentences.
+    """
+
+    unit: str
+    how: str
+    skipped: dict[Any, str] = field(default_factory=dict)
+    others: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        """All losses as a clause, "" without any."""
+        parts = list(self.others)
+        if count := len(self.skipped):
+            what = f"1 {self.unit} is" if count == 1 else f"{count} {self.unit}s are"
+            parts.insert(0, f"{what} {self.how} ({next(iter(self.skipped.values()))})")
+        return ", and ".join(parts)
+
+
+END_MISSING = "its end is missing"
+MAX_DEFINITIONS = 64 << 20
+"""Bytes of all names, definitions and QoS profiles of a recording; real ones have under 1 MB."""
+
+
+class TextAllowance:
+    """Counts the bytes of texts that are kept of one recording."""
+
+    def __init__(self) -> None:
+        self._left = MAX_DEFINITIONS
+
+    def take(self, *sizes: int) -> bool:
+        """Whether texts of these sizes may be kept, too."""
+        self._left -= sum(sizes)
+        return self._left >= 0

@@ -1,0 +1,204 @@
+"""SQLite files of rosbag2 (.db3)."""
+
+from __future__ import annotations
+
+import sqlite3
+import struct
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import Any
+
+from webviz.data.recordings.recording import (
+    END_MISSING,
+    Losses,
+    RecordedChannel,
+    RecordedMessage,
+    RecordingError,
+    TextAllowance,
+)
+from webviz.data.recordings.unpacking import MAX_BYTES
+
+MAX_TOPICS = 65_536
+MAX_MISSES = 10_000
+"""Consecutive rows that are missing or damaged, after which a damaged table counts as ended."""
+IN_ONE_PAGE = 400
+"""Larger messages may have parts beyond the end of a file that is cut off; SQLite reads zeros."""
+MAX_ROW = 2**63 - 1
+_TABLES = """\
+SELECT count(*) FROM sqlite_master
+WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
+_COLUMNS = "topic_id, timestamp, data FROM messages"
+
+
+class SqliteRecording:
+    """The messages of a db3 file.
+
+    The database is read as it is: without its journals, and without anything that its schema would
+    compute except generated columns, whose values are bounded as all are.
+
+    Args:
+        path: of the file.
+
+    Raises:
+        RecordingError: it is another or a damaged database.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.losses = Losses("message", "skipped")
+        self._db = sqlite3.connect(f"{path.absolute().as_uri()}?immutable=1&mode=ro", uri=True)
+        try:
+            self._db.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_BYTES)
+            self._db.execute("PRAGMA trusted_schema = OFF")
+            # Without it SQLite refuses a file that is shorter than its header says.
+            self._db.execute("PRAGMA writable_schema = ON")
+            self._is_cut = _is_cut(path)
+            self._numbers = self._topics(path)
+            self.span_ns = self._span()
+        except sqlite3.Error as error:
+            self._db.close()
+            raise _damaged(path, str(error)) from error
+        except BaseException:
+            self._db.close()
+            raise
+        self.channels = tuple(dict.fromkeys(self._numbers.values()))
+
+    def messages(
+        self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
+    ) -> Iterator[RecordedMessage]:
+        """`Recording.messages`; of a damaged table in the order in which they were written."""
+        wanted = {number: each for number, each in self._numbers.items() if each in channels}
+        newest: list[RecordedMessage] = []
+        """The delivered messages of one stamp."""
+        rows = self._rows(wanted, start_ns, end_ns)
+        while True:
+            try:
+                row = next(rows, None)
+            except sqlite3.Error:
+                break
+            if row is None:
+                return
+            if entry := self._entry(wanted, *row):
+                if newest and newest[0].stamp_ns != entry.stamp_ns:
+                    newest.clear()
+                newest.append(entry)
+                yield entry
+        start_ns = newest[0].stamp_ns if newest else start_ns
+        for row in self._salvaged():
+            entry = self._entry(wanted, *row)
+            if entry and start_ns <= entry.stamp_ns <= end_ns and entry not in newest:
+                yield entry
+
+    def close(self) -> None:
+        """Close the file."""
+        self._db.close()
+
+    def _topics(self, path: Path) -> dict[int, RecordedChannel]:
+        """The channels by the ids of their topics."""
+        if self._db.execute(_TABLES).fetchone() != (2,):
+            if self._is_cut:
+                raise _damaged(path, "its end is missing")
+            raise RecordingError(
+                f"{path} is a database of something else: give a bag of `ros2 bag record`."
+            )
+        allowance = TextAllowance()
+        definitions = self._definitions(allowance)
+        names = {row[1] for row in self._db.execute("PRAGMA table_info(topics)")}
+        profiles = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
+        found = {}
+        for number, *texts in self._db.execute(
+            f"SELECT id, name, type, serialization_format, {profiles} FROM topics "
+            f"ORDER BY id LIMIT {MAX_TOPICS}"
+        ):
+            topic, type_name, encoding, qos = map(str, texts)
+            if allowance.take(len(topic), len(type_name), len(encoding), len(qos)):
+                definition = definitions.get(type_name, "")
+                found[number] = RecordedChannel(topic, type_name, encoding, definition, qos)
+        return found
+
+    def _definitions(self, allowance: TextAllowance) -> dict[str, str]:
+        """The .msg texts by type; older bags have none."""
+        if not self._db.execute("PRAGMA table_info(message_definitions)").fetchall():
+            return {}
+        found = {}
+        for name, encoding, text in self._db.execute(
+            "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions "
+            f"ORDER BY id LIMIT {MAX_TOPICS}"
+        ):
+            if encoding == "ros2msg" and allowance.take(len(str(name)), len(str(text))):
+                found[str(name)] = str(text)
+        return found
+
+    def _span(self) -> tuple[int, int] | None:
+        try:
+            first, last = self._db.execute(
+                "SELECT min(timestamp), max(timestamp) FROM messages"
+            ).fetchone()
+        except sqlite3.Error:
+            stamps = [row[1] for row in self._salvaged() if isinstance(row[1], int)]
+            return (min(stamps), max(stamps)) if stamps else None
+        is_time = isinstance(first, int) and isinstance(last, int)
+        return (first, last) if is_time else None
+
+    def _rows(
+        self, wanted: Collection[int], start_ns: int, end_ns: int
+    ) -> Iterator[tuple[Any, Any, Any]]:
+        marks = ", ".join("?" * len(wanted))
+        yield from self._db.execute(
+            f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) "
+            "AND timestamp BETWEEN ? AND ? ORDER BY timestamp",
+            (*wanted, start_ns, end_ns),
+        )
+
+    def _salvaged(self) -> Iterator[tuple[Any, Any, Any]]:
+        """The rows of a damaged table that can be read, one by one."""
+        try:
+            last = self._db.execute("SELECT max(id) FROM messages").fetchone()[0] or 0
+        except sqlite3.Error:
+            last = MAX_ROW
+        number = misses = 0
+        lost: list[int] = []
+        while number < last and misses < MAX_MISSES:
+            number += 1
+            try:
+                row = self._db.execute(f"SELECT {_COLUMNS} WHERE id = ?", (number,)).fetchone()
+            except sqlite3.Error:
+                row = None
+                lost.append(number)
+            if row is None:
+                misses += 1
+                continue
+            misses = 0
+            self._skip(lost)
+            yield row
+        if number == last:
+            self._skip(lost)
+        elif END_MISSING not in self.losses.others:
+            self.losses.others.append(END_MISSING)
+
+    def _skip(self, lost: list[int]) -> None:
+        self.losses.skipped |= dict.fromkeys(lost, "the database is damaged")
+        lost.clear()
+
+    def _entry(
+        self, wanted: dict[int, RecordedChannel], number: Any, stamp_ns: Any, data: Any
+    ) -> RecordedMessage | None:
+        if not (isinstance(stamp_ns, int) and isinstance(data, bytes) and number in wanted):
+            return None
+        if self._is_cut and len(data) > IN_ONE_PAGE and data.endswith(bytes(8)):
+            self.losses.skipped[number, stamp_ns] = "it may be cut off"
+            return None
+        return RecordedMessage(wanted[number], stamp_ns, data)
+
+
+def _damaged(path: Path, reason: str) -> RecordingError:
+    return RecordingError(
+        f"{path} is damaged ({reason}): recover it with "
+        f"`sqlite3 {path} .recover | sqlite3 recovered.db3`."
+    )
+
+
+def _is_cut(path: Path) -> bool:
+    """Whether the file is smaller than its header says."""
+    with path.open("rb") as file:
+        page_size, pages = struct.unpack_from(">H10xI", file.read(32), 16)
+    return path.stat().st_size < (page_size if page_size > 1 else 1 << 16) * pages
