@@ -16,6 +16,8 @@ else
   ROS := ros
 endif
 comma := ,
+# Optional packages of trimesh, all of which yourdfpy requires and webviz never imports.
+UNUSED := embreex manifold3d mapbox-earcut networkx rtree scipy shapely vhacdx
 
 PYTEST := $(VENV)/bin/python -m pytest --dist loadfile
 # Images of Python set it: each process would compile the modules and the tests anew.
@@ -92,6 +94,12 @@ $(VENV)/ready: pyproject.toml setup.py
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }
 	@$(VENV)/bin/python -m pip install --editable ".[pictures$(if $(ROS),$(comma)ros)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
+	@$(VENV)/bin/python -m pip uninstall --quiet --yes $(UNUSED)
+	@# The wheels of ROS bring C++ headers, and the library of Fast DDS three times.
+	@rm -rf $(VENV)/include/*
+	@cd $(VENV)/lib && for file in libfast*.so.*.*.*; do \
+		[ ! -e "$$file" ] || for name in "$${file%%.so*}".so*; do \
+			[ "$$name" = "$$file" ] || ln -sf "$$file" "$$name"; done; done
 	@$(VENV)/bin/python -m webviz.shell.pictures.browser || true
 	@touch $@
 
