@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import http.client
 import logging
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import get_origin, get_type_hints
@@ -19,100 +15,19 @@ import pytest
 import websockets.exceptions
 import websockets.sync.client
 
+from tests.access.conftest import PATIENCE_S, House, wait_until
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
-from webviz.api.vehicle import Velocity
 from webviz.edges.access import roles, rules, token_file
 from webviz.edges.access.access import CHECK_S, Access
 from webviz.edges.access.roles import LIMITS, LINKS, Limits, Role
-from webviz.edges.access.tokens import Token, make
+from webviz.edges.access.tokens import make
 from webviz.edges.page.acts import NOT_OF_PAGES
-from webviz.edges.page.pages import Pages
 from webviz.edges.scene import open_server
-from webviz.edges.scene.quiet_server import Server
-from webviz.engine.commands import Command, Sender
-from webviz.engine.driving import HelmAnswer
+from webviz.edges.scene.connections import BURST_S, BYTES_PER_MESSAGE
+from webviz.engine.commands import Command
 
-PATIENCE_S = 30.0
 PARAMETERS = {role: name for name, role in LINKS.items()}
-
-
-@dataclass
-class House:
-    """A server that asks for tokens, and what reaches the viewer behind it.
-
-    Args:
-        server: of the pages.
-        tokens: one of each role.
-        path: of the file with them.
-        access: reads it.
-    """
-
-    server: Server
-    tokens: dict[Role, Token]
-    path: Path
-    access: Access
-
-    def __post_init__(self) -> None:
-        self.reached: list[str] = []
-        self.guests: list[Guest] = []
-        Pages(self.server.channel, self._enqueue, self._steer, self.access)
-        self.reached.clear()
-
-    def cookie(self, role: Role) -> str:
-        return f"webviz_{self.server.get_port()}={self.tokens[role].cookie}"
-
-    def enter(self, role: Role) -> Guest:
-        self.guests.append(Guest(self.server, Cookie=self.cookie(role)))
-        return self.guests[-1]
-
-    def ask(self, path: str = "/", method: str = "GET", **headers: str) -> http.client.HTTPResponse:
-        port = self.server.get_port()
-        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
-        connection.request(
-            method, path, headers={k.replace("_", "-"): v for k, v in headers.items()}
-        )
-        response = connection.getresponse()
-        self.body = response.read()
-        connection.close()
-        return response
-
-    def revoke(self, role: Role) -> None:
-        name = self.tokens[role].name
-        token_file.modify(self.path, lambda tokens: [t for t in tokens if t.name != name])
-
-    def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
-        if type(command).__name__ != "Refresh":
-            self.reached.append(type(command).__name__)
-        done: Future[str] = Future()
-        done.set_result("")
-        return done
-
-    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
-        self.reached.append("Drive")
-        return HelmAnswer()
-
-
-@pytest.fixture
-def house(tmp_path: Path) -> Iterator[House]:
-    path = tmp_path / "tokens.json"
-    now = datetime.now(UTC)
-    tokens = {role: make(f"some {role.label}", role, now) for role in Role}
-    token_file.modify(path, lambda _: list(tokens.values()))
-    access = Access(True, path)
-    server = open_server(port=0, access=access)
-    house = House(server, tokens, path, access)
-    yield house
-    for guest in house.guests:
-        guest.close()
-    server.stop()
-
-
-def wait_until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 @pytest.mark.parametrize(
@@ -295,9 +210,11 @@ def test_what_was_sent_before_a_token_was_revoked_counts_no_more(house: House) -
     operator.do("Pause")
     house.reached.clear()
     house.revoke(Role.OPERATOR)
+    deadline = time.monotonic() + PATIENCE_S
     with contextlib.suppress(websockets.exceptions.ConnectionClosed):
-        while True:  # far more than is read in the time that is left
+        while time.monotonic() < deadline:  # far more than is read in the time that is left
             operator.send("Do", number=1, command="Reset", arguments={})
+    assert time.monotonic() < deadline
     seen = len(house.reached)
     time.sleep(0.2)
     assert len(house.reached) == seen
@@ -352,6 +269,32 @@ def test_an_owner_revokes_a_link(house: House) -> None:
     assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 403
 
 
+def test_invitations_in_a_burst_are_all_answered(house: House) -> None:
+    owner = house.enter(Role.OWNER)
+    names = [f"guest {number}" for number in range(40)]
+    for number, name in enumerate(names):
+        fields = {"role": "watcher", "days": None, "url": "http://localhost:8080"}
+        owner.send("Invite", number=number, name=name, **fields)
+    answers = [owner.receive("Invitation") for _ in names]
+    assert {answer["number"] for answer in answers} == {*range(len(names))}
+    made = [names[answer["number"]] for answer in answers if answer["link"]]
+    kept = [token.name for token in token_file.read(house.path)]
+    assert sorted(made) == sorted(name for name in kept if name in names)
+    assert made
+    refused = {answer["problem"] for answer in answers if not answer["link"]}
+    assert refused <= {
+        "Not done: too many at once. Try again later.",
+        f"Cannot write {house.path}: another program is saving in this folder; try again.",
+    }
+    assert owner.do("Pause") == ""
+
+
+@pytest.mark.parametrize("role", list(Role))
+def test_a_command_has_the_priority_of_its_role(house: House, role: Role) -> None:
+    house.enter(role).do("Export")
+    assert house.priorities[-1] == role
+
+
 def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     few = {
         Role.WATCHER: Limits(0.5, 64, 100.0, 1000),
@@ -402,6 +345,17 @@ def test_a_role_has_a_rate_of_messages(
     owner_s = seconds(owner)
     assert LIMITS[Role.OWNER].messages_per_second == 200.0
     assert owner_s < 60.0
+
+
+def test_long_messages_count_for_more(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    limits = dataclasses.replace(LIMITS[Role.WATCHER], messages_per_second=20.0)
+    monkeypatch.setattr("webviz.edges.scene.connections.LIMITS", {**LIMITS, Role.WATCHER: limits})
+    guest = house.enter(Role.WATCHER)
+    size = 30 * BYTES_PER_MESSAGE
+    start = time.monotonic()
+    for _ in range(2):
+        assert "characters" in guest.do("FocusFrame", frame="x" * size)
+    assert time.monotonic() - start > 2 * 30 / 20.0 - BURST_S
 
 
 def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:

@@ -61,7 +61,7 @@ class Visitor:
 
     def _receive_scene(self) -> None:
         with contextlib.suppress(websockets.exceptions.ConnectionClosed):
-            self.viser.drain()
+            self.viser.drain(None)
 
     def _receive_answers(self) -> None:
         with contextlib.suppress(websockets.exceptions.ConnectionClosed):

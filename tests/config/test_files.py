@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from webviz.data.disk import MAX_THREADS, in_thread, within
+from webviz.data.disk import MAX_THREADS, DiskThreads, in_thread, within
 from webviz.files.config import Config, ConfigError, write_text
 from webviz.files.opening import load, parse, save
 
@@ -97,6 +97,19 @@ def test_a_disk_that_does_not_respond_is_given_up() -> None:
         mounted.set()
     assert all(each.result(60.0) for each in waiting)
     assert within(10.0, lambda: "mounted again") == "mounted again"
+
+
+def test_a_thread_that_cannot_start_leaves_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    threads = DiskThreads(1)
+    with monkeypatch.context() as system:
+        system.setattr(threading.Thread, "start", lambda _: _fail())
+        with pytest.raises(OSError, match="no thread is left"):
+            threads.start(lambda: None)
+    assert threads.within(60.0, lambda: "started") == "started"
+
+
+def _fail() -> None:
+    raise RuntimeError("can't start new thread")
 
 
 def test_the_version_before_is_kept(path: Path) -> None:

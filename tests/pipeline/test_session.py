@@ -32,7 +32,7 @@ from webviz.engine.commands import (
     SetToolProperty,
     WriteDisplays,
 )
-from webviz.engine.requests import MAX_FILES
+from webviz.engine.requests import MAX_FILES, MAX_REQUESTS
 from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import load, parse
@@ -181,6 +181,45 @@ def test_files_that_wait_are_not_more_than_a_few(bench: Callable[..., Any]) -> N
     assert str(exports[-1].exception(timeout=0)) == "Too many files at once. Try again later."
     b.until_done(exports[-2])
     assert [each.result() for each in exports[:-1]] == [""] * (MAX_FILES + 1)
+
+
+def test_each_browser_waits_with_one_file(bench: Callable[..., Any]) -> None:
+    b, page = bench(), Sender(browser=1, priority=1)
+    exports = [b.viewer.enqueue(Export(lambda _: None), page) for _ in range(4)]
+    other = b.viewer.enqueue(Export(lambda _: None), Sender(browser=2, priority=1))
+    b.turn()
+    for late in exports[2:]:
+        assert str(late.exception(timeout=0)) == "Too many files at once. Try again later."
+    b.until_done(other)
+    assert [each.result(timeout=0) for each in exports[:2]] == ["", ""]
+
+
+def test_files_of_higher_roles_go_first(bench: Callable[..., Any]) -> None:
+    b = bench()
+    order: list[int] = []
+    waiting = [
+        b.viewer.enqueue(
+            Export(lambda _, browser=browser: order.append(browser)), Sender(browser, 0, priority)
+        )
+        for browser, priority in ((1, 1), (2, 1), (3, 1), (4, 2), (5, 3), (6, 3))
+    ]
+    for each in waiting:
+        b.until_done(each)
+    assert order == [1, 5, 6, 4, 2, 3]  # the first began before the others were known
+
+
+def test_a_lower_role_leaves_room_in_the_queue(bench: Callable[..., Any]) -> None:
+    b = bench()
+    refused: list[int] = []
+    for priority in (1, 2, 3):
+        pages = [Sender(browser, 0, priority) for browser in range(MAX_REQUESTS)]
+        answers = [b.viewer.enqueue(Refresh(), page) for page in pages]
+        refused.append(sum(answer.done() for answer in answers))
+    assert refused == [
+        MAX_REQUESTS - MAX_REQUESTS // 3,
+        MAX_REQUESTS - MAX_REQUESTS // 3,
+        MAX_REQUESTS - MAX_REQUESTS // 3 - 1,
+    ]
 
 
 def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(

@@ -192,10 +192,11 @@ class Peer:
             messages += self.receive()
         return messages
 
-    def drain(self) -> None:
-        """Receives until the connection ends."""
+    def drain(self, timeout: float | None = 60.0) -> None:
+        """Receives until the connection ends; `timeout` is that of all, None for none."""
+        deadline = None if timeout is None else time.monotonic() + timeout
         while True:
-            self._socket.recv(60)
+            self._socket.recv(None if deadline is None else max(0.0, deadline - time.monotonic()))
 
     def close(self) -> None:
         self._socket.close()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import msgspec
@@ -9,6 +10,8 @@ import websockets.sync.client
 
 from tests.scene.conftest import Peer
 from webviz.edges.scene.quiet_server import Server
+
+PATIENCE_S = 60.0
 
 
 class Guest:
@@ -39,9 +42,12 @@ class Guest:
 
     def receive(self, type_: str) -> dict[str, Any]:
         """The next message of a type."""
-        while (message := msgspec.json.decode(self._socket.recv(60)))["type"] != type_:
-            pass
-        return message
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            # Without a deadline of all, a connection that should end would keep a test for ever.
+            text = self._socket.recv(max(0.0, deadline - time.monotonic()))
+            if (message := msgspec.json.decode(text))["type"] == type_:
+                return message
 
     def do(self, command: str, **arguments: Any) -> str:
         """The answer to a command."""

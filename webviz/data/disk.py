@@ -9,49 +9,67 @@ from concurrent.futures import Future
 from typing import TypeVar
 
 MAX_THREADS = 16
-"""At once; a thread that waits for a dead mount cannot be ended."""
+"""Of `in_thread` at once; a thread that waits for a dead mount cannot be ended."""
 
 T = TypeVar("T")
 
-_free = threading.BoundedSemaphore(MAX_THREADS)
 
+class DiskThreads:
+    """Threads that wait for a disk, of which those that never return leave room for no others.
 
-def in_thread(work: Callable[[], T]) -> Future[T]:
-    """Start work in a thread of its own, which does not keep the program from ending.
+    Hence each purpose has its own: what operators name must not keep the owner from saving.
 
-    Raises:
-        OSError: too many such threads still wait for a disk.
+    Args:
+        limit: of threads at once.
     """
-    if not _free.acquire(blocking=False):
-        raise OSError(errno.EAGAIN, "too many files do not respond")
-    done: Future[T] = Future()
 
-    def run() -> None:
-        try:
+    def __init__(self, limit: int) -> None:
+        self._free = threading.BoundedSemaphore(limit)
+
+    def start(self, work: Callable[[], T]) -> Future[T]:
+        """Start work in a thread of its own, which does not keep the program from ending.
+
+        Raises:
+            OSError: too many such threads still wait for a disk, or the system has none left.
+        """
+        if not self._free.acquire(blocking=False):
+            raise OSError(errno.EAGAIN, "too many files do not respond")
+        done: Future[T] = Future()
+
+        def run() -> None:
             try:
-                result = work()
-            finally:
-                _free.release()
-        except BaseException as error:
-            done.set_exception(error)
-        else:
-            done.set_result(result)
+                try:
+                    result = work()
+                finally:
+                    self._free.release()
+            except BaseException as error:
+                done.set_exception(error)
+            else:
+                done.set_result(result)
 
-    threading.Thread(target=run, name="webviz-disk", daemon=True).start()
-    return done
+        try:
+            threading.Thread(target=run, name="webviz-disk", daemon=True).start()
+        except RuntimeError as error:
+            self._free.release()
+            raise OSError(errno.EAGAIN, "no thread is left for a file") from error
+        return done
+
+    def within(self, seconds: float, work: Callable[[], T]) -> T:
+        """The result of work on a disk.
+
+        Raises:
+            OSError: the time is over; the work continues in its thread.
+            Exception: what the work raises.
+        """
+        done = self.start(work)
+        try:
+            return done.result(seconds)
+        except TimeoutError as error:
+            if done.done():
+                raise
+            raise TimeoutError(errno.ETIMEDOUT, f"no response within {seconds:g} s") from error
 
 
-def within(seconds: float, work: Callable[[], T]) -> T:
-    """The result of work on a disk.
-
-    Raises:
-        OSError: the time is over; the work continues in its thread.
-        Exception: what the work raises.
-    """
-    done = in_thread(work)
-    try:
-        return done.result(seconds)
-    except TimeoutError as error:
-        if done.done():
-            raise
-        raise TimeoutError(errno.ETIMEDOUT, f"no response within {seconds:g} s") from error
+_config_files = DiskThreads(MAX_THREADS)
+in_thread = _config_files.start
+within = _config_files.within

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import functools
 import queue
-from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, wait
 from dataclasses import dataclass
@@ -13,12 +12,13 @@ from typing import Any, Generic, TypeVar
 
 from webviz.api.errors import Error
 from webviz.data.disk import in_thread
-from webviz.engine.commands import Command, FileCommand, Sender
+from webviz.engine.commands import MAX_PRIORITY, Command, FileCommand, Sender
 from webviz.engine.pipeline.guard import Guard
 
 MAX_REQUESTS = 1000
+"""That wait for the frame loop; those of a lower priority fill a part of it."""
 MAX_FILES = 20
-"""File commands that wait for the disk."""
+"""File commands of programs that wait for the disk; of each browser it is one."""
 ENDING_S = 1.0
 """How long `end` waits for a file that is being written."""
 ENDED = "The viewer has ended."
@@ -49,7 +49,8 @@ Request = tuple[Command, Sender, Future[str]]
 class Requests:
     """Commands that wait for the frame loop.
 
-    File commands run in a thread, one after the other; other commands overtake them.
+    File commands run in a thread, one after the other, those of a higher priority first; other
+    commands overtake them.
 
     Args:
         guard: logs unexpected exceptions of commands.
@@ -59,17 +60,17 @@ class Requests:
     def __init__(self, guard: Guard, wake: Callable[[], None]) -> None:
         self._guard = guard
         self._wake = wake
-        self._waiting: queue.Queue[Request] = queue.Queue(MAX_REQUESTS)
-        self._files: deque[Request] = deque()
+        self._waiting: queue.SimpleQueue[Request] = queue.SimpleQueue()
+        self._files: list[Request] = []
         self._running: tuple[Future[Any], Job[Any], Future[str]] | None = None
         self._has_ended = False
 
     def put(self, command: Command, sender: Sender) -> Future[str]:
         """Enqueue a command; see `FrameLoop.enqueue`."""
         answer: Future[str] = Future()
-        try:
-            self._waiting.put_nowait((command, sender, answer))
-        except queue.Full:
+        if self._waiting.qsize() < MAX_REQUESTS * sender.priority // MAX_PRIORITY:
+            self._waiting.put((command, sender, answer))
+        else:
             answer.set_exception(Refused("Too many requests at once. Try again later."))
         if self._has_ended:
             self._refuse_waiting()
@@ -104,7 +105,7 @@ class Requests:
             self._running[2].set_exception(Refused(ENDED))
             self._running = None
         while self._files:
-            _refuse(self._files.popleft(), ENDED)
+            _refuse(self._files.pop(), ENDED)
         self._refuse_waiting()
 
     def _finish(self) -> list[Callable[[], None]]:
@@ -140,7 +141,8 @@ class Requests:
         """The next request that was not cancelled and may run now."""
         while True:
             if self._files and self._running is None:
-                request = self._files.popleft()
+                request = max(self._files, key=lambda each: each[1].priority)
+                self._files.remove(request)
             else:
                 try:
                     request = self._waiting.get_nowait()
@@ -163,7 +165,9 @@ class Requests:
             raise Refused(self._guard.note("Command", error)) from error
 
     def _defer(self, request: Request) -> None:
-        if len(self._files) < MAX_FILES:
+        browser = request[1].browser
+        limit = MAX_FILES if browser is None else 1
+        if sum(other.browser == browser for _, other, _ in self._files) < limit:
             self._files.append(request)
         else:
             _refuse(request, "Too many files at once. Try again later.")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from webviz import Context
-from webviz.data.disk import within
+from webviz.data.disk import DiskThreads
 from webviz_urdf import Loading, LoadRequest, Robot
 
 Loadings = dict[LoadRequest, Loading]
@@ -15,6 +15,7 @@ Loadings = dict[LoadRequest, Loading]
 
 DISK_S = 5.0
 """A disk that takes longer, such as a dead network mount, does not respond."""
+_disk = DiskThreads(16)
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ def last_written(path: str, before: Written, ctx: Context) -> Written:
 
 def _written_ns(path: str) -> int:
     try:
-        return within(DISK_S, lambda: Path(path).expanduser().stat().st_mtime_ns)
+        return _disk.within(DISK_S, lambda: Path(path).expanduser().stat().st_mtime_ns)
     except (OSError, RuntimeError):  # no such file, no response, no such home
         return 0  # loading reports the cause
 

@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from webviz.data.disk import DiskThreads
 from webviz.edges.access import token_file
 from webviz.edges.access.roles import Role
 from webviz.edges.access.token_file import Tokens
 from webviz.edges.access.tokens import (
     Token,
-    TokenError,
-    by_cookie,
-    by_secret,
+    TokenIndex,
     make,
     role_of,
 )
@@ -81,15 +80,16 @@ class Access:
         # For the browser of this program that takes pictures; never written, gone with it.
         self._own = make("webviz", Role.WATCHER, now())
         self._others = (*others, self._own)
-        self._stamp = _stamp(path)
-        self._tokens: Tokens = ()
-        if asks and path is not None:
-            self._tokens = token_file.read(path)
+        self._disk = DiskThreads(1)
+        self._is_late = False
+        # One object, as threads replace it.
+        self._file = _stamp(path), self._index(token_file.read(path) if asks and path else ())
 
     @property
     def tokens(self) -> Tokens:
         """All valid tokens, except that of this program."""
-        return tuple(token for token in self._valid() if token is not self._own)
+        now, tokens = self._now(), self._file[1].tokens
+        return tuple(token for token in tokens if token is not self._own and token.is_valid(now))
 
     @property
     def own(self) -> Token:
@@ -98,15 +98,15 @@ class Access:
 
     def by_secret(self, secret: str, role: Role) -> Grant | None:
         """What a link gives, None if it is not valid."""
-        token = by_secret(self._valid(), secret)
-        return None if token is None or role_of(token) is not role else _grant(token)
+        token = self._file[1].by_secret(secret)
+        return None if token is None or role_of(token) is not role else self._grant(token)
 
     def by_cookie(self, cookie: str) -> Grant | None:
         """What a cookie gives, None if it is not valid."""
         if not self.asks:
             return EVERYBODY
-        token = by_cookie(self._valid(), cookie)
-        return None if token is None else _grant(token)
+        token = self._file[1].by_cookie(cookie)
+        return None if token is None else self._grant(token)
 
     def holds(self, grant: Grant) -> bool:
         """Whether a grant is still valid: its token was neither revoked, nor did it expire."""
@@ -118,22 +118,40 @@ class Access:
 
     def refresh(self) -> None:
         """Read the file again if it was changed; if it cannot be read, its tokens do not count."""
-        if not self.asks or self.path is None or (stamp := _stamp(self.path)) == self._stamp:
+        if not self.asks or self.path is None or (stamp := _stamp(self.path)) == self._file[0]:
             return
-        self._stamp = stamp
         try:
-            self._tokens = token_file.read(self.path)
-        except TokenError as error:
-            self._tokens = ()
+            tokens = token_file.read(self.path)
+        except Exception as error:  # whatever the cause, nobody keeps a right
+            tokens = ()
             log.error("No token of the file is valid: %s", error)
+        self._file = stamp, self._index(tokens)
 
-    def _valid(self) -> Tokens:
-        now = self._now()
-        return tuple(token for token in (*self._tokens, *self._others) if token.is_valid(now))
+    def begin_refresh(self, then: Callable[[], object]) -> None:
+        """Read the file again in a thread, unless one still waits for the disk.
 
+        Args:
+            then: called from that thread once the file was read.
+        """
+        try:
+            reading = self._disk.start(self.refresh)
+        except OSError:
+            if not self._is_late:
+                log.warning(
+                    "Revoked tokens stay valid: the disk of %s does not respond.", self.path
+                )
+            self._is_late = True
+        else:
+            self._is_late = False
+            reading.add_done_callback(lambda _: then())
 
-def _grant(token: Token) -> Grant:
-    return Grant(role_of(token), token.name, token.cookie, token.expires)
+    def _index(self, tokens: Tokens) -> TokenIndex:
+        return TokenIndex((*tokens, *self._others))
+
+    def _grant(self, token: Token) -> Grant | None:
+        if not token.is_valid(self._now()):
+            return None
+        return Grant(role_of(token), token.name, token.cookie, token.expires)
 
 
 def _stamp(path: Path | None) -> tuple[int, ...]:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import replace
 
 from webviz.api.registry import display_types
 from webviz.edges.access.access import Access
 from webviz.edges.access.journal import Journal
+from webviz.edges.access.roles import Role
 from webviz.edges.page.acts import Acts
 from webviz.edges.page.channel import Channel
 from webviz.edges.page.content import MAKERS
@@ -53,13 +55,16 @@ class Pages:
         def note(browser: int, text: str) -> None:
             journal.note(channel.visitors().get(browser), text)
 
-        self._toolbar = Toolbar(channel, enqueue, note)
-        self._acts = Acts(channel, enqueue, note)
+        def request(command: Command, sender: Sender) -> Future[str]:
+            return enqueue(command, _ranked(channel, sender))
+
+        self._toolbar = Toolbar(channel, request, note)
+        self._acts = Acts(channel, request, note)
         self._driving = DrivingMessages(channel, steer, note)
         people = People(channel, journal, access or Access())
-        self._gripping = GripMessages(channel, enqueue)
-        self._wishes = Wishes(enqueue)
-        self._panels = panels = PluginPanels(channel, enqueue)
+        self._gripping = GripMessages(channel, request)
+        self._wishes = Wishes(request)
+        self._panels = panels = PluginPanels(channel, request)
         self._of_panels = {
             "addresses": people.addresses,
             "journal": people.journal,
@@ -73,10 +78,10 @@ class Pages:
         """What the stores were made of that are kept."""
         self._types = display_types()
         # A store that a page begins to watch is filled on the next turn of the frame loop.
-        channel.on_watch = lambda browser: enqueue(Refresh(), Sender(browser))
+        channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
         # What a pane shows that was not seen before is received from the next turn on.
-        channel.on(ShowPictures, lambda browser, _: enqueue(Refresh(), Sender(browser)))
+        channel.on(ShowPictures, lambda browser, _: request(Refresh(), Sender(browser)))
         channel.send(Shell())
 
     def debug(self) -> None:
@@ -111,6 +116,14 @@ class Pages:
             self._read.clear()
         for store in self._read.keys() - watched:
             del self._read[store]
+
+
+def _ranked(channel: Channel, sender: Sender) -> Sender:
+    """A sender with the priority of their role."""
+    if sender.browser is None:
+        return sender
+    grant = channel.grant_of(sender.browser)
+    return replace(sender, priority=Role.WATCHER if grant is None else grant.role)
 
 
 def _may_watch(browser: int, store: str) -> bool:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, TypeVar
 
 from webviz.api.errors import Error
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads
 from webviz.edges.access import token_file
 from webviz.edges.access.access import Access, Grant
 from webviz.edges.access.journal import Journal
@@ -26,6 +26,11 @@ NOT_ASKED = (
     "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
     "other machines."
 )
+
+MAX_THREADS = 4
+"""That change the file of tokens, or wait for it."""
+
+T = TypeVar("T")
 
 
 class People:
@@ -44,6 +49,7 @@ class People:
         channel.on(Invite, self._invite)
         channel.on(Dismiss, self._dismiss)
         self._dismissing: set[asyncio.Task[None]] = set()
+        self._disk = DiskThreads(MAX_THREADS)
 
     def people(self, state: State, _: str) -> Mapping[str, Any]:
         """Of each browser by its id: name, role, since when, latency in ms, and what it drives."""
@@ -84,7 +90,7 @@ class People:
             text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."
             self._journal.note(self._channel.visitors().get(browser), text)
 
-        in_thread(lambda: self._make(invite)).add_done_callback(answer)
+        self._begin(lambda: self._make(invite)).add_done_callback(answer)
 
     def _dismiss(self, browser: int, dismiss: Dismiss) -> None:
         visitor = self._channel.visitors().get(dismiss.browser)
@@ -115,7 +121,16 @@ class People:
             else:
                 self._answer(browser, dismiss, f"Revoked the link of {grant.name}.")
 
-        in_thread(lambda: self._remove(grant)).add_done_callback(answer)
+        self._begin(lambda: self._remove(grant)).add_done_callback(answer)
+
+    def _begin(self, work: Callable[[], T]) -> Future[T]:
+        """Work on the file of tokens in a thread; it fails if too much does already."""
+        try:
+            return self._disk.start(work)
+        except OSError:
+            refused: Future[T] = Future()
+            refused.set_exception(TokenError("Not done: too many at once. Try again later."))
+            return refused
 
     def _answer(self, browser: int, dismiss: Dismiss, done: str, problem: str = "") -> None:
         level = "error" if problem else "ok"

@@ -20,7 +20,6 @@ import viser
 import websockets.asyncio.server as websocket
 from websockets.http11 import Request, Response
 
-from webviz.data.disk import in_thread
 from webviz.edges.access import login
 from webviz.edges.access.access import CHECK_S, Access
 from webviz.edges.access.proxies import Proxies
@@ -135,14 +134,15 @@ def guarded_serve(
     def watch_tokens(loop: asyncio.AbstractEventLoop) -> None:
         """Ends connections whose token was revoked or has expired, again and again."""
 
+        def look() -> None:
+            loop.call_later(CHECK_S, look)  # first, as nothing may end this
+            expel()  # tokens expire also while the disk does not respond
+            access.begin_refresh(then)
+
         def expel() -> None:
             gate.expel(lambda connection: not access.holds(connection.grant))
-            loop.call_later(CHECK_S, look)
 
-        def look() -> None:
-            in_thread(access.refresh).add_done_callback(lambda _: tell())
-
-        def tell() -> None:
+        def then() -> None:
             with contextlib.suppress(RuntimeError):  # the server has stopped
                 loop.call_soon_threadsafe(expel)
 

@@ -1,6 +1,6 @@
 """The commands of a viewer: sent by the panel, ROS or Python, carried out by the frame loop."""
 
-from webviz.engine.commands.command import PROGRAM, Command, Sender
+from webviz.engine.commands.command import MAX_PRIORITY, PROGRAM, Command, Sender
 from webviz.engine.commands.displays import (
     AddDisplay,
     DuplicateDisplay,
@@ -54,6 +54,7 @@ from webviz.engine.commands.views import (
 )
 
 __all__ = [
+    "MAX_PRIORITY",
     "PROGRAM",
     "AddDisplay",
     "AddPanel",

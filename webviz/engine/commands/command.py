@@ -1,6 +1,8 @@
 """The base class of commands, and their senders."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+MAX_PRIORITY = 3
 
 
 class Command:
@@ -14,10 +16,12 @@ class Sender:
     Args:
         browser: id of the browser; None for Python, ROS and the command line.
         step: commands of one sender with the same number are undone together; 0 is none.
+        priority: 1 to MAX_PRIORITY; who has less can neither delay files nor fill the queue.
     """
 
     browser: int | None = None
     step: int = 0
+    priority: int = field(default=MAX_PRIORITY, compare=False)
 
 
 PROGRAM = Sender()

@@ -1,0 +1,107 @@
+"""A server that asks for tokens, with programs that join it as pages do."""
+
+from __future__ import annotations
+
+import http.client
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from tests.support.guest import Guest
+from webviz.api.vehicle import Velocity
+from webviz.edges.access import token_file
+from webviz.edges.access.access import Access
+from webviz.edges.access.roles import Role
+from webviz.edges.access.tokens import Token, make
+from webviz.edges.page.pages import Pages
+from webviz.edges.scene import open_server
+from webviz.edges.scene.quiet_server import Server
+from webviz.engine.commands import Command, Sender
+from webviz.engine.driving import HelmAnswer
+
+PATIENCE_S = 30.0
+
+
+@dataclass
+class House:
+    """A server that asks for tokens, and what reaches the viewer behind it.
+
+    Args:
+        server: of the pages.
+        tokens: one of each role.
+        path: of the file with them.
+        access: reads it.
+    """
+
+    server: Server
+    tokens: dict[Role, Token]
+    path: Path
+    access: Access
+
+    def __post_init__(self) -> None:
+        self.reached: list[str] = []
+        self.priorities: list[int] = []
+        self.guests: list[Guest] = []
+        Pages(self.server.channel, self._enqueue, self._steer, self.access)
+        self.reached.clear()
+
+    def cookie(self, role: Role) -> str:
+        return f"webviz_{self.server.get_port()}={self.tokens[role].cookie}"
+
+    def enter(self, role: Role) -> Guest:
+        self.guests.append(Guest(self.server, Cookie=self.cookie(role)))
+        return self.guests[-1]
+
+    def ask(self, path: str = "/", method: str = "GET", **headers: str) -> http.client.HTTPResponse:
+        port = self.server.get_port()
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+        connection.request(
+            method, path, headers={k.replace("_", "-"): v for k, v in headers.items()}
+        )
+        response = connection.getresponse()
+        self.body = response.read()
+        connection.close()
+        return response
+
+    def revoke(self, role: Role) -> None:
+        name = self.tokens[role].name
+        token_file.modify(self.path, lambda tokens: [t for t in tokens if t.name != name])
+
+    def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
+        if type(command).__name__ != "Refresh":
+            self.reached.append(type(command).__name__)
+            self.priorities.append(sender.priority)
+        done: Future[str] = Future()
+        done.set_result("")
+        return done
+
+    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
+        self.reached.append("Drive")
+        return HelmAnswer()
+
+
+@pytest.fixture
+def house(tmp_path: Path) -> Iterator[House]:
+    path = tmp_path / "tokens.json"
+    now = datetime.now(UTC)
+    tokens = {role: make(f"some {role.label}", role, now) for role in Role}
+    token_file.modify(path, lambda _: list(tokens.values()))
+    access = Access(True, path)
+    server = open_server(port=0, access=access)
+    house = House(server, tokens, path, access)
+    yield house
+    for guest in house.guests:
+        guest.close()
+    server.stop()
+
+
+def wait_until(condition: Callable[[], object]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)

@@ -1,0 +1,109 @@
+"""Whose right ends: their pages are closed, whatever the disk does."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import msgspec
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from tests.access.conftest import House, wait_until
+from tests.support.guest import Guest
+from webviz.data.disk import MAX_THREADS, in_thread
+from webviz.edges.access import token_file
+from webviz.edges.access.access import Access
+from webviz.edges.access.roles import Role
+from webviz.edges.access.tokens import make
+from webviz.edges.scene import open_server
+
+
+@pytest.fixture
+def mounted() -> Iterator[threading.Event]:
+    """When a dead mount, on which threads wait, answers."""
+    mounted = threading.Event()
+    yield mounted
+    mounted.set()
+
+
+def test_a_link_is_revoked_although_no_thread_is_left_for_the_disk(
+    house: House, mounted: threading.Event
+) -> None:
+    operator = house.enter(Role.OPERATOR)
+    operator.receive("You")
+    waiting = [in_thread(mounted.wait) for _ in range(MAX_THREADS)]
+    house.revoke(Role.OPERATOR)
+    with pytest.raises(ConnectionClosed):
+        operator.receive("None")
+    assert house.ask("/", Cookie=house.cookie(Role.OPERATOR)).status == 403
+    mounted.set()
+    assert all(each.result(60.0) for each in waiting)
+
+
+class Stuck(Access):
+    """Reads its file from a dead mount, or fails to."""
+
+    mounted: threading.Event
+    fails = False
+
+    def refresh(self) -> None:
+        if self.fails:
+            raise RuntimeError
+        self.mounted.wait()
+        super().refresh()
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_a_token_expires_although_its_file_cannot_be_read(
+    tmp_path: Path, mounted: threading.Event, fails: bool, caplog: pytest.LogCaptureFixture
+) -> None:
+    clock = [datetime.now(UTC)]
+    token = make("a", Role.WATCHER, clock[0], days=1.0)
+    path = tmp_path / "tokens.json"
+    token_file.modify(path, lambda _: [token])
+    access = Stuck(True, path, now=lambda: clock[0])
+    access.mounted, access.fails = mounted, fails
+    server = open_server(port=0, access=access)
+    guest = Guest(server, Cookie=f"webviz_{server.get_port()}={token.cookie}")
+    try:
+        guest.receive("You")
+        if not fails:
+            wait_until(lambda: "the disk of" in caplog.text)
+        clock[0] += timedelta(days=1.0)
+        with pytest.raises(ConnectionClosed):
+            guest.receive("None")
+        access.fails = False
+        mounted.set()
+        other = make("b", Role.WATCHER, clock[0])
+        token_file.modify(path, lambda _: [other])
+        wait_until(lambda: access.by_cookie(other.cookie))
+    finally:
+        guest.close()
+        server.stop()
+
+
+def test_a_role_that_is_lowered_in_the_file_closes_its_pages(house: House) -> None:
+    owner = house.enter(Role.OWNER)
+    owner.receive("You")
+    lowered = msgspec.structs.replace(house.tokens[Role.OWNER], role="watcher")
+    token_file.modify(house.path, lambda _: [lowered])
+    with pytest.raises(ConnectionClosed):
+        owner.receive("None")
+    again = house.enter(Role.OWNER)
+    assert again.receive("You")["role"] == "watcher"
+
+
+def test_no_right_survives_a_failure_to_read_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    token = make("a", Role.WATCHER, datetime.now(UTC))
+    path = tmp_path / "tokens.json"
+    token_file.modify(path, lambda _: [token])
+    access = Access(True, path)
+    token_file.modify(path, lambda _: [])
+    monkeypatch.setattr(token_file, "read", lambda _: 1 / 0)
+    access.refresh()
+    assert access.by_cookie(token.cookie) is None
