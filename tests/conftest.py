@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import ast
+import atexit
+import os
+import shutil
+import tempfile
 from collections.abc import Iterator
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -39,6 +43,13 @@ card."""
 
 
 def pytest_configure() -> None:
+    """Check the installation, and give viewers that tests start a folder of their own."""
+    _check_entry_points()
+    os.environ["XDG_STATE_HOME"] = tempfile.mkdtemp(prefix="webviz-tests-")
+    atexit.register(shutil.rmtree, os.environ["XDG_STATE_HOME"], ignore_errors=True)
+
+
+def _check_entry_points() -> None:
     """An editable installation has the entry points of the day it was made."""
     tree = ast.parse((Path(__file__).parent.parent / "setup.py").read_text())
     calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call))

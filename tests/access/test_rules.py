@@ -29,6 +29,7 @@ NOT_OF_PAGES = {
     "InspectTopics": "follows from the stores that pages watch",
     "InspectTransforms": "follows from the stores that pages watch",
     "Refresh": "of programs; watching a store sends it",
+    "Restore": "of the start of a viewer",
     "ReloadPlugin": "runs code of a file",
     "TraceDisplay": "of programs",
     "UseTool": "a page sends a StrokeDone",

@@ -45,6 +45,7 @@ def measure(robots: int) -> tuple[float, float, float, float]:
     env = {**os.environ, "ROS_DOMAIN_ID": str(domain), "PYTHONUNBUFFERED": "1"}
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "webviz", "demo", "--robots", str(robots), "--port", "0"]
+        command.append("--no-autosave")
         program = Program(command, env, Path(folder) / "output.txt")
         context = Context()
         context.init(domain_id=domain)

@@ -119,7 +119,10 @@ def main() -> None:
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "PYTHONUNBUFFERED": "1",
     }
-    commands = {"webviz": ["-m", "webviz", "--port", "0"], "JSON bridge": ["-c", BRIDGE]}
+    commands = {
+        "webviz": ["-m", "webviz", "--port", "0", "--no-autosave"],
+        "JSON bridge": ["-c", BRIDGE],
+    }
     programs = {
         name: subprocess.Popen([sys.executable, *command], stdout=subprocess.PIPE, text=True)
         for name, command in commands.items()

@@ -32,7 +32,8 @@ def start(
     def start(*arguments: str, env: dict[str, str] | None = None) -> Program:
         log = tmp_path_factory.mktemp("log") / "output.txt"
         command = [sys.executable, "-m", *arguments]
-        programs.append(Program(command, {**ros_env, **(env or {})}, log))
+        own = {"XDG_STATE_HOME": str(log.parent), **(env or {})}  # nothing is restored
+        programs.append(Program(command, {**ros_env, **own}, log))
         return programs[-1]
 
     yield start

@@ -35,7 +35,7 @@ def main() -> int:
     domain = str(random.SystemRandom().randrange(160, 220))
     env = {**os.environ, "ROS_DOMAIN_ID": domain, "PYTHONUNBUFFERED": "1"}
     with tempfile.TemporaryDirectory() as folder, launched() as browser:
-        arguments = [sys.executable, "-m", "webviz", "demo", "--port", "0"]
+        arguments = [sys.executable, "-m", "webviz", "demo", "--port", "0", "--no-autosave"]
         program = Program(arguments, env, Path(folder) / "output.txt")
         try:
             page = Page(browser, program.url(), WIDTH, HEIGHT)

@@ -27,6 +27,7 @@ from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.selection import SelectionPart
+from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.tools import ToolsPart
@@ -64,6 +65,8 @@ class FrameLoop:
         may_publish: whether tools may publish, call services and send goals.
         allow_publish: names to which they may, besides those of the config.
         autosave: a file that follows every change, None for no autosave.
+        session: a file that keeps unsaved changes for the next start, None for none.
+        restore: whether to show those of the last one.
         parts: factories of additional parts.
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages.
@@ -80,6 +83,8 @@ class FrameLoop:
         may_publish: bool = True,
         allow_publish: Sequence[str] = (),
         autosave: Path | None = None,
+        session: Path | None = None,
+        restore: bool = True,
         parts: Sequence[Callable[[Core], Part]] = (),
         strict: bool = False,
         clock: Callable[[], float] = time.monotonic,
@@ -127,6 +132,7 @@ class FrameLoop:
             core, displays, settings, views, tools.list, panels.list, config, path
         )
         history = HistoryPart(core, files)
+        kept = SessionPart(core, files, session) if session else None
         all_parts = [
             transforms,
             self._time,
@@ -144,6 +150,7 @@ class FrameLoop:
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
+            *([kept] if kept else ()),
             *(make(core) for make in parts),
         ]
         self._parts = Parts(all_parts, self._guard)
@@ -151,6 +158,8 @@ class FrameLoop:
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
+        if kept and (command := kept.restored(restore)):
+            self._requests.put(command, PROGRAM)
 
     @property
     def buffer(self) -> TransformBuffer:

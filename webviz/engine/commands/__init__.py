@@ -11,7 +11,15 @@ from webviz.engine.commands.displays import (
     SetProperty,
     TraceDisplay,
 )
-from webviz.engine.commands.files import Export, FileCommand, Load, Open, Save, WriteDisplays
+from webviz.engine.commands.files import (
+    Export,
+    FileCommand,
+    Load,
+    Open,
+    Restore,
+    Save,
+    WriteDisplays,
+)
 from webviz.engine.commands.panel import (
     AddPanel,
     OpenPanels,
@@ -92,6 +100,7 @@ __all__ = [
     "Reset",
     "ResetDisplay",
     "ResetView",
+    "Restore",
     "Save",
     "SaveImage",
     "SaveView",

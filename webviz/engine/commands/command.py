@@ -8,6 +8,11 @@ MAX_PRIORITY = 3
 class Command:
     """Base of all commands; each is a frozen dataclass that one part of the viewer handles."""
 
+    @property
+    def label(self) -> str:
+        """The label of the step that undoes it; "" derives it from what has changed."""
+        return ""
+
 
 @dataclass(frozen=True)
 class Sender:

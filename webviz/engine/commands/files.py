@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path, PurePath
 
+from webviz.data.words import counted
 from webviz.engine.commands.command import Command
+from webviz.files.config import Config
 
 
 class FileCommand(Command):
@@ -17,6 +20,11 @@ class Open(FileCommand):
     """Replace the current config by that of a file."""
 
     path: str
+
+    @property
+    def label(self) -> str:
+        """Names the file."""
+        return f"Open {PurePath(self.path).name}"
 
 
 @dataclass(frozen=True)
@@ -31,12 +39,40 @@ class Load(FileCommand):
     text: str
     name: str
 
+    @property
+    def label(self) -> str:
+        """Names the file."""
+        return f"Open {self.name}"
+
+
+@dataclass(frozen=True)
+class Restore(Command):
+    """Show the unsaved changes of the last session; undo brings back the config as it is saved.
+
+    Args:
+        config: as it was shown.
+        path: of the config file that was open, None for none.
+    """
+
+    config: Config
+    path: Path | None
+
+    @property
+    def label(self) -> str:
+        """Says how much there is."""
+        return f"Restore {counted(len(self.config.displays), 'display')}"
+
 
 @dataclass(frozen=True)
 class Save(FileCommand):
     """Save the current config to a file; "" is the file it came from."""
 
     path: str = ""
+
+    @property
+    def label(self) -> str:
+        """Names the file."""
+        return f"Save as {PurePath(self.path).name}"
 
 
 @dataclass(frozen=True)

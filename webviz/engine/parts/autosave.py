@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import logging
 import time
+from collections.abc import Callable
 from concurrent.futures import Future, wait
 from pathlib import Path
 from typing import Any
@@ -41,12 +42,15 @@ class AutosavePart(Part):
         self._files = files
         self._path = path
         self._saving: Future[None] | None = None
-        self._saved: dict[str, Any] = {}
+        self._saved: Any = None
+        self._is_due = True
+        self._warned = ""
         self._next = 0.0
 
     def keep_up(self, commanded: bool) -> None:
-        """Save the state every `AUTOSAVE_S`."""
-        if (now := time.monotonic()) >= self._next:
+        """Save the state every `AUTOSAVE_S` while commands come."""
+        self._is_due |= commanded
+        if self._is_due and (now := time.monotonic()) >= self._next:
             self._next = now + AUTOSAVE_S
             self._save()
 
@@ -62,25 +66,40 @@ class AutosavePart(Part):
 
     def _save(self) -> None:
         """Begin to save the state, if it changed."""
+        if self._saving is not None and not self._saving.done():
+            return
+        self._is_due = False
+        state, write = self._pending()
+        if state == self._saved:
+            return
+        self._saved = state
+        try:
+            self._saving = in_thread(functools.partial(self._write, write))
+        except OSError as error:
+            self._warn(str(error.strerror))
+
+    def _pending(self) -> tuple[Any, Callable[[], None]]:
+        """What there is to save, to compare it with what was saved last; and what writes it."""
         config = self._files.config()
         if config.settings.publish is None:
             # What pages have changed must not become the list of the next start.
             names = self.core.gate.rights.names
             config.settings = msgspec.structs.replace(config.settings, publish=names)
-        values = config_file.document(config)
-        is_busy = self._saving is not None and not self._saving.done()
-        if is_busy or values == self._saved:
-            return
-        self._saved = values
+        return config_file.document(config), functools.partial(_write, config, self._path)
+
+    def _write(self, write: Callable[[], None]) -> None:
         try:
-            self._saving = in_thread(functools.partial(_write, config, self._path))
-        except OSError as error:
-            log.warning(NOT_SAVED, error.strerror)
+            write()
+        except (ConfigError, OSError) as error:
+            self._warn(str(error))
+
+    def _warn(self, reason: str) -> None:
+        """Log a problem once, however often it comes."""
+        if reason != self._warned:
+            self._warned = reason
+            log.warning(NOT_SAVED, reason)
 
 
 def _write(config: Config, path: Path) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        config_file.write_text(config_file.dump(config), path)
-    except (ConfigError, OSError) as error:
-        log.warning(NOT_SAVED, error)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    config_file.write_text(config_file.dump(config), path)

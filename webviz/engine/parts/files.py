@@ -15,7 +15,16 @@ from webviz.api.panel import Panel
 from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
-from webviz.engine.commands import Command, Export, Load, Open, Save, Sender, WriteDisplays
+from webviz.engine.commands import (
+    Command,
+    Export,
+    Load,
+    Open,
+    Restore,
+    Save,
+    Sender,
+    WriteDisplays,
+)
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
@@ -85,11 +94,21 @@ class FilesPart(Part):
         """The handler of each command."""
         return {
             Open: self._open,
+            Restore: self._restore,
             Load: self._load,
             Save: self._save,
             Export: self._export,
             WriteDisplays: self._write_displays,
         }
+
+    @property
+    def path(self) -> Path | None:
+        """The config file, None if there is none."""
+        return self._path
+
+    def saved(self, path: Path | None) -> Mapping[str, Any] | None:
+        """The content of a config file as far as it is known; see `config.document`."""
+        return self._saved.get(path)
 
     def config(self) -> Config:
         """The current config: a snapshot, for any thread."""
@@ -168,6 +187,14 @@ class FilesPart(Part):
             return f"Opened {wanted.name}."
 
         return Job(work, then)
+
+    def _restore(self, command: Restore, sender: Sender) -> None:
+        saved, origin = self._saved, self.origin()
+        self._show(command.config, command.path)
+        if command.path == origin.path:
+            self.set_origin(origin)
+        self._saved, self._is_changed = saved, True
+        self.views.open(command.config.settings.view)
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
         text, name = command.text, command.name

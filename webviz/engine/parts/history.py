@@ -67,19 +67,19 @@ class HistoryPart(Part):
         def noted(command: Command, sender: Sender) -> str | Job[Any]:
             result = do(command, sender)
             if not isinstance(result, Job):
-                self.core.guard(self.name, self._note, sender)
+                self.core.guard(self.name, self._note, sender, command.label)
                 return result
 
             def then(value: Any) -> str:
                 text = result.then(value)
-                self.core.guard(self.name, self._note, sender)
+                self.core.guard(self.name, self._note, sender, command.label)
                 return text
 
             return replace(result, then=then)
 
         return noted
 
-    def _note(self, sender: Sender) -> None:
+    def _note(self, sender: Sender, label: str) -> None:
         before, self._now = self._now, self._moment()
         done = difference(before, self._now)
         if not done.label:
@@ -90,7 +90,7 @@ class HistoryPart(Part):
         self._redo.clear()
         if done.label:  # else it is as it was before
             self._count += 1
-            self._undo.append(_Done(Step(self._count, done.label, sender.browser), before))
+            self._undo.append(_Done(Step(self._count, label or done.label, sender.browser), before))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
         """Whether a step belongs to the one before."""

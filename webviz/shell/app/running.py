@@ -31,6 +31,7 @@ from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config
 from webviz.files.config.model import Name
+from webviz.files.sessions import Sessions
 from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
@@ -73,6 +74,7 @@ class Running:
         ros_args: Sequence[str] = (),
         plugins: Sequence[str | os.PathLike[str]] = (),
         autosave: Path | None = None,
+        sessions: Sessions | None = None,
         config_folders: Sequence[str | os.PathLike[str]] = (),
         publish: bool = True,
         allow_publish: Sequence[str] = (),
@@ -133,6 +135,9 @@ class Running:
             shown = shown or read(path)
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
+            session = sessions.claim(path) if sessions else None
+            if session is not None:
+                closing.add("The session", session.close)
             scene = self._scene = ViserScene(server)
             self._loop = FrameLoop(
                 shown,
@@ -143,6 +148,8 @@ class Running:
                 may_publish=publish,
                 allow_publish=allow_publish,
                 autosave=autosave,
+                session=session and session.path,
+                restore=bool(sessions and sessions.restore),
             )
             self._pages = Pages(
                 server.channel,

@@ -4,7 +4,6 @@ import contextlib
 import functools
 import gc
 import logging
-import os
 import sys
 import threading
 import webbrowser
@@ -15,6 +14,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
 from webviz.edges.access.starting import link
 from webviz.files.config import Config
+from webviz.files.sessions import Sessions
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
@@ -40,8 +40,7 @@ def serve(
 
     @functools.cache
     def read(path: Path | None) -> Config:
-        saved = options.autosave and _last_session().exists()
-        return options.read(path or (_last_session() if saved else template))
+        return options.read(path or template)
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
@@ -60,7 +59,7 @@ def serve(
             fixed_frame=options.fixed_frame,
             ros_args=ros,
             plugins=options.plugin,
-            autosave=_last_session() if options.autosave else None,
+            sessions=_sessions(template, not options.no_restore) if options.autosave else None,
             config_folders=options.config_folder,
             publish=not options.no_publish,
             allow_publish=options.allow_publish,
@@ -111,7 +110,5 @@ def _announce(options: ViewingOptions, viewer: Viewer) -> None:
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
 
-def _last_session() -> Path:
-    """The file of --autosave, according to the XDG base directory specification."""
-    home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-    return Path(home) / "webviz" / "last.yaml"
+def _sessions(template: Path | None, restore: bool) -> Sessions:
+    return Sessions(template.stem if template else "default", restore)

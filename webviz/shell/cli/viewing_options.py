@@ -44,8 +44,10 @@ class ViewingOptions(ConfigOptions):
     """Watch only: no tool may publish, call a service or send a goal."""
     no_control: Flag = False
     """Let no parameter or service of the ROS node change the viewer."""
-    autosave: Flag = False
-    """Save the session in ~/.local/state/webviz; restore it unless -d is given."""
+    autosave: Annotated[bool, Parameter(negative="--no-autosave", show_default=False)] = True
+    """Keep unsaved changes in ~/.local/state/webviz, and restore them at the next start."""
+    no_restore: Flag = False
+    """Do not show the unsaved changes of the last session; they stay in a file beside it."""
     open: Flag = False
     """Open the page in a browser of this machine."""
     debug: Flag = False

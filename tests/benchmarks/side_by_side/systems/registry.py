@@ -52,7 +52,7 @@ def _floor(scene: Scene, folder: Path) -> Sequence[str]:
 def _webviz(scene: Scene, folder: Path) -> Sequence[str]:
     config = folder / "scene.yaml"
     config.write_text(scene.config)
-    return [sys.executable, "-m", "webviz", "-d", str(config), "--port", "0"]
+    return [sys.executable, "-m", "webviz", "-d", str(config), "--port", "0", "--no-autosave"]
 
 
 def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:

@@ -1,5 +1,6 @@
 // Undo and redo, and a word on what others have changed.
 
+import { why } from "../access.js";
 import { act } from "../act.js";
 import { watch } from "../stores.js";
 import { openMenuBelow } from "./menu.js";
@@ -52,7 +53,8 @@ function tell() {
   const last = all.reduce((a, b) => (b.number > (a?.number ?? -1) ? b : a), null);
   const before = newest;
   newest = Math.max(newest ?? -1, last?.number ?? -1);
-  if (before === null || newest === before) return;
+  if (before === null) return tellRestored(steps.undo[0]);
+  if (newest === before) return;
   const isUndone = steps.redo.includes(last);
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
@@ -61,6 +63,14 @@ function tell() {
     const text = last.label.replace(/^Remove /, "Removed ");
     toast(`${text}.`, { topic: "removed", action: { label: "Undo", run: () => undo() } });
   }
+}
+
+// The page is opened, and nothing has been changed since the viewer started.
+function tellRestored(last) {
+  if (!last?.label.startsWith("Restore ")) return;
+  const text = last.label.replace(/^Restore /, "Restored ");
+  const action = why("Undo") ? null : { label: "Undo", run: () => undo() };
+  toast(`${text} of the last session.`, { level: "warn", topic: "restored", action });
 }
 
 const whereOf = ({ browser }) => (browser === null ? "by a program" : "in another browser");
