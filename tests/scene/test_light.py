@@ -58,9 +58,9 @@ def test_axes_are_shaded_and_as_long_as_they_should_be(view: Any) -> None:
     at = np.zeros((1, 3), np.float32)
     view.scene.upsert("room", "axes", Axes(at, np.array([(1, 0, 0, 0)], np.float32), 2.0, 0.5))
     view.show()
-    assert view.color_at((1.5, 0, 0.5)) == pytest.approx((204, 0, 0), abs=8)
+    assert view.color_at((1.5, 0, 0.5)) == pytest.approx((255, 0, 0), abs=8)
     edge = np.array(view.color_at((1.5, 0.45, 0.2)))
-    assert edge[0] < 160
+    assert edge[0] < 200
     assert edge[1:].tolist() == [0, 0]
     assert view.color_at((1.9, 0, 0.5))[0] > 150
     assert view.color_at((2.2, 0, 0)) == BACKGROUND

@@ -207,6 +207,22 @@ def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) 
     assert view.color_at(drawn) == COLOR
 
 
+@pytest.mark.parametrize("opacity", [1.0, 0.5], ids=["opaque", "transparent"])
+@pytest.mark.parametrize("line_opacity", [1.0, 0.5], ids=["on a line", "on a faint line"])
+def test_a_flat_mesh_has_its_colour_and_covers_lines_in_its_plane(
+    opacity: float, line_opacity: float, view: Any
+) -> None:
+    line = Lines(floats(((-2, 0, 0), (2, 0, 0))), RED, 8.0, opacity=line_opacity)
+    view.scene.upsert("base_link", "line", line)
+    view.scene.upsert("base_link", "sheet", Mesh(*square(2.0), COLOR, opacity, is_flat=True))
+    view.look((0.0, -8.0, 4.0), (0.0, 0.0, 0.0))
+    behind = line_opacity * np.array(RED) + (1 - line_opacity) * np.array(BACKGROUND)
+    assert view.color_at((1.5, 0.0, 0.0)) == near(behind)
+    for place, below in (((0.3, 0.0, 0.0), behind), ((0.3, 0.5, 0.0), np.array(BACKGROUND))):
+        blended = opacity * np.array(COLOR) + (1 - opacity) * below
+        assert np.abs(view.color_at(place) - blended).max() <= 2
+
+
 def test_the_ends_of_a_line_in_metres_are_square_and_its_joints_mitred(view: Any) -> None:
     straight, corner = floats((-2, 0, 0), (0, 0, 0)), floats((0, 0, 0), (0, 2, 0))
     view.scene.upsert("base_link", "it", Lines(np.stack((straight, corner)), COLOR, 0.8, "m"))

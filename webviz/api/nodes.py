@@ -164,7 +164,7 @@ class Labels(_Node):
 
 @dataclass(frozen=True, eq=False)
 class Mesh(_Node):
-    """A lit triangle mesh of one colour, or of one for each vertex.
+    """A triangle mesh of one colour, or of one for each vertex; lit, unless it is flat.
 
     Args:
         vertices: float32 (N, 3), metres.
@@ -174,6 +174,7 @@ class Mesh(_Node):
         ids: (M,), what each face is selected by; None if the mesh is one thing.
         colors: RGBA of the vertices, uint8 (N, 4), instead of `color` and `opacity`; both sides of
             all faces are shown.
+        is_flat: whether it is a sheet in its exact `color`, which covers lines in its plane.
     """
 
     vertices: F32
@@ -182,6 +183,7 @@ class Mesh(_Node):
     opacity: float = 1.0
     ids: Ids | None = None
     colors: U8 | None = None
+    is_flat: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -84,7 +84,8 @@ class GridCells(Display):
         firsts = np.arange(0, len(vertices), len(_CORNERS), dtype=np.uint32)
         faces = (firsts[:, None, None] + _TRIANGLES).reshape(-1, 3)
         group = ctx.follow(None, offset=compose(sample.pose, Pose(origin)))
-        group.add("cells", Mesh(vertices.astype(np.float32), faces, self.color, self.alpha))
+        mesh = Mesh(vertices.astype(np.float32), faces, self.color, self.alpha, is_flat=True)
+        group.add("cells", mesh)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """The cell nearest to what was clicked."""

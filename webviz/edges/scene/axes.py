@@ -12,7 +12,7 @@ from webviz.edges.scene.drawn import Props, SingleNode, finite
 from webviz.edges.scene.glb import colored_glb
 from webviz.edges.scene.solids import SOLIDS, Solid
 
-COLORS = ((204, 0, 0), (0, 204, 0), (0, 0, 204))
+COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 """Colours of x, y and z in RViz."""
 
 

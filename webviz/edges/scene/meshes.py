@@ -12,6 +12,8 @@ from webviz.edges.scene.glb import matte
 
 COLORFUL = "toon5"
 """viser's material of meshes with a colour for each vertex, of which only the name is left."""
+FLAT = "toon3"
+"""That of flat meshes, likewise."""
 
 
 class MeshDrawn(SingleNode[Mesh]):
@@ -55,8 +57,9 @@ def _look(node: Mesh) -> Props:
         look = {"color": (255, 255, 255), "opacity": opacity, "side": "double"}
         return {**look, "material": COLORFUL}
     opacity = None if node.opacity >= 1 else float(node.opacity)
-    side = "double" if opacity is None else "front"
-    return {"color": node.color, "opacity": opacity, "side": side, "material": "standard"}
+    side = "double" if opacity is None or node.is_flat else "front"
+    material = FLAT if node.is_flat else "standard"
+    return {"color": node.color, "opacity": opacity, "side": side, "material": material}
 
 
 def _as_vertices(colors: U8) -> F32:

@@ -6,6 +6,7 @@ import * as channel from "./channel.js";
 import * as colors from "./scene/colors.js";
 import constants from "./constants.js";
 import * as contact from "./contact.js";
+import * as flat from "./scene/flat.js";
 import * as handles from "./handles/handles.js";
 import * as holding from "./scene/holding.js";
 import * as inStep from "./scene/in_step.js";
@@ -28,7 +29,7 @@ import * as whole from "./scene/whole.js";
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
   await viser.until(viser.hasScene);
-  const ofScene = [batches, textures, tiles, labels, lines, shade, colors, whole, pieces];
+  const ofScene = [batches, textures, tiles, labels, lines, shade, colors, flat, whole, pieces];
   for (const part of [shell, page, inStep, ...ofScene, contact]) part.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
   for (const part of [view, mouse, handles, saveImage, overlay, holding, blocks]) part.install();
