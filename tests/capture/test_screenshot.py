@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -18,7 +17,7 @@ import psutil
 import pytest
 import trimesh
 from bags import Bag, strings
-from processes import command_lines, send
+from processes import command_lines, eventually, send
 from program import Program
 
 from webviz.shell.cli import main as cli
@@ -62,12 +61,17 @@ def start(tmp_path: Path):
         program.end(signal.SIGKILL)
 
 
-def wait_for_part(folder: Path) -> None:
-    """Wait until an animation is being written."""
-    deadline = time.monotonic() + PATIENCE_S
-    while not any(folder.glob(".*.part")):
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+def while_drawing(program: Program, folder: Path) -> dict[psutil.Process, str]:
+    """Wait until an animation is being drawn, and return all processes with their command lines."""
+    family: dict[psutil.Process, str] = {}
+
+    def has_tab() -> bool:
+        family.update(command_lines(program.process.pid))
+        return any(" --type=renderer" in line for line in family.values())
+
+    # The file is begun before the browser is there.
+    assert eventually(lambda: has_tab() and any(folder.glob(".*.part")))
+    return family
 
 
 def left_of(family: Iterable[psutil.Process]) -> list[psutil.Process]:
@@ -243,8 +247,7 @@ def test_an_interrupted_run_leaves_no_file_and_no_process(
     run, tmp_path, start: Callable[..., Program], number, whole_family
 ):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
-    wait_for_part(tmp_path)
-    family = psutil.Process(program.process.pid).children(recursive=True)
+    family = while_drawing(program, tmp_path)
     send(number, family if whole_family else ())
     assert program.end(number) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"
@@ -256,8 +259,7 @@ def test_an_interrupted_run_ends_although_its_browser_hangs(
     run, tmp_path, start: Callable[..., Program]
 ):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
-    wait_for_part(tmp_path)
-    family = psutil.Process(program.process.pid).children(recursive=True)
+    family = while_drawing(program, tmp_path)
     send(signal.SIGSTOP, family)
     assert program.end(signal.SIGTERM) == 130, program.output()
     assert program.output() == "webviz: interrupted.\n"
@@ -267,10 +269,13 @@ def test_an_interrupted_run_ends_although_its_browser_hangs(
 
 def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callable[..., Program]):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
-    wait_for_part(tmp_path)
-    family = command_lines(program.process.pid)
-    # Its tabs are its child processes; Debian starts it by a shell script, which comes first.
-    *_, browser = (p for p, line in family.items() if " --remote-debugging" in line)
+    family = while_drawing(program, tmp_path)
+    # Debian starts it by a shell script, which comes first.
+    *_, browser = (
+        process
+        for process, line in family.items()
+        if " --remote-debugging" in line and " --type=" not in line
+    )
     browser.kill()
     assert program.process.wait(PATIENCE_S) == 1
     assert program.output().startswith("webviz: The browser crashed while drawing")
