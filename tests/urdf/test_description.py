@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -12,6 +13,7 @@ from robots import link_poses
 from webviz.api.nodes import Mesh
 from webviz_urdf import Resolver, RobotDescriptionError, load_file, load_robot
 
+FETCH = Path(__file__).parents[3] / "shared/data/urdf/fetch_unbound_prefix.urdf"
 BOX = "<geometry><box size='1 2 3'/></geometry>"
 ARM = f"""<?xml version="1.0" encoding="utf-8"?>
 <robot name="arm">
@@ -83,6 +85,32 @@ def test_comments_and_foreign_elements_anywhere_are_ignored(load):
     )
     assert len(robot.links["l"].visuals) == 1
     assert not robot.joints
+
+
+def test_elements_with_an_undeclared_prefix_are_ignored_and_other_faults_are_not(load):
+    robot = load(
+        "<robot name='r' a:b='c'><sensor:camera name='rgb'><link name='no'/></sensor:camera>"
+        f"<link name='l'><visual x:y='z'>{BOX}</visual><xacro:visual/></link></robot>"
+    )
+    assert list(robot.links) == ["l"]
+    assert len(robot.links["l"].visuals) == 1
+    assert not robot.warnings
+    for text in (
+        "<robot name='r'><a:b><link name='l'/></robot>",
+        "<a:robot><link name='l'/></a:robot>",
+    ):
+        with pytest.raises(RobotDescriptionError, match="is not XML"):
+            load(text)
+
+
+@pytest.mark.skipif(not FETCH.exists(), reason=f"{FETCH.name} is absent")
+def test_a_real_robot_with_an_undeclared_prefix_is_read(load):
+    robot = load(FETCH.read_text())
+    assert (robot.name, len(robot.links), len(robot.joints)) == ("fetch", 25, 24)
+
+
+def test_what_follows_a_nul_is_not_read(load):
+    assert load(ARM + "\0</robot>").name == "arm"
 
 
 @pytest.mark.parametrize("extra", ["\n\n", "\ufeff"])

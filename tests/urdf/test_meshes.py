@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +16,11 @@ from trimesh.visual import ColorVisuals
 
 from webviz.api.nodes import Glb, Mesh
 from webviz_urdf import Resolver, build, load_robot, meshes
+from webviz_urdf.files import read_file
+from webviz_urdf.meshes import read_mesh
 
+DAE = sorted((Path(__file__).parents[3] / "shared/data/mesh").glob("*.dae"))
+LFS_POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n"
 URDF_BLUE = "<material name='b'><color rgba='0 0 1 1'/></material>"
 
 
@@ -214,6 +219,40 @@ def test_a_broken_mesh_file_is_missing_with_a_reason_in_one_line(tmp_path, one_m
     (missing,) = one_mesh(path).missing
     assert name in missing.reason
     assert "\n" not in missing.reason
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [(b"  \n", b""), (b"", b"\0\0 7 8 <"), (b"\n", b"\0")]
+)
+def test_space_before_a_collada_file_and_what_follows_a_nul_are_ignored(
+    tmp_path, one_mesh, only_node, tetrahedron_dae, before, after
+):
+    path = tmp_path / "a.dae"
+    path.write_bytes(before + tetrahedron_dae().encode() + after)
+    assert only_node(one_mesh(path)) is not None
+
+
+@pytest.mark.skipif(not DAE, reason="the COLLADA files of other people are absent")
+@pytest.mark.parametrize("path", DAE or [None], ids=lambda path: path.stem if path else "none")
+def test_real_collada_files_that_are_not_quite_xml_are_read(path):
+    (part,) = read_mesh(path, Resolver()).parts
+    assert len(part.faces) in (6742, 18470)
+
+
+@pytest.mark.parametrize("name", ["a.dae", "a.stl", "a.png", "a.urdf"])
+def test_a_pointer_of_git_lfs_is_named(tmp_path, name):
+    path = tmp_path / name
+    path.write_bytes(LFS_POINTER)
+    with pytest.raises(OSError, match="pointer of Git LFS") as error:
+        read_file(path, 1000)
+    assert "run `git lfs pull`" in str(error.value.strerror)
+
+
+def test_a_mesh_that_is_a_pointer_of_git_lfs_is_missing_with_the_remedy(tmp_path, one_mesh):
+    path = tmp_path / "a.stl"
+    path.write_bytes(LFS_POINTER)
+    (missing,) = one_mesh(path).missing
+    assert "cannot be read: it is a pointer of Git LFS; run `git lfs pull`" in missing.reason
 
 
 @pytest.mark.parametrize("name", ["a.zae", "a.zip", "a.3mf", "a.stl.gz"])

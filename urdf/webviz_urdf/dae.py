@@ -8,6 +8,17 @@ from collada import Collada
 from collada.common import DaeError
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+"""Marks of an encoding that has NULs itself."""
+
+
+def only_xml(data: bytes) -> bytes:
+    """A COLLADA file without white space before its declaration, and without what follows a NUL.
+
+    Exporters leave both behind; XML forbids them, and Assimp, and so RViz, tolerates them.
+    """
+    return data.partition(b"\0")[0].lstrip() if not data.startswith(_UTF_16) else data
+
 
 def without_broken_materials(data: bytes) -> tuple[bytes, list[str]]:
     """A COLLADA file without references to materials that it does not define.

@@ -7,6 +7,7 @@ here, where the line number is known. The resulting tree contains only what a vi
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]
 
@@ -50,6 +51,15 @@ _NUMBERS = {
     "mimic": {"multiplier": (1,), "offset": (1,)},
 }
 _LARGEST = 1e12
+_PARSER: dict[str, Any] = {
+    "encoding": "utf-8",
+    "resolve_entities": False,
+    "no_network": True,
+    "load_dtd": False,
+    "huge_tree": False,
+    "remove_comments": True,
+    "remove_pis": True,
+}
 _REQUIRED = {
     "link": ("name",),
     "joint": ("name", "type"),
@@ -112,19 +122,17 @@ def parse_document(text: str) -> Document:
 
 
 def _parse_xml(text: str) -> etree._Element:
-    parser = etree.XMLParser(
-        encoding="utf-8",
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        huge_tree=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
-    if not text.strip():
+    parser = etree.XMLParser(**_PARSER)
+    text = text.partition("\0")[0].strip()
+    if not text:
         raise RobotDescriptionError("The robot description is empty.")
     try:
-        root = etree.fromstring(text.strip().encode(), parser)
+        try:
+            root = etree.fromstring(text.encode(), parser)
+        except etree.XMLSyntaxError as error:
+            if any(each.type_name != "NS_ERR_UNDEFINED_NAMESPACE" for each in parser.error_log):
+                raise
+            root = _without_unbound_prefixes(text, error)
     except etree.XMLSyntaxError as error:
         reason = " ".join((error.msg or "").split())[:200]
         raise RobotDescriptionError(f"The robot description is not XML: {reason}.") from error
@@ -136,6 +144,25 @@ def _parse_xml(text: str) -> etree._Element:
             "The robot description declares XML entities, which webviz does not expand."
         )
     return root
+
+
+def _without_unbound_prefixes(text: str, error: etree.XMLSyntaxError) -> etree._Element:
+    """The tree without elements whose namespace prefix is not declared, which TinyXML ignores.
+
+    Raises:
+        XMLSyntaxError: `error`, if the root is one of them.
+    """
+    root = etree.fromstring(text.encode(), etree.XMLParser(recover=True, **_PARSER))
+    for element in list(root.iter(etree.Element)):
+        if _is_unbound(element):
+            if element is root:
+                raise error
+            element.getparent().remove(element)
+    return root
+
+
+def _is_unbound(element: etree._Element) -> bool:
+    return ":" in element.tag and not element.tag.startswith("{")
 
 
 def _copy(

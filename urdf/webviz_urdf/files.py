@@ -6,6 +6,9 @@ import os
 import stat
 from pathlib import Path
 
+LFS = b"version https://git-lfs.github.com/spec/"
+"""The first bytes of a pointer that Git LFS leaves in place of a file."""
+
 
 def read_file(path: Path, limit: int) -> bytes:
     """Read a regular file; FIFOs and devices are refused without waiting.
@@ -15,8 +18,8 @@ def read_file(path: Path, limit: int) -> bytes:
         limit: bytes.
 
     Raises:
-        OSError: it cannot be read, is not a regular file, or is larger than `limit`; `strerror`
-            says which.
+        OSError: it cannot be read, is not a regular file, is larger than `limit`, or is a pointer
+            of Git LFS; `strerror` says which.
     """
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(descriptor, "rb") as file:
@@ -25,4 +28,8 @@ def read_file(path: Path, limit: int) -> bytes:
         data = file.read(limit + 1)
     if len(data) > limit:
         raise OSError(0, f"it is larger than {limit / 2**20:g} MB", str(path))
+    if data.startswith(LFS):
+        raise OSError(
+            0, "it is a pointer of Git LFS; run `git lfs pull` in its repository", str(path)
+        )
     return data

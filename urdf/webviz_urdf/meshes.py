@@ -12,7 +12,7 @@ import trimesh
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from webviz.api.nodes import U8
-from webviz_urdf.dae import without_broken_materials
+from webviz_urdf.dae import only_xml, without_broken_materials
 from webviz_urdf.files import read_file
 from webviz_urdf.glb import MeshContent, MeshPart, Surface
 from webviz_urdf.resolve import Resolver
@@ -104,6 +104,7 @@ def _read(data: bytes, suffix: str, textures: TextureFolder) -> tuple[list[MeshP
     """The file's parts, and the ids of materials that could not be used."""
     if suffix != "dae":
         return _parts(data, suffix, textures), []
+    data = only_xml(data)
     parts = _parts(data, suffix, textures)
     if len(parts) >= data.count(b"<instance_geometry"):
         return parts, []
