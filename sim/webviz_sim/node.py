@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from webviz_sim.options import FAULT, OPTIONS
+from webviz_sim.options import OPTIONS, fault_parameter
 from webviz_sim.world import WorldError
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def main(args: list[str] | None = None) -> int:
         _on_signal(stopping.set)
         # rclpy's own handlers would shut down the context while the node uses it.
         # Overrides given later win.
-        faults = [word for fault in options.fault for word in ("-p", f"{FAULT}{_value(fault)}")]
+        faults = [word for fault in options.fault for word in ("-p", fault)]
         args = [*args, "--ros-args", *faults]
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
@@ -122,10 +122,12 @@ def _end_with_stdin() -> None:
     os._exit(1)
 
 
-def _value(fault: str) -> str:
-    """A fault of the command line, as a parameter; without a value it is on."""
-    name, _, value = fault.partition("=")
-    return f"{name}:={float(value or 1.0)!r}"
+def _fault(text: str) -> str:
+    """A fault of the command line, as a parameter."""
+    try:
+        return fault_parameter(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -153,6 +155,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--fault",
+        type=_fault,
         action="append",
         default=[],
         metavar="NAME=VALUE",

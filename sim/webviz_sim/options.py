@@ -118,6 +118,26 @@ OPTIONS |= {
 }
 
 
+def fault_parameter(text: str) -> str:
+    """The parameter, as NAME:=VALUE, of a fault that is given as NAME=VALUE; 1 without a value.
+
+    Raises:
+        ValueError: the fault is unknown, or its value is invalid; the text says which.
+    """
+    name, _, value = text.partition("=")
+    option = OPTIONS.get(FAULT + name)
+    if option is None:
+        known = ", ".join(key.removeprefix(FAULT) for key in OPTIONS if key.startswith(FAULT))
+        raise ValueError(f"unknown fault '{name}'; choose one of {known}")
+    try:
+        number = float(value or 1.0)
+    except ValueError:
+        raise ValueError(f"{name} must be a number, not '{value}'") from None
+    if reason := option.refusal(name, number):
+        raise ValueError(reason.removesuffix("."))
+    return f"{FAULT}{name}:={number!r}"
+
+
 def _is_list(value: Any) -> bool:
     """Whether a value is a list of finite numbers."""
     if isinstance(value, str | bytes) or not isinstance(value, Sequence):

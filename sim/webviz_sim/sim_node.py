@@ -9,6 +9,7 @@ from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
     ParameterDescriptor,
+    ParameterType,
     SetParametersResult,
 )
 from rclpy.node import Node
@@ -45,6 +46,12 @@ class SimNode(Node):
         self.add_post_set_parameters_callback(self._apply)
         for name, option in options.OPTIONS.items():
             self.declare_parameter(name, option.default, _descriptor(option))
+        # rclpy declares it without a description.
+        about_time = "Unused: time is the system's, or that of /clock here, see publish_clock."
+        self.set_descriptor(
+            "use_sim_time",
+            ParameterDescriptor(type=ParameterType.PARAMETER_BOOL, description=about_time),
+        )
 
         values = self._values
         values["seed"] += len(fleet)

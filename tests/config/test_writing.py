@@ -17,6 +17,7 @@ from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import display_types
+from webviz.api.views import Orbit, TopDownOrtho
 from webviz.files.config import Branch, Config, Unreadable, document, dump
 from webviz.files.config.model import Settings
 from webviz.files.opening import load, parse, save
@@ -167,3 +168,14 @@ def test_comments_at_the_beginning_stay(tmp_path: Path) -> None:
     assert path.read_text() == f"{head}version: 1\ndisplays:\n- {{type: Grid}}\n"
     save(config, tmp_path / "other.yaml")
     assert (tmp_path / "other.yaml").read_text() == dump(config)
+
+
+def test_views_are_written_without_defaults() -> None:
+    config = Config()
+    config.settings.view = Orbit(distance=3.0)
+    config.settings.views = {"Above": TopDownOrtho(scale=20.0), "Start": Orbit()}
+    values = document(config)
+    assert values["view"] == {"distance": 3.0}
+    assert values["views"] == {"Above": {"type": "TopDownOrtho", "scale": 20.0}, "Start": {}}
+    assert parse(dump(config), "x.yaml").settings == config.settings
+    assert "view" not in document(Config())

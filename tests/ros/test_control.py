@@ -79,6 +79,11 @@ class Client:
         assert self._parameters.wait_for_services(60.0)
         return self.wait(self._parameters.get_parameters([name])).values[0].string_value
 
+    def describe(self, names: list[str]) -> dict[str, str]:
+        assert self._parameters.wait_for_services(60.0)
+        answer = self.wait(self._parameters.describe_parameters(names))
+        return {each.name: each.description for each in answer.descriptors}
+
     def set(self, name: str, value: object) -> str:
         """Set a parameter, and return why not, "" if it is set."""
         assert self._parameters.wait_for_services(60.0)
@@ -152,6 +157,14 @@ def test_parameters_follow_the_state_of_the_viewer(
     viewer.open(config)
     client.until(lambda: client.get("config_file") == str(config), "the parameter has the file")
     assert client.get("fixed_frame") == "odom"
+
+
+def test_every_parameter_of_the_viewer_is_described(
+    open_viewer: Callable[..., webviz.Viewer], client: Client
+) -> None:
+    open_viewer()
+    described = client.describe(["config_file", "fixed_frame", "view", "use_sim_time"])
+    assert all(described.values()), described
 
 
 def test_parameters_given_at_the_start_choose_file_and_frame(

@@ -25,7 +25,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Empty
 
 from webviz.edges.ros.types import message_class
-from webviz_sim.options import BUILDING
+from webviz_sim.options import BUILDING, OPTIONS
 from webviz_sim.pose import Pose2D
 from webviz_sim.raycast import cast_rays
 from webviz_sim.world import load_world
@@ -328,7 +328,7 @@ def test_a_goal_is_planned_and_reached_and_a_bad_one_is_reported(sim, robot):
 
 
 def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
-    from rcl_interfaces.srv import SetParameters
+    from rcl_interfaces.srv import DescribeParameters, SetParameters
     from rclpy.parameter import Parameter
 
     sim("tour:=false")
@@ -342,6 +342,13 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
         robot.spin_until(future.done)
         [result] = future.result().results
         return result.successful, result.reason
+
+    describing = robot.create_client(DescribeParameters, "/sim/describe_parameters")
+    robot.spin_until(describing.service_is_ready)
+    names = [*OPTIONS, "use_sim_time"]
+    answer = describing.call_async(DescribeParameters.Request(names=names))
+    robot.spin_until(answer.done)
+    assert all(each.description for each in answer.result().descriptors)
 
     assert set_parameter("scan_beams", 90) == (True, "")
     robot.spin_until(lambda: len(scans[-1].ranges) == 90)
@@ -411,6 +418,9 @@ def test_a_params_file_sets_parameters(robot, tmp_path):
         (["--ros-args", "-p", "start_pose:=[1.0]"], 1, "start_pose must be [x, y, yaw] or []"),
         (["--ros-args", "--nonsense"], 1, "ROS does not start (UnknownROSArgsError)"),
         (["--nonsense"], 2, "unrecognized arguments: --nonsense"),
+        (["--fault", "foo=1"], 2, "unknown fault 'foo'; choose one of laser_yaw, misplaced"),
+        (["--fault", "clock=late"], 2, "clock must be a number, not 'late'"),
+        (["--fault", "laser_yaw=9"], 2, "laser_yaw must be between -3.14159 and 3.14159"),
     ],
 )
 def test_wrong_arguments_end_in_one_sentence(args, status, sentence):

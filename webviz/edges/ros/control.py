@@ -9,7 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Protocol
 
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rcl_interfaces.msg import ParameterDescriptor, ParameterType, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -85,6 +85,11 @@ class ControlNode:
             for name, text in PARAMETERS.items()
         }
         """Values of the parameters at startup, "" if unset."""
+        about_time = "Take the time from /clock. The viewer then waits for its first message."
+        node.set_descriptor(
+            "use_sim_time",
+            ParameterDescriptor(type=ParameterType.PARAMETER_BOOL, description=about_time),
+        )
         node.add_on_set_parameters_callback(self._set)
 
     def open(

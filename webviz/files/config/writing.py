@@ -12,6 +12,7 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
+from webviz.api.views import Orbit, View
 from webviz.files.config.model import (
     VERSION,
     Branch,
@@ -34,6 +35,11 @@ def document(config: Config) -> dict[str, Any]:
     settings = msgspec.to_builtins(config.settings)
     basis = msgspec.to_builtins(Settings())
     values: dict[str, Any] = {"version": VERSION}
+    settings["view"] = _without_defaults(config.settings.view)
+    settings["views"] = {
+        name: _without_defaults(view) for name, view in config.settings.views.items()
+    }
+    basis |= {"view": {}, "views": {}}
     values |= {key: value for key, value in settings.items() if value != basis[key]}
     kept = values.pop("rviz", None)
     values["displays"] = folded(list(map(entry_of, config.displays)), config.templates)
@@ -45,6 +51,14 @@ def document(config: Config) -> dict[str, Any]:
     if kept:
         values["rviz"] = kept  # last, because it is long and seldom read
     return values
+
+
+def _without_defaults(view: View) -> dict[str, Any]:
+    """A view as the values of its entry, whose type defaults to Orbit."""
+    basis = msgspec.to_builtins(type(view)())
+    values = msgspec.to_builtins(view)
+    of_type = {} if type(view) is Orbit else {"type": values["type"]}
+    return of_type | {key: value for key, value in values.items() if value != basis[key]}
 
 
 def dump(config: Config) -> str:

@@ -7,6 +7,7 @@ from cyclopts import Parameter, validators
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import Repeatable, RosArgs
 from webviz.shell.cli.viewing_options import ViewingOptions
+from webviz_sim.options import fault_parameter
 
 EXAMPLES = """\
 Examples:
@@ -34,10 +35,18 @@ def view(*, options: ViewingOptions = ViewingOptions(), ros: RosArgs) -> int:
     return until_signal(work)
 
 
+def _check_fault(type_: object, fault: str) -> None:
+    """Raise ValueError for a fault that the simulator does not have."""
+    fault_parameter(fault)
+
+
 def demo(
     *,
     robots: Annotated[int, Parameter(validator=validators.Number(gte=1, lte=20))] = 1,
-    fault: Annotated[Repeatable[str], Parameter(metavar="NAME=VALUE")] = (),
+    fault: Annotated[
+        Repeatable[Annotated[str, Parameter(validator=_check_fault)]],
+        Parameter(metavar="NAME=VALUE"),
+    ] = (),
     options: ViewingOptions = ViewingOptions(),
     ros: RosArgs,
 ) -> int:
