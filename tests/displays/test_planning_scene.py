@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,7 @@ from robot_arm import ARM, describe, is_loaded, wait
 
 from webviz import Topic
 from webviz.api.nodes import Instances, Mesh
+from webviz.data.messages import encode
 from webviz_displays.moveit import PlanningScene
 from webviz_displays.moveit.properties import SceneGeometry
 
@@ -288,3 +290,37 @@ def test_an_unreadable_urdf_is_named(world: Any) -> None:
     world.send("std_msgs/msg/String", {"data": "<robot"}, topic="/robot_description")
     wait(world, lambda: is_loaded(world))
     assert world.statuses()["URDF"][0] == "ERROR"
+
+
+def test_the_frame_loop_leaves_a_large_scene_to_threads(world: Any) -> None:
+    many = encode(SCENE, scene(*(box(str(n), float(n % 100)) for n in range(4000))))
+    in_loop_s, everything_s = time.thread_time(), time.process_time()
+    world.send_bytes(SCENE, many, TOPIC)
+    world.turn()
+    world.settle()
+    in_loop_s, everything_s = time.thread_time() - in_loop_s, time.process_time() - everything_s
+    assert len(boxes(world)) == 4000
+    assert in_loop_s < everything_s / 2
+
+
+def test_objects_that_follow_each_other_backwards_are_placed_at_once(world: Any) -> None:
+    chain = [box(f"o{number}", 1.0, f"o{number + 1}") for number in range(3000)]
+    before_s = time.thread_time()
+    tell(world, scene(*chain, box("o3000")))
+    world.settle()
+    assert time.thread_time() - before_s < 3.0
+    assert sorted(boxes(world))[-1] == 3000.0
+    tell(world, scene(*chain))
+    world.settle()
+    assert "3000 objects in an unknown frame" in world.statuses()["Object frames"][1]
+
+
+def test_a_hand_holds_a_limited_number_of_objects(
+    world: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz_displays.moveit.scene.MOST_HELD", 3)
+    things = [held("base", box(str(number), frame="base")) for number in range(4)]
+    tell(world, {"robot_state": state("map", *things)})
+    text = world.statuses()["Objects"][1]
+    assert text == "Only the first 3 attached objects are kept."
+    assert "3 attached" in world.statuses()["Scene"][1]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass, field
 
-from webviz import Error
+from webviz import Context, Error
 from webviz.api.wire import Wire
 from webviz.data.messages import decode
 from webviz_displays.moveit.scene import KnownScene, updated
@@ -33,16 +33,20 @@ class Asking:
     scene: KnownScene | None = None
     problem: str = ""
     _answer: Future[bytes] | None = None
+    _received: bytes | None = None
     _next_s: float = 0.0
     _tries: int = field(default=0)
 
-    def step(self, namespace: str, wire: Wire) -> None:
+    def step(self, namespace: str, wire: Wire, ctx: Context) -> None:
         """Ask, or take the answer."""
         service = "/".join(["", *filter(None, namespace.split("/")), "get_planning_scene"])
         if service != self.service:
             self.service, self.scene, self.problem = service, None, ""
-            self._answer, self._next_s, self._tries = None, 0.0, 0
+            self._answer, self._received, self._next_s, self._tries = None, None, 0.0, 0
         if self.scene is not None:
+            return
+        if self._received is not None:
+            self._read(self._received, ctx)
             return
         if self._answer is None and self._tries < MOST_TRIES and wire.clock_s >= self._next_s:
             self._tries += 1
@@ -53,13 +57,25 @@ class Asking:
                 return
         if self._answer is not None and self._answer.done():
             self._take(self._answer, wire.clock_s)
+            wire.wake()
 
     def _take(self, answer: Future[bytes], clock_s: float) -> None:
         self._answer, self._next_s = None, clock_s + PAUSE_S
         try:
-            message = decode(f"{SERVICE}_Response", answer.result()).scene
+            self._received = answer.result()
         except (Error, CancelledError) as error:
             self.problem = str(error)
+
+    def _read(self, received: bytes, ctx: Context) -> None:
+        """Read the answer in a thread, as it may be large."""
+        try:
+            scene = ctx.background(("answer", self._tries), _scene_of, received)
+        except Error as error:
+            self.problem, self._received = str(error), None
             return
-        self.problem = ""
-        self.scene = updated(KnownScene(), message)
+        if scene is not None:
+            self.problem, self.scene, self._received = "", scene, None
+
+
+def _scene_of(answer: bytes) -> KnownScene:
+    return updated(KnownScene(), decode(f"{SERVICE}_Response", answer).scene)

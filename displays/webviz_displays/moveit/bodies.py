@@ -30,8 +30,12 @@ PLANE_SIZE = 10.0
 PLANE_THICKNESS = 0.002
 MOST_FAULTS = 10
 """Sentences that are kept of an object."""
+SLOW_BYTES = 100_000
+"""From which size on messages with objects are read in a thread: 600 objects in 40 ms."""
 LONGEST_NAME = 80
 """Characters of a name in a sentence."""
+NO_VERTICES = np.zeros((0, 3), np.float32)
+NO_FACES = np.zeros((0, 3), np.uint32)
 
 
 class Primitives(NamedTuple):
@@ -46,15 +50,6 @@ class Primitives(NamedTuple):
     positions: F64
     wxyzs: F64
     scales: F64
-
-    def moved(self, pose: Pose) -> Primitives:
-        """The same in the frame that `pose` is given in."""
-        wxyzs = multiply_many(np.array(pose.wxyz), self.wxyzs)
-        return Primitives(transformed(pose, self.positions), wxyzs, self.scales)
-
-    def only(self, rows: NDArray[np.bool_]) -> Primitives:
-        """Some of them."""
-        return Primitives(self.positions[rows], self.wxyzs[rows], self.scales[rows])
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,17 +120,18 @@ def body_of(message: Any, frame: str | None = None) -> Body | None:
     if pose is None:
         return None
     faults: list[str] = []
-    parts = [
-        *_primitives(message.primitives, message.primitive_poses, faults),
-        *_planes(message.planes, message.plane_poses, faults),
-    ]
+    parts = [*_primitives(message.primitives, message.primitive_poses, faults)]
+    if len(message.planes) or len(message.plane_poses):
+        parts += _planes(message.planes, message.plane_poses, faults)
     rows: dict[Solid, list[tuple[Any, ...]]] = {}
     for kind, row in parts:
         rows.setdefault(kind, []).append(row)
     solids: dict[Solid, Primitives] = {}
     for kind, some in rows.items():
         solids[kind] = Primitives(*_columns(some))
-    vertices, faces = _meshes(message.meshes, message.mesh_poses, faults)
+    vertices, faces = NO_VERTICES, NO_FACES
+    if len(message.meshes) or len(message.mesh_poses):
+        vertices, faces = _meshes(message.meshes, message.mesh_poses, faults)
     subframes = _subframes(message.subframe_names, message.subframe_poses)
     size = vertices.nbytes + faces.nbytes + 200 * len(parts) + 1000
     size += 4 * (len(message.id) + sum(200 + len(name) for name in subframes))
@@ -209,7 +205,7 @@ def _meshes(
 ) -> tuple[F32, NDArray[np.uint32]]:
     """All meshes as one."""
     places, turns, ok = _places(poses, len(meshes), faults)
-    all_vertices, all_faces = [np.zeros((0, 3), np.float32)], [np.zeros((0, 3), np.uint32)]
+    all_vertices, all_faces = [NO_VERTICES], [NO_FACES]
     first = 0
     for row, mesh in enumerate(meshes):
         vertices, faces = mesh.vertices, mesh.triangles
@@ -233,8 +229,11 @@ def _places(poses: PoseSequence, count: int, faults: list[str]) -> tuple[Any, An
     given = min(len(poses), count)
     if len(poses) > count:
         faults.append("it has more poses than shapes.")
-    positions, wxyzs = np.zeros((count, 3)), np.tile((1.0, 0.0, 0.0, 0.0), (count, 1))
+    positions, wxyzs = np.zeros((count, 3)), np.zeros((count, 4))
+    wxyzs[:, 0] = 1.0
     ok = np.ones(count, bool)
+    if not given:
+        return positions, wxyzs, ok
     raw = w_first(poses.orientations[:given])
     turns, is_turn = normalized(raw)
     is_zero = ~raw.any(axis=1)

@@ -9,12 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from webviz import Context, Details, Hit, Mesh, Node, Pose, Rgb
+from webviz import Context, Details, Hit, Mesh, Node, Pose, Rgb, Solid
 from webviz.api.frames import is_placeable
+from webviz.data.rotations import matrices, multiply_many
 from webviz.data.words import counted
 from webviz_displays.markers.batch import opacities, rgb
 from webviz_displays.markers.solids import Solids, instances_of
-from webviz_displays.moveit.bodies import Body, named
+from webviz_displays.moveit.bodies import Body, Primitives, named
 from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.scene import KnownScene, Rgba
 from webviz_displays.shared.geometry import is_drawable, origin_near
@@ -73,25 +74,18 @@ class DrawnObjects(NamedTuple):
 
 def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
     """Objects as nodes, whose keys begin with `prefix`: solids of one look together."""
-    bodies: list[Body] = []
-    solids: list[Solids] = []
+    shown = list(shown)
     owners: dict[str, object] = {}
     groups: list[PlacedNodes] = []
-    for number, (body, pose, rgba) in enumerate(shown):
-        bodies.append(body)
-        for kind, some in body.solids.items():
-            moved = some.moved(pose)
-            moved = moved.only(is_drawable(moved.positions))
-            count = len(moved.positions)
-            colors = np.tile(np.array(rgba, np.float32), (count, 1))
-            solids.append(Solids(kind, *moved, colors, np.full(count, number)))
-        opacity = opacity_of(rgba) if is_placeable(pose) else 0.0
-        if len(body.faces) and len(owners) < MOST_MESHES and opacity:
+    for body, pose, rgba in shown:
+        if not len(body.faces) or len(owners) >= MOST_MESHES or not is_placeable(pose):
+            continue
+        if opacity := opacity_of(rgba):
             key = f"{prefix}mesh {body.id:.40} {zlib.crc32(body.id.encode()):08x}"
             mesh = Mesh(body.vertices, body.faces, rgb_of(rgba), opacity)
             groups.append(PlacedNodes(key, pose, {key: mesh}))
             owners[key] = body
-    solids = [each for each in solids if len(each.positions)]
+    solids = _solids(shown)
     if solids:
         origin = np.array(origin_near(solids[0].positions))
         for each in solids:
@@ -99,8 +93,33 @@ def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
         x, y, z = origin.tolist()
         nodes = {prefix + kind: node for kind, node in instances_of(solids).items()}
         groups.append(PlacedNodes(f"{prefix}solids", Pose((x, y, z)), nodes))
+        bodies = [body for body, _, _ in shown]
         owners |= dict.fromkeys(nodes, bodies)
     return DrawnObjects(groups, owners)
+
+
+def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
+    """The solids of objects in the frame of the scene, those of one kind together."""
+    some: dict[Solid, list[int]] = {}
+    for number, (body, _, _) in enumerate(shown):
+        for kind in body.solids:
+            some.setdefault(kind, []).append(number)
+    found: list[Solids] = []
+    for kind, numbers in some.items():
+        parts = [shown[number].body.solids[kind] for number in numbers]
+        local = Primitives(*map(np.concatenate, zip(*parts, strict=True)))
+        rows = np.repeat(np.arange(len(parts)), [len(part.positions) for part in parts])
+        origins = np.array([shown[number].pose.position for number in numbers])[rows]
+        turns = np.array([shown[number].pose.wxyz for number in numbers])[rows]
+        colors = np.array([shown[number].rgba for number in numbers], np.float32)[rows]
+        positions = np.einsum("nij,nj->ni", matrices(turns), local.positions) + origins
+        wxyzs = multiply_many(turns, local.wxyzs)
+        ids = np.array(numbers)[rows]
+        solids = Solids(kind, positions, wxyzs, local.scales, colors, ids)
+        solids = solids.only(is_drawable(positions))
+        if len(solids.positions):
+            found.append(solids)
+    return found
 
 
 @dataclass

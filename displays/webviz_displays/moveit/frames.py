@@ -6,6 +6,7 @@ transform. As in MoveIt it is placed when it arrives, and does not move with tha
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -16,6 +17,7 @@ from webviz_displays.shared.geometry import inverse
 
 Links = Mapping[str, Pose]
 """Poses of a robot's links in the frame of the scene, by name."""
+_HERE = Pose()
 
 
 @dataclass
@@ -34,21 +36,10 @@ class Places:
         """Place what is new; the objects whose frame is unknown."""
         self.world = _still(self.world, scene.objects)
         self.held = _still(self.held, {key: each.body for key, each in scene.attached.items()})
-        lost: list[Body] = []
-        waiting = [body for key, body in scene.objects.items() if key not in self.world]
-        # Objects may be given relative to others of the same message.
-        while waiting:
-            bases = [self.base(body.frame, scene, frame, links, frames) for body in waiting]
-            found = {
-                body.id: (body, compose(base, body.pose))
-                for body, base in zip(waiting, bases, strict=True)
-                if base is not None
-            }
-            waiting = [body for body in waiting if body.id not in found]
-            if not found:
-                lost += waiting
-                break
-            self.world = {**self.world, **found}
+        new = [body for key, body in scene.objects.items() if key not in self.world]
+        if new:
+            self.world = dict(self.world)
+        lost = self._place(new, scene, frame, links, frames)
         for key, attached in scene.attached.items():
             if key in self.held:
                 continue
@@ -62,6 +53,32 @@ class Places:
                 self.held[key] = body, compose(inverse(link), compose(base, body.pose))
         return lost
 
+    def _place(
+        self, bodies: list[Body], scene: KnownScene, frame: str, links: Links, frames: Frames
+    ) -> list[Body]:
+        """Add bodies to the world; those whose frame is unknown."""
+        outside: dict[str, Pose | None] = {}
+        waiting: dict[str, list[Body]] = {}
+        """Bodies that are given relative to others of the same message, by the names of those."""
+        ready = deque(bodies)
+        while ready:
+            body = ready.popleft()
+            if body.id in self.world:
+                continue
+            base = self._known(body.frame, scene, frame, links)
+            if base is None:
+                if body.frame not in outside:
+                    outside[body.frame] = _between(frame, body.frame, frames)
+                base = outside[body.frame]
+            if base is None:
+                for name in {body.frame, body.frame.partition("/")[0]}:
+                    waiting.setdefault(name, []).append(body)
+            else:
+                pose = body.pose if base is _HERE else compose(base, body.pose)
+                self.world[body.id] = body, pose
+                ready += waiting.pop(body.id, ())
+        return [body for body in bodies if body.id not in self.world]
+
     def attached(self, scene: KnownScene, links: Links) -> dict[str, Pose]:
         """The poses of attached objects in the frame of the scene, where the link has one."""
         return {
@@ -74,18 +91,27 @@ class Places:
         self, name: str, scene: KnownScene, frame: str, links: Links, frames: Frames
     ) -> Pose | None:
         """The pose of a frame in that of the scene."""
+        return self._known(name, scene, frame, links) or _between(frame, name, frames)
+
+    def _known(self, name: str, scene: KnownScene, frame: str, links: Links) -> Pose | None:
+        """The pose of a frame of the scene, the robot or an object in the frame of the scene."""
         if name in ("", frame):
-            return Pose()
+            return _HERE
         if (known := links.get(name) or scene.transforms.get(name)) is not None:
             return known
         key, _, subframe = name.partition("/")
         for whole, part in ((name, ""), (key, subframe)):
             if whole in self.world:
                 body, pose = self.world[whole]
-                inner = body.subframes.get(part) if part else Pose()
+                inner = body.subframes.get(part) if part else _HERE
                 return inner and compose(pose, inner)
-        here, there = frames.latest(frame), frames.latest(name)
-        return compose(inverse(here), there) if here and there else None
+        return None
+
+
+def _between(frame: str, name: str, frames: Frames) -> Pose | None:
+    """The pose of a frame in `frame`, by transforms."""
+    here, there = frames.latest(frame), frames.latest(name)
+    return compose(inverse(here), there) if here and there else None
 
 
 def _still(

@@ -11,6 +11,7 @@ import numpy as np
 from webviz import Context, Details, Display, Hit, Input, Pose, Prop, Rgb, Sample, Topic
 from webviz.api.wire import Wire
 from webviz_displays.moveit.asking import Asking
+from webviz_displays.moveit.bodies import SLOW_BYTES
 from webviz_displays.moveit.joints import JointValues, joints_of
 from webviz_displays.moveit.path_view import PREFIX, PathView, playback_of
 from webviz_displays.moveit.paths import JointPath
@@ -68,6 +69,7 @@ class MotionPlanning(Display):
 
     rviz = "moveit_rviz_plugin/MotionPlanning"
     is_threaded = True
+    slow_bytes = SLOW_BYTES
 
     planning_scene_topic: PlanningSceneTopic = Topic("/monitored_planning_scene")
     trajectory_topic: Annotated[
@@ -120,7 +122,7 @@ class MotionPlanning(Display):
     def talk(self, wire: Wire, ctx: Context) -> None:
         """Ask move_group for the whole scene, and for the next turn while the robot moves."""
         state: MotionPlanningDrawing = ctx.state
-        state.asking.step(self.move_group_namespace, wire)
+        state.asking.step(self.move_group_namespace, wire, ctx)
         if state.view.player.is_moving:
             wire.wake()
 

@@ -9,6 +9,7 @@ from typing import Annotated
 from webviz import Context, Details, Display, Hit, Prop, Sample, Topic
 from webviz.api.wire import Wire
 from webviz_displays.moveit.asking import Asking
+from webviz_displays.moveit.bodies import SLOW_BYTES
 from webviz_displays.moveit.properties import (
     ROBOT_DESCRIPTION,
     MoveGroupNamespace,
@@ -70,6 +71,7 @@ class PlanningScene(Display):
 
     rviz = "moveit_rviz_plugin/PlanningScene"
     is_threaded = True
+    slow_bytes = SLOW_BYTES
 
     planning_scene_topic: PlanningSceneTopic = Topic("/monitored_planning_scene")
     robot_description: RobotDescription = ROBOT_DESCRIPTION
@@ -94,7 +96,7 @@ class PlanningScene(Display):
     def talk(self, wire: Wire, ctx: Context) -> None:
         """Ask move_group for the whole scene."""
         state: PlanningSceneDrawing = ctx.state
-        state.asking.step(self.move_group_namespace, wire)
+        state.asking.step(self.move_group_namespace, wire, ctx)
 
     def depends(self, ctx: Context) -> object:
         """Loading progress, the answer of move_group, and frames that objects wait for."""

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import msgspec
 
 from webviz import Context, Details, Display, Hit, Input, Prop, Rgb, Sample, Topic
-from webviz_displays.moveit.bodies import named
+from webviz_displays.moveit.bodies import SLOW_BYTES, named
 from webviz_displays.moveit.drawing import HeldObjects, opacity_of, rgb_of, with_alpha
 from webviz_displays.moveit.properties import (
     ATTACHED,
@@ -56,6 +56,8 @@ class RobotState(Display):
     """A robot in a state that a program shows, such as an answer of inverse kinematics."""
 
     rviz = "moveit_rviz_plugin/RobotState"
+    is_threaded = True
+    slow_bytes = SLOW_BYTES
 
     robot_state_topic: Annotated[
         Topic,

@@ -16,6 +16,8 @@ MOST_BYTES = 256 << 20
 """That the objects of a scene may take; a message that would exceed it is not applied to them."""
 MOST_NAMES = 20_000
 """Objects, colours and transforms of each kind."""
+MOST_HELD = 500
+"""Objects that a robot holds: they are placed anew whenever it moves."""
 LONGEST_KEY = 10_000
 """Characters of a name; things with longer ones are ignored."""
 
@@ -199,6 +201,8 @@ class _Edit:
 
     def _attach(self, message: Any) -> None:
         key = message.object.id
+        if not self._fits(key, self._held(), MOST_HELD):
+            return
         there = self._world().get(key)
         has_shapes = any(map(len, (message.object.primitives, message.object.meshes)))
         if not has_shapes and there is not None:
@@ -206,10 +210,9 @@ class _Edit:
             body = there
         elif (body := self._read(message.object)) is None:
             return
-        if self._fits(key, self._held()):
-            self._drop(key)
-            self._held()[key] = Attached(message.link_name.lstrip("/"), body)
-            self._loose.discard(key)
+        self._drop(key)
+        self._held()[key] = Attached(message.link_name.lstrip("/"), body)
+        self._loose.discard(key)
 
     def _detach(self, message: Any) -> None:
         """Back into the world: one object, all of a link, or all."""
@@ -260,12 +263,13 @@ class _Edit:
         if self._fits(key, self._gone):
             self._gone.add(key)
 
-    def _fits(self, key: str, among: Any) -> bool:
+    def _fits(self, key: str, among: Any, most: int = MOST_NAMES) -> bool:
         if len(key) > LONGEST_KEY:
             self._faults.append(f"The name {named(key)} has {len(key)} characters.")
             return False
-        if key not in among and len(among) >= MOST_NAMES:
-            self._faults.append(f"Only the first {MOST_NAMES} objects are kept.")
+        if key not in among and len(among) >= most:
+            which = "attached objects" if among is self._attached else "objects"
+            self._faults.append(f"Only the first {most} {which} are kept.")
             return False
         return True
 

@@ -26,7 +26,39 @@ from webviz_displays.moveit.scene import KnownScene, Rgba
 
 NAMED = 5
 """Objects, joints and faults that are listed."""
+MOST_AT_ONCE = 500
+"""Objects that are drawn without a thread."""
+NOTHING = DrawnObjects((), {})
 NO_LINKS: Mapping[str, Pose] = {}
+
+
+@dataclass(frozen=True, eq=False)
+class _Look:
+    """What the nodes of objects depend on.
+
+    Args:
+        world: the objects and their poses in the frame of the scene.
+        colors: by id.
+        default: colour of the others.
+    """
+
+    world: Mapping[str, tuple[Body, Pose]]
+    colors: Mapping[str, Rgba]
+    default: Rgba
+
+    def is_of(self, world: object, colors: object, default: Rgba) -> bool:
+        """Whether nothing has changed."""
+        return self.world is world and self.colors is colors and self.default == default
+
+    def drawn(self) -> DrawnObjects:
+        """The nodes."""
+        return drawn(
+            [
+                ShownObject(body, pose, self.colors.get(key, self.default))
+                for key, (body, pose) in self.world.items()
+            ],
+            "object ",
+        )
 
 
 @dataclass
@@ -48,7 +80,8 @@ class DrawnWorld:
     octomap: Octomap = field(default_factory=Octomap)
     scene: KnownScene = field(default_factory=KnownScene)
     frame: str = ""
-    _made: tuple[object, object, Rgba, DrawnObjects] | None = None
+    _look: _Look | None = None
+    _made: tuple[_Look | None, DrawnObjects] = None, NOTHING
     _stance: tuple[Poser, JointValues, float, Stance] | None = None
 
     def is_late(self, interval_s: float) -> bool:
@@ -82,7 +115,8 @@ class DrawnWorld:
         lost = self.held.places.update(scene, frame, links, ctx.frames)
         self.owners = {}
         if geometry.show_scene_geometry:
-            nodes = self._objects(scene, with_alpha(geometry.scene_color, geometry.scene_alpha))
+            color = with_alpha(geometry.scene_color, geometry.scene_alpha)
+            nodes = self._objects(scene, color, ctx)
             nodes.add(frame, ctx)
             self.owners = nodes.owners
             looks = geometry.voxel_rendering, geometry.voxel_coloring, geometry.scene_alpha
@@ -93,22 +127,21 @@ class DrawnWorld:
             lost_held = self.held.draw(scene, links, color, frame, "", ctx)
         report_objects(scene, lost, lost_held, ctx)
 
-    def _objects(self, scene: KnownScene, default: Rgba) -> DrawnObjects:
-        """The objects as nodes, made anew only if one of them or its colour has changed."""
+    def _objects(self, scene: KnownScene, default: Rgba, ctx: Context) -> DrawnObjects:
+        """The objects as nodes, made anew only if one of them or its colour has changed.
+
+        Many are made in a thread; until then the previous ones stay.
+        """
         world = self.held.places.world
-        made = self._made
-        if (
-            made is None
-            or made[0] is not world
-            or made[1] is not scene.colors
-            or made[2] != default
-        ):
-            shown = [
-                ShownObject(body, pose, scene.colors.get(key, default))
-                for key, (body, pose) in world.items()
-            ]
-            made = self._made = world, scene.colors, default, drawn(shown, "object ")
-        return made[3]
+        look = self._look
+        if look is None or not look.is_of(world, scene.colors, default):
+            look = self._look = _Look(world, scene.colors, default)
+        if self._made[0] is not look:
+            if len(world) <= MOST_AT_ONCE:
+                self._made = look, look.drawn()
+            elif (made := ctx.background(look, look.drawn)) is not None:
+                self._made = look, made
+        return self._made[1]
 
     def _posed(self, poser: Poser, interval_s: float) -> Stance:
         """Where the links are, computed anew after some time at the earliest."""

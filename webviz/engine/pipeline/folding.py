@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import copy
 from collections import Counter, deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Any
 
 from webviz.api.display import Display
 from webviz.api.sample import Sample
+from webviz.data.messages import MessageError, decode
 from webviz.engine.pipeline.background import Workers, is_slow
 from webviz.engine.pipeline.guard import CRASHED, Guard
 from webviz.engine.sources import Raw
@@ -21,10 +22,10 @@ MAX_BYTES = 64 << 20
 
 @dataclass(frozen=True)
 class Received:
-    """A decoded message, or a set of them.
+    """A message, or a set of them.
 
     Args:
-        sample: with the message.
+        sample: with the decoded message, or with None to decode `raw` when it is merged.
         size: of its messages, in bytes.
         raw: the message as it arrived.
         ready_s, decoded_s: monotonic times, in seconds.
@@ -38,16 +39,18 @@ class Received:
 
 
 class Folding:
-    """Merges samples in order. A large one is merged in a worker, and later ones wait for it.
+    """Decodes and merges samples in order. A large one is merged in a worker; later ones wait.
 
     Args:
         workers: for large messages.
+        judged: called with an input and why its message is invalid, or "" if it is valid.
     """
 
-    def __init__(self, workers: Workers) -> None:
+    def __init__(self, workers: Workers, judged: Callable[[str, str], None]) -> None:
         self.dropped: Counter[str] = Counter()
         """How many samples of each input could not wait."""
         self._workers = workers
+        self._judged = judged
         self._state: Any = None
         self._waiting: deque[Received] = deque()
         self._work: tuple[Received, Future[Any]] | None = None
@@ -71,18 +74,30 @@ class Folding:
         while self._work or self._waiting:
             if self._work is None:
                 received = self._waiting.popleft()
-                args = received.sample.input, received.sample, self._state
                 if is_slow(display, received.size):
-                    work = self._workers.submit(copy.copy(display).fold, *args)
-                    self._work = received, work
+                    args = copy.copy(display), received, self._state
+                    self._work = received, self._workers.submit(_merged, *args)
                     return
-                folded = guard("fold", display.fold, *args)
+                folded = guard("fold", _merged, display, received, self._state)
             else:
                 received, work = self._work
                 if not work.done():
                     return
                 self._work = None
                 folded = guard("fold", work.result)
-            if folded is not None and folded is not CRASHED:
+            refusal = str(folded) if isinstance(folded, MessageError) else ""
+            self._judged(received.sample.input, refusal)
+            if folded is not None and folded is not CRASHED and not refusal:
                 self._state = folded
                 yield replace(received, sample=replace(received.sample, message=folded))
+
+
+def _merged(display: Display, received: Received, state: Any) -> Any:
+    """The state with a sample merged into it, or why its message is invalid."""
+    sample = received.sample
+    if sample.message is None:
+        try:
+            sample = replace(sample, message=decode(sample.type, received.raw.cdr))
+        except MessageError as error:
+            return error
+    return display.fold(sample.input, sample, state)

@@ -39,7 +39,7 @@ class Holder:
         self.histories = self._no_histories()
         self._newest: dict[str, Set] = {}
         self._ready_s: dict[str, float] = {}
-        self._folding = Folding(services.workers)
+        self._folding = self._new_folding()
         self._fixed_frame = ""
 
     def replace(self, display: Display, guard: Guard) -> None:
@@ -53,7 +53,7 @@ class Holder:
         self.inputs.reset()
         self.histories = self._no_histories()
         self._newest.clear()
-        self._folding = Folding(self._services.workers)
+        self._folding = self._new_folding()
 
     def take(
         self, batches: Mapping[str, Iterable[Raw]], frames: Frames, offers: Mapping[str, Offer]
@@ -122,6 +122,14 @@ class Holder:
             names = names[:1]  # all inputs are folded into one sample
         return {name: History(len(names)) for name in names}
 
+    def _new_folding(self) -> Folding:
+        return Folding(self._services.workers, self._judge)
+
+    def _judge(self, name: str, refusal: str) -> None:
+        """Note whether a message could be read."""
+        intake = self.inputs.intakes[name]
+        intake.refuse(refusal) if refusal else intake.accepted()
+
     def _keep(self) -> Keep:
         keep = self._guard("history", self._display.history)
         return keep if isinstance(keep, Keep) else Keep()
@@ -131,10 +139,15 @@ class Holder:
             history.trim(keep, frames.now_ns)
 
     def _admit(self, found: Set, keep: Keep, frames: Frames) -> None:
-        """Decode the messages of a set and hold it, if the display accepts it."""
+        """Decode the messages of a set and hold it, if the display accepts it.
+
+        One that is folded is decoded there, in a worker if it is large.
+        """
         samples: dict[str, Sample] = {}
+        is_folded = overrides(self._display, "fold")
         for name, arrival in found.items():
-            if (sample := self._sample(name, arrival, frames)) is None:
+            is_decoded_later = is_folded and len(found) == 1
+            if (sample := self._sample(name, arrival, frames, is_decoded_later)) is None:
                 return
             samples[name] = sample
         name, *others = samples
@@ -144,7 +157,7 @@ class Holder:
         size = sum(len(arrival.raw.cdr) for arrival in found.values())
         decoded_s = self._services.tracer.clock()
         received = Received(sample, size, found[name].raw, self._ready_s[name], decoded_s)
-        if overrides(self._display, "fold"):
+        if is_folded:
             self._folding.put(received)
             return
         history = self.histories[name]
@@ -162,8 +175,10 @@ class Holder:
                 self._id, received.sample, received.raw, received.ready_s, received.decoded_s
             )
 
-    def _sample(self, name: str, arrival: Arrival, frames: Frames) -> Sample | None:
-        """A decoded message, None if it cannot be shown."""
+    def _sample(
+        self, name: str, arrival: Arrival, frames: Frames, is_decoded_later: bool
+    ) -> Sample | None:
+        """A message with its pose, None if it cannot be shown."""
         intake = self.inputs.intakes[name]
         if not arrival.frame:
             pose = Pose()
@@ -175,7 +190,8 @@ class Holder:
             return None  # the buffer was cleared meanwhile
         raw, message = arrival.raw, arrival.message
         try:
-            message = decode(intake.type, raw.cdr) if message is None else message
+            if message is None and not is_decoded_later:
+                message = decode(intake.type, raw.cdr)
         except MessageError as error:
             intake.refuse(str(error))
             return None

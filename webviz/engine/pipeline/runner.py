@@ -258,7 +258,7 @@ class Runner:
         size = self._holder.busy_with or self._painter.busy_with
         if size:
             level = Level.WARN if self._painter.is_empty() else Level.OK
-            result["Loading"] = Status(level, f"Loading a message of {size / 1e6:.0f} MB.")
+            result["Loading"] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._holder.busy_with and self._holder.is_empty:
             return result  # the display would say that no message was received
         return result | self._painter.statuses()
