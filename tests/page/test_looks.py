@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 import playwright.sync_api as playwright
 import pytest
+from pages import COARSE
 
-from tests.page.conftest import Tab
+from tests.page.conftest import Tab, open_page
 from webviz.edges.page.messages import Shell
 from webviz.edges.scene.server import Server
 from webviz.engine.sources import Offer, Publisher
@@ -24,6 +25,20 @@ COLOR = """(name) => {
   probe.remove();
   return color.match(/[\\d.]+/g).slice(0, 3).map(Number);
 }"""
+
+WATCH = """
+  window.seen = new Set();
+  (function look() {
+    for (const one of document.querySelectorAll("#root *")) {
+      const nodes = [...one.childNodes].filter((node) => node.nodeType === 3);
+      const words = nodes.map((node) => node.data);
+      const isSeen = words.join("").trim() && one.checkVisibility({ visibilityProperty: true });
+      if (isSeen) window.seen.add(words.join(""));
+    }
+    requestAnimationFrame(look);
+  })();
+"""
+"""Notes the words of viser's page that are seen in any frame."""
 
 
 def theme(tab: Tab) -> str:
@@ -153,3 +168,14 @@ def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
 
     # What was sent before still arrives on a slow machine.
     tab.wait_for(lambda: changes() == [])
+
+
+def test_nothing_is_seen_before_the_page_is_ours(
+    browser: playwright.Browser, server: Server, lasting: Tab
+) -> None:
+    page = open_page(browser)
+    page.add_init_script(WATCH)
+    page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={COARSE}")
+    page.get_by_role("tablist").first.wait_for()
+    assert page.evaluate("[...window.seen]") == []
+    page.context.close()

@@ -124,6 +124,12 @@ def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
     first.hover()
     phone.page.mouse.wheel(0, 300)
     playwright.expect(tab).to_be_in_viewport(ratio=0.95)
+    phone.button("All panels").tap()
+    phone.page.get_by_role("menuitemradio", name="Displays").tap()
+    playwright.expect(first).to_be_in_viewport(ratio=0.95)
+    assert first.get_attribute("aria-selected") == "true"
+    phone.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    playwright.expect(phone.button("All panels")).to_be_hidden()
 
 
 def too_small(phone: Tab) -> list[str]:

@@ -203,10 +203,13 @@ def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, ta
     tab.wait_for_command(RemovePanel("of Limited"))
     loop.show(panels=shown(Limited, Limited))
     tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
-    tab.button("Add a panel").click()
+    tab.button("All panels").click()
+    tab.page.get_by_role("menuitem", name="Add a panel").click()
     tab.page.get_by_role("menuitem", name="Navigation 2").click()
     tab.wait_for_command(AddPanel("Nav2"))
-    open_panel(loop, tab, Frames)
+    loop.show(panels=shown(Limited, Limited, Frames))
+    added = tab.page.get_by_role("tab", name="Frames", exact=True)
+    tab.wait_for(lambda: added.get_attribute("aria-selected") == "true")
     assert not tab.page.get_by_text("Properties", exact=True).is_visible(), "it has none"
 
 

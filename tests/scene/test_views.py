@@ -31,6 +31,10 @@ from webviz.shell.pictures.browser import Page
 WIDTH, HEIGHT = 900, 600
 RED, WHITE = (255, 0, 0), (255, 255, 255)
 HALF = math.tan(FIELD_OF_VIEW / 2)
+AXES = """async () => {
+  const { axes } = await import("/webviz/scene/view.js");
+  return axes().flat();
+}"""
 
 
 class Window(Page):
@@ -417,10 +421,12 @@ def test_a_picture_of_what_is_seen_is_downloaded(window: Window, tmp_path: Any) 
 def test_a_page_that_lost_its_connection_keeps_its_view(window: Window) -> None:
     view = TopDownOrtho(scale=33.0, x=2.0)
     window.look(view)
-    before = set(window.server.get_clients())
+    before, axes = set(window.server.get_clients()), window.evaluate(AXES)
     for connection in tuple(window.scene.link._socket._live_connections.values()):
         window.server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
     window.wait_for(lambda: set(window.server.get_clients()) - before, "it is back")
     window.wait_for(
         lambda: list(window.scene.cameras.views().values()) == [view], "its view was reported"
     )
+    window.draw()
+    assert window.evaluate(AXES) == pytest.approx(axes)

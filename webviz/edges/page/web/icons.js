@@ -9,6 +9,7 @@ const PATHS = {
   camera: "M4 8h4l2-3h4l2 3h4v11H4zM12 16.5a3 3 0 1 0 0-6 3 3 0 0 0 0 6",
   check: "m5 12 5 5L19 7",
   chevron: "m9 6 6 6-6 6",
+  "chevron-down": "m6 9 6 6 6-6",
   clock: "M12 21a9 9 0 1 0 0-18 9 9 0 0 0 0 18M12 7v5l3 2",
   close: "M6 6l12 12M18 6 6 18",
   cloud: "M6 16h.01M10 13h.01M14 17h.01M18 12h.01M8 8h.01M13 9h.01M17 7h.01M12 20h.01",

@@ -21,6 +21,7 @@ import * as shade from "./scene/shade.js";
 import * as shell from "./shell/shell.js";
 import * as textures from "./scene/textures.js";
 import * as tiles from "./scene/tiles.js";
+import * as theme from "./shell/theme.js";
 import * as toolbar from "./shell/toolbar.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
@@ -39,6 +40,7 @@ async function install() {
 const answer = (token) => channel.send({ type: "Answer", token });
 channel.on("Ask", ({ token }) => answer(token));
 
+theme.install();
 viser.connectToFolder();
 const installed = install();
 const address = new URL("webviz/channel", location.href).href.replace(/^http/, "ws");

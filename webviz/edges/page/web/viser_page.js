@@ -74,6 +74,9 @@ export function connectToFolder() {
   };
 }
 
+/** Shows viser's page, which is hidden until it is ours. */
+export const reveal = () => (document.documentElement.dataset.wvShown = "");
+
 /** Resolves when a condition holds, which is looked at before each frame. */
 export function until(condition) {
   return new Promise((resolve) => {

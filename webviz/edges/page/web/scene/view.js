@@ -62,6 +62,7 @@ const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
 // The world of viser has z up, that of three.js y up.
 const toThree = () => {
+  world = viser.node(ROOT) ?? world; // it is another one after a lost connection
   world.updateWorldMatrix(true, false);
   return world.matrixWorld;
 };
@@ -197,6 +198,7 @@ function show(wanted) {
 }
 
 function join(start) {
+  viser.reveal(); // also of a scene without a page around it
   isLost = false;
   if (place === null) show(start);
   else rejoin();

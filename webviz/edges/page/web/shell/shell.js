@@ -12,11 +12,11 @@ import * as firstRun from "./first_run.js";
 import * as header from "./header.js";
 import * as history from "./history.js";
 import * as layout from "./layout.js";
-import * as theme from "./theme.js";
 import * as timeBar from "./time_bar.js";
 import { tabs } from "./tabs.js";
 import * as toasts from "./toasts.js";
 import * as tooltips from "./tooltips.js";
+import * as viser from "../viser_page.js";
 
 /** Places for what lies over the scene and beside it; filled by the modules that they belong to. */
 export const places = {
@@ -35,7 +35,6 @@ export function install() {
 }
 
 function build() {
-  theme.install();
   commands.install();
   actions.install();
   files.install();
@@ -51,6 +50,7 @@ function build() {
   dock.install(page);
   document.body.append(page);
   document.body.classList.add("wv-on");
+  viser.reveal();
   tooltips.install(page);
   drop.install(page);
   firstRun.install(scene);

@@ -7,7 +7,7 @@ import { panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
 import { icon } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { openMenu } from "./menu.js";
+import { openMenu, openMenuBelow } from "./menu.js";
 
 /** Elements: the list of tabs, and what the open one shows. */
 export function tabs() {
@@ -19,9 +19,15 @@ export function tabs() {
     "aria-label": "Add a panel", "data-tip": "Add a panel", onclick: chooseType,
   }, icon("plus"));
   needs("AddPanel", add);
+  const more = el("button", {
+    type: "button", class: "wv-icon wv-tabs-more", hidden: true, "aria-haspopup": "menu",
+    "aria-label": "All panels", "data-tip": "All panels", onclick: chooseTab,
+  }, icon("chevron-down"));
+  new ResizeObserver(fit).observe(list);
   let types = [];
   let all = panels;
   let shown = null;
+  let isAdding = false; // by this page, which then opens the panel
   let close = () => {};
 
   list.addEventListener("keydown", (event) => {
@@ -63,6 +69,14 @@ export function tabs() {
     list.scrollLeft = Math.min(list.scrollLeft, offsetLeft - list.offsetLeft);
   }
 
+  // One button at a time, since both take space; the menu adds panels, too.
+  function fit() {
+    const isFull = list.scrollWidth > list.clientWidth;
+    more.hidden = !isFull;
+    set(add, { hidden: isFull || !types.length });
+    if (buttons.has(shown?.name)) bringIntoSight(buttons.get(shown.name));
+  }
+
   function mark() {
     for (const [name, each] of buttons) {
       const isShown = name === shown?.name;
@@ -72,6 +86,7 @@ export function tabs() {
 
   function offer(plugins) {
     const wanted = recall("tab", "");
+    const come = isAdding && plugins.find(({ name }) => !buttons.has(name));
     all = [...panels, ...plugins];
     for (const panel of all) {
       if (!buttons.has(panel.name)) buttons.set(panel.name, button(panel));
@@ -80,6 +95,11 @@ export function tabs() {
     for (const name of buttons.keys()) if (!all.some((panel) => panel.name === name)) buttons.delete(name);
     setChildren(list, all.map(({ name }) => buttons.get(name)));
     mark();
+    fit();
+    if (come) {
+      isAdding = false;
+      return show(come);
+    }
     const isGone = !all.some(({ name }) => name === shown?.name);
     // The tab of a plug-in that was open comes after the page.
     const isWaited = plugins.find(({ name }) => name === wanted && name !== shown?.name);
@@ -89,15 +109,28 @@ export function tabs() {
 
   function chooseType() {
     const { left, bottom } = add.getBoundingClientRect();
-    openMenu(left, bottom, types.map(({ type, title }) => ({
-      label: title, run: () => act("AddPanel", { type, values: {} }),
-    })));
+    openMenu(left, bottom, ofTypes());
+  }
+
+  const ofTypes = () => types.map(({ type, title }) => ({ label: title, run: () => addPanel(type) }));
+
+  async function addPanel(type) {
+    isAdding = true;
+    const { level } = await act("AddPanel", { type, values: {} });
+    if (level === "error") isAdding = false;
+  }
+
+  function chooseTab() {
+    const adding = { label: "Add a panel", icon: "plus", needs: "AddPanel", items: ofTypes() };
+    openMenuBelow(more, [...all.map((panel) => ({
+      label: panel.title, checked: panel.name === shown?.name, run: () => show(panel),
+    })), ...(types.length ? [null, adding] : [])]);
   }
 
   offer([]);
   followPlugins(offer, (known) => {
     types = known;
-    set(add, { hidden: !types.length });
+    fit();
   });
-  return [el("div", { class: "wv-tab-bar" }, list, add), content];
+  return [el("div", { class: "wv-tab-bar" }, list, more, add), content];
 }
