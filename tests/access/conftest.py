@@ -80,7 +80,7 @@ class House:
         done.set_result("")
         return done
 
-    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
+    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
         self.reached.append("Drive")
         return HelmAnswer()
 

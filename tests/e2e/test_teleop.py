@@ -180,6 +180,20 @@ def cut(page: Page, viewer: webviz.Viewer) -> None:
         server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
 
 
+@contextmanager
+def stalled(viewer: webviz.Viewer) -> Iterator[None]:
+    """No page receives anything during the block, as behind a full buffer."""
+    server = viewer._scene.link.server
+
+    def each(do: str) -> None:
+        for _, connection in tuple(server.channel._visitors.values()):
+            server.get_event_loop().call_soon_threadsafe(getattr(connection, do))
+
+    each("pause_writing")
+    yield
+    each("resume_writing")
+
+
 def freeze(page: Page, viewer: webviz.Viewer) -> None:
     page.evaluate("() => { const until = Date.now() + 1500; while (Date.now() < until); }")
 
@@ -213,6 +227,18 @@ def test_the_robot_stops_although_the_key_is_still_held(
         page.wait_for(lambda: 0.0 in robot.speeds(), "zero", PATIENCE_S)
     if cause is not freeze:  # a page that goes on sees that the key is held
         wait_until_stopped(page, robot)
+
+
+def test_the_robot_stops_while_the_page_sends_but_receives_nothing(
+    page: Page, robot: Robot, viewer: webviz.Viewer
+) -> None:
+    hold(page, robot)
+    with stalled(viewer):
+        wait_until_stopped(page, robot)
+        note = "The connection to webviz is too slow to drive."
+        page.wait_for(lambda: note in page.tab.locator(".wv-teleop").inner_text(), "a reason")
+        assert robot.has_stopped()
+    page.wait_for(lambda: robot.speeds()[-1:] == [FULL], "full speed", PATIENCE_S)
 
 
 def test_the_first_of_two_drivers_keeps_control_and_the_second_learns_who_has_it(

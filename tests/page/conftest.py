@@ -95,8 +95,8 @@ class Loop:
         self._queue.put((command, sender, answer))
         return answer
 
-    def _steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
-        self.steered.append((tool, browser, share))
+    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
+        self.steered.append((tool, browser, None if seen is None else share))
         return self.helm
 
     def show(self, *rows: Row, **changes: Any) -> None:

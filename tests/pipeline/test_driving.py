@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from remembering_graph import RememberingGraph
 
 from webviz.api.vehicle import STILL, Velocity
 from webviz.commands import Load, SetToolProperty, Undo
+from webviz.engine.driving import HelmAnswer
 from webviz.engine.driving.helm import PERIOD_S, TAIL
 from webviz.engine.sources import Outlet
 from webviz.engine.state import Driving
@@ -34,7 +36,7 @@ class Hand:
 
     def _hold(self) -> None:
         while not self._let_go.wait(0.01):
-            self._steer(*self._set_point)
+            self._steer(*self._set_point, time.monotonic())
 
     def vanish(self) -> None:
         """Send nothing more."""
@@ -63,6 +65,11 @@ def hold(b: Any) -> Iterator[Callable[..., Hand]]:
 def teleop(b: Any) -> str:
     """The id of the tool; another one after a config was opened."""
     return next(button.id for button in b.states[-1].tools if button.name == "Teleop")
+
+
+def steer(b: Any, tool: str, browser: int, share: Velocity) -> HelmAnswer:
+    """The answer to a set-point of a browser that has just received something."""
+    return b.viewer.helms.steer(tool, browser, share, time.monotonic())
 
 
 def speeds(b: Any) -> list[float]:
@@ -101,12 +108,21 @@ def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
     assert (angular, lateral.linear.y) == (0.0, 0.0)
 
 
+def test_a_silent_driver_is_stopped_between_two_commands(
+    b: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.engine.driving.helms.PERIOD_S", 3600.0)
+    steer(b, teleop(b), 1, AHEAD)
+    until(lambda: speeds(b)[-1:] == [0.0])
+    assert len(speeds(b)) <= 3
+
+
 def test_the_topic_is_the_robots_alone_while_nobody_attends(
     b: Any, hold: Callable[..., Hand]
 ) -> None:
     assert advertised(b) == set()
     assert "/odom" not in b.source.wanted
-    assert b.viewer.helms.steer(teleop(b), 1, STILL).driver is None
+    assert steer(b, teleop(b), 1, STILL).driver is None
     assert advertised(b) == {CMD_VEL}
     assert b.source.wanted["/odom"].type == ODOMETRY
     time.sleep(2 * PERIOD_S)
@@ -120,10 +136,18 @@ def test_the_topic_is_the_robots_alone_while_nobody_attends(
         (lambda b: b.do(SetToolProperty("Teleop", "topic.name", "/other")), True),
         (lambda b: b.do(SetToolProperty("Teleop", "message", "TwistStamped")), True),
         (lambda b: b.do(Load("displays: []\ntools: []\n", "x.yaml")), False),
+        (lambda b: b.do(Load("publish: []\ntools: [{type: Teleop}]\n", "x.yaml")), False),
         (lambda b: b.viewer.stop(), False),
         (lambda b: b.viewer.close(), False),
     ],
-    ids=["other topic", "other type", "tool removed", "viewer told to stop", "viewer closed"],
+    ids=[
+        "other topic",
+        "other type",
+        "tool removed",
+        "narrowed",
+        "viewer told to stop",
+        "viewer closed",
+    ],
 )
 def test_what_is_driven_stops_when_it_is_taken_away(
     b: Any, hold: Callable[..., Hand], change: Callable[[Any], object], goes_on: bool
@@ -136,8 +160,38 @@ def test_what_is_driven_stops_when_it_is_taken_away(
     # What is still held was not meant for another robot.
     assert {outlet for outlet, _ in b.source.graph.published} == {CMD_VEL}
     hand.vanish()
-    b.viewer.helms.steer(tool, 1, STILL)
-    assert (b.viewer.helms.steer(tool, 1, AHEAD).driver == 1) == goes_on
+    steer(b, tool, 1, STILL)
+    assert (steer(b, tool, 1, AHEAD).driver == 1) == goes_on
+
+
+def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    hold()
+    until(lambda: speeds(b)[-1:] == [0.5])
+    b.viewer.stop()
+    before = len(speeds(b))
+    until(lambda: stands(b))
+    assert sum(speed != 0.0 for speed in speeds(b)[before:]) <= 1  # which was on its way
+
+
+def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
+    b: Any, hold: Callable[..., Hand]
+) -> None:
+    sent: list[Future[int]] = []
+
+    def publish(outlet: Outlet, cdr: bytes) -> Future[int]:
+        sent.append(Future())
+        return sent[-1]
+
+    b.source.graph.publish = publish
+    hand = hold()
+    until(lambda: len(sent) > 1)
+    hand.vanish()
+    until(lambda: not b.viewer.helms._is_moving())
+    until(lambda: all(each.cancelled() for each in sent[:-1]))
+    assert not sent[-1].cancelled()
+    sent[-1].set_result(1)
 
 
 def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
@@ -157,35 +211,34 @@ def test_the_second_driver_learns_who_has_control_also_through_another_tool(
     first = hold(browser=7)
     until(lambda: speeds(b)[-1:] == [0.5])
     other = next(button.id for button in b.states[-1].tools if button.name == "Slow")
-    steer = b.viewer.helms.steer
-    assert [steer(tool, 8, AHEAD).driver for tool in (teleop(b), other)] == [7, 7]
+    assert [steer(b, tool, 8, AHEAD).driver for tool in (teleop(b), other)] == [7, 7]
     assert b.viewer.helms.drivers() == {teleop(b): 7}
     first.vanish()
-    until(lambda: steer(other, 8, AHEAD).driver == 8)
+    until(lambda: steer(b, other, 8, AHEAD).driver == 8)
     until(lambda: speeds(b)[-1:] == [0.0])
 
 
 def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Callable[..., Hand]) -> None:
-    steer = b.viewer.helms.steer
-    assert "no valid topic, or is gone" in steer("tool99", 1, AHEAD).problem
+    assert "no valid topic, or is gone" in steer(b, "tool99", 1, AHEAD).problem
     b.source.graph.subscriptions = 0
     hold()
-    until(lambda: "No subscription to /cmd_vel as Twist. " in steer(teleop(b), 1, None).problem)
+    unheard = "No subscription to /cmd_vel as Twist. "
+    until(lambda: unheard in steer(b, teleop(b), 2, STILL).problem)
     b.source.graph.subscriptions = 1
-    until(lambda: steer(teleop(b), 1, None).problem == "")
+    until(lambda: steer(b, teleop(b), 2, STILL).problem == "")
 
 
 def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(
     bench: Callable[..., Any],
 ) -> None:
     b = bench()
-    answer = b.viewer.helms.steer(teleop(b), 1, AHEAD)
+    answer = steer(b, teleop(b), 1, AHEAD)
     assert (answer.driver, answer.problem) == (None, "This source can only be read.")
 
 
 def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
     def readout() -> Driving:
-        b.viewer.helms.steer(teleop(b), 1, STILL)
+        steer(b, teleop(b), 1, STILL)
         b.viewer._next_panel = 0.0
         b.turn()
         return b.states[-1].driving[teleop(b)]

@@ -110,6 +110,15 @@ def test_what_is_refused_never_reaches_the_source() -> None:
     assert (graph.published, graph.requests, list(graph.advertised)) == ([], [], [])
 
 
+def test_what_has_still_to_stop_keeps_its_publisher_and_no_other_refused_topic_does() -> None:
+    graph = RememberingGraph()
+    source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
+    gate = Gate(source, Rights(), lambda: ("/c",))
+    a, b, c = (Outlet(topic, TYPE) for topic in ("/a", "/b", "/c"))
+    gate.advertise({a, b, c}, {a})
+    assert set(graph.advertised) == {a, c}
+
+
 def test_only_the_gate_reaches_the_graph_of_a_source() -> None:
     files = Path(webviz.__file__).parent.rglob("*.py")
     users = {path.name for path in files if "source.graph" in path.read_text(encoding="utf-8")}

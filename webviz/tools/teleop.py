@@ -17,9 +17,9 @@ class Teleop(Tool):
     """Drive the robot: hold W A S D or arrow keys, the stick, or the left stick of a gamepad.
 
     The robot moves only while something is held. It brakes when that is let go, and stops when the
-    page is hidden, loses its connection or falls silent for 200 ms: webviz then publishes zeros
-    itself. One browser drives at a time; another one can once the first has let go for a second.
-    `Q` and `E` drive sideways if `lateral` is not 0.
+    page is hidden, loses its connection, or sends or receives nothing for 200 ms: webviz then
+    publishes zeros itself. One browser drives at a time; another one can once the first has let go
+    for a second. `Q` and `E` drive sideways if `lateral` is not 0.
     """
 
     title = "Teleop"

@@ -14,11 +14,13 @@ from webviz.edges.page.messages import Drive, HelmReport
 from webviz.engine.driving import HelmAnswer
 
 FRESH_S = 0.5
-"""A heartbeat counts if it answers a beat no older than this."""
-BEAT_S = 0.05
-"""Between two beats."""
+"""A heartbeat counts if it answers a beat no older than this: the slowest link that can drive."""
+BEAT_S = 0.02
+"""Between two beats, less than between the heartbeats of a page, so that each brings a new one."""
 
-Steer: TypeAlias = Callable[[str, int, Velocity | None], HelmAnswer]
+SLOW = "The connection to webviz is too slow to drive."
+
+Steer: TypeAlias = Callable[[str, int, Velocity, float | None], HelmAnswer]
 
 
 class DrivingMessages:
@@ -30,23 +32,33 @@ class DrivingMessages:
 
     Args:
         channel: to the pages.
-        steer: takes a set-point: tool, browser and shares of the highest speeds.
+        steer: takes a set-point: tool, browser, shares of the highest speeds, and when the beat
+            that comes with it was sent, None if that is too long ago.
         note: is told which browser begins to drive.
+        clock: the time in seconds.
     """
 
-    def __init__(self, channel: Channel, steer: Steer, note: Callable[[int, str], None]) -> None:
+    def __init__(
+        self,
+        channel: Channel,
+        steer: Steer,
+        note: Callable[[int, str], None],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._channel = channel
         self._steer = steer
         self._note = note
+        self._clock = clock
         self._drivers: dict[str, int] = {}
         self._beats: deque[tuple[float, int]] = deque(maxlen=round(FRESH_S / BEAT_S) + 1)
         channel.on(Drive, self._hear)
 
     def _hear(self, browser: int, drive: Drive) -> None:
-        now = time.monotonic()
+        now = self._clock()
         held = Velocity(drive.linear, drive.lateral, drive.angular)
-        is_fresh = any(beat == drive.beat and now - at < FRESH_S for at, beat in self._beats)
-        answer = self._steer(drive.tool, browser, held if is_fresh else None)
+        fresh = (at for at, beat in self._beats if beat == drive.beat and now - at < FRESH_S)
+        seen = next(fresh, None)
+        answer = self._steer(drive.tool, browser, held, seen)
         if answer.driver is None:
             self._drivers.pop(drive.tool, None)
         elif answer.driver == browser and self._drivers.get(drive.tool) != browser:
@@ -55,4 +67,5 @@ class DrivingMessages:
         if not self._beats or now - self._beats[-1][0] >= BEAT_S:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]
-        self._channel.send(HelmReport(drive.tool, beat, answer.driver, answer.problem), browser)
+        problem = answer.problem or (SLOW if drive.beat and seen is None else "")
+        self._channel.send(HelmReport(drive.tool, beat, answer.driver, problem), browser)

@@ -9,7 +9,7 @@ from webviz.api.vehicle import STILL, Vehicle, Velocity
 from webviz.engine.sources.graph import Outlet
 
 BEAT_S = 0.2
-"""A driver who is silent for longer has lost control."""
+"""A driver who acknowledges nothing new for so long has lost control."""
 RELEASE_S = 1.0
 """From letting go until another browser may drive."""
 PERIOD_S = 0.05
@@ -47,7 +47,7 @@ class Helm:
         self._driver: int | None = None
         self._wanted = STILL
         self._velocity = STILL
-        self._heard = self._held = self._stepped = -math.inf
+        self._seen = self._heard = self._held = self._stepped = -math.inf
         self._tail = 0
 
     @property
@@ -55,17 +55,26 @@ class Helm:
         """Whether there is nothing to publish."""
         return self._wanted == self._velocity == STILL and self._tail == 0
 
+    @property
+    def deadline(self) -> float:
+        """When it stops unless its driver is heard again."""
+        return math.inf if self._wanted == STILL else self._heard + BEAT_S
+
     def driver(self, now: float) -> int | None:
         """The browser in control."""
         is_held = self._velocity != STILL or now - self._held < RELEASE_S
         return self._driver if is_held else None
 
-    def steer(self, browser: int, share: Velocity, now: float) -> bool:
+    def steer(self, browser: int, share: Velocity, seen: float, now: float) -> bool:
         """Take a set-point, unless another browser is in control.
+
+        Set-points with the same `seen` count as one heartbeat: people whose page still sends, but
+        receives nothing, do not see the robot.
 
         Args:
             browser: its id.
             share: of the limits, from -1 to 1; what is not finite counts as 0.
+            seen: when the newest of what the browser has received was sent.
             now: the time.
 
         Returns:
@@ -77,11 +86,15 @@ class Helm:
         if browser == self._holding:
             self._holding = None if wanted == STILL else browser
             return False
+        if wanted == STILL and self._driver != browser:
+            return False  # only looks at the helm
+        if self._driver != browser or seen > self._seen:
+            self._seen, self._heard = seen, now
+        elif now >= self._heard + BEAT_S:
+            return False
         if wanted != STILL:
             self._driver, self._held = browser, now
-        elif self._driver != browser:
-            return False  # only looks at the helm
-        before, self._wanted, self._heard = self._wanted, wanted, now
+        before, self._wanted = self._wanted, wanted
         return wanted != before
 
     def halt(self) -> None:
@@ -92,7 +105,7 @@ class Helm:
 
     def step(self, now: float) -> Velocity | None:
         """The velocity to publish now; None at rest."""
-        if self._wanted != STILL and now - self._heard > BEAT_S:
+        if now >= self.deadline:
             self.halt()
         if self.is_at_rest:
             return None

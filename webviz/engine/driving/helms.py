@@ -113,13 +113,15 @@ class Helms:
 
     # For the edges
 
-    def steer(self, tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
+    def steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
         """Take a set-point; from any thread.
 
         Args:
             tool: id of the tool.
             browser: id of the browser.
-            share: of the limits, each from -1 to 1; None only looks at the helm.
+            share: of the limits, each from -1 to 1.
+            seen: when the newest of what the browser has received was sent, in monotonic s; None
+                if that is too old to drive: the browser only looks at the helm.
 
         Returns:
             What the browser should know.
@@ -133,7 +135,7 @@ class Helms:
             driver = self._driver(helm.outlet.topic, now)
             refusal = self._gate.refusal(helm.outlet.topic)
             may_drive = not refusal and driver in (None, browser)
-            if share is not None and may_drive and helm.steer(browser, share, now):
+            if seen is not None and may_drive and helm.steer(browser, share, seen, now):
                 self._begin()
                 self._woken.set()
             problem = refusal or self._problems.get(helm.outlet, "")
@@ -157,8 +159,8 @@ class Helms:
     def _run(self) -> None:
         published = 0.0
         while (is_moving := self._is_moving()) or not self._has_ended:
-            period = GAP_S if self._has_ended else PERIOD_S
-            rest = published + period - time.monotonic() if is_moving else None
+            due = published + GAP_S if self._has_ended else self._due(published + PERIOD_S)
+            rest = due - time.monotonic() if is_moving else None
             if rest is None or rest > 0.0:
                 self._woken.wait(rest)
             self._woken.clear()
@@ -170,6 +172,11 @@ class Helms:
     def _is_moving(self) -> bool:
         with self._lock:
             return not all(helm.is_at_rest for helm in (*self._helms.values(), *self._leaving))
+
+    def _due(self, latest: float) -> float:
+        """When to step next: as soon as a driver is silent for too long."""
+        with self._lock:
+            return min([latest, *(helm.deadline for helm in self._helms.values())])
 
     def _step(self, now: float) -> None:
         with self._lock:

@@ -1,6 +1,7 @@
 // The tool that drives. What is held on this page goes to the server with every heartbeat; the
-// server ramps it, publishes it, and stops the robot when heartbeats stay away. Hence heartbeats
-// come from here and not from a worker: a page that hangs does not learn what is let go.
+// server ramps it, publishes it, and stops the robot when heartbeats stay away or acknowledge nothing
+// new. Hence heartbeats come from here and not from a worker: a page that hangs does not learn what
+// is let go.
 
 import * as channel from "../channel.js";
 import { isTyping, takeKeys } from "../shell/commands.js";
@@ -12,9 +13,9 @@ import * as gamepad from "./teleop_gamepad.js";
 import * as keys from "./teleop_keys.js";
 
 const BEAT_MS = 50; // while something is held; the server stops the robot after 200 ms without
-const IDLE_BEATS = 4; // one heartbeat in so many while nothing is held
+const IDLE_BEATS = 2; // one heartbeat in so many while nothing is held
 const GAP_MS = 15; // between two that something changes
-const SLOW_MS = 500; // after which the server does not count a heartbeat any more
+const SILENCE_MS = 200; // of the server, after which heartbeats move nothing
 const STILL = [0, 0, 0];
 const HINT = matchMedia("(pointer: coarse)").matches
   ? "Drag the stick."
@@ -112,7 +113,7 @@ function tick() {
   driven.beats += 1;
   const isHeld = driven.held !== STILL;
   if (isHeld ? performance.now() - driven.sent >= GAP_MS : driven.beats % IDLE_BEATS === 0) send();
-  const isLate = isHeld && performance.now() - driven.heard > SLOW_MS;
+  const isLate = isHeld && performance.now() - driven.heard > SILENCE_MS;
   if (isLate) driven.card.showNote("The connection to webviz is too slow to drive.", true);
 }
 
