@@ -16,6 +16,7 @@ from websockets.frames import Frame, Opcode
 
 from webviz.edges.scene import connections
 from webviz.edges.scene.connections import MAX_BROWSERS, Allowance
+from webviz.edges.scene.crowding import network_of
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
@@ -46,6 +47,37 @@ def test_connections_that_never_ask_keep_no_browser_out(
         assert strangers[0].recv(1) == b""
     for stranger in strangers:
         stranger.close()
+
+
+@pytest.mark.parametrize("sent", [b"", PAGE[:10]])
+def test_requests_that_are_not_complete_end_none_of_another_address(
+    server: viser.ViserServer, sent: bytes
+) -> None:
+    address = ("127.0.0.1", server.get_port())
+    with socket.create_connection(address, timeout=60) as asking, contextlib.ExitStack() as stack:
+        asking.sendall(PAGE[:10])
+        for _ in range(2 * MAX_BROWSERS):
+            other = socket.create_connection(address, timeout=60, source_address=("127.0.0.2", 0))
+            stack.enter_context(other).sendall(sent)
+        asking.sendall(PAGE[10:])
+        assert asking.recv(12) == b"HTTP/1.1 200"
+
+
+@pytest.mark.parametrize(
+    ("address", "network"),
+    [
+        ("192.0.2.1", "192.0.2.1"),
+        ("::ffff:192.0.2.1", "192.0.2.1"),
+        ("2001:db8::1", "2001:db8::/64"),
+        ("2001:db8::ffff:0:0:1", "2001:db8::/64"),
+        ("2001:db8:0:1::1", "2001:db8:0:1::/64"),
+        ("fe80::1%eth0", "fe80::/64"),
+        ("", ""),
+        ("unknown", "unknown"),
+    ],
+)
+def test_addresses_that_one_subscriber_has_are_one_network(address: str, network: str) -> None:
+    assert network_of(address) == network
 
 
 FEW_FILES = """

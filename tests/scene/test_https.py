@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import ssl
 from collections.abc import Iterator
@@ -73,6 +74,24 @@ def test_strangers_who_only_connect_keep_no_browser_out(
     for stranger in strangers:
         stranger.close()
     assert caplog.messages == []
+
+
+def test_strangers_who_only_connect_end_no_handshake_of_another_address(
+    server: viser.ViserServer,
+) -> None:
+    address = ("127.0.0.1", server.get_port())
+    context = ssl.create_default_context()
+    authority().configure_trust(context)
+    with (
+        socket.create_connection(address, timeout=60) as plain,
+        contextlib.ExitStack() as strangers,
+    ):
+        for _ in range(2 * MAX_HANDSHAKES):
+            stranger = socket.create_connection(address, 60, source_address=("127.0.0.2", 0))
+            strangers.enter_context(stranger)
+        with context.wrap_socket(plain, server_hostname="robot.example") as caller:
+            caller.sendall(b"HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            assert caller.recv(12) == b"HTTP/1.1 200"
 
 
 def test_a_viewer_is_shown_by_https(browser: playwright.Browser, files: Path) -> None:

@@ -17,6 +17,7 @@ from websockets.protocol import State
 from webviz.edges.access.access import EVERYBODY, Grant
 from webviz.edges.access.roles import LIMITS, Role
 from webviz.edges.page.pace import LinkPace, Mark, Stretch
+from webviz.edges.scene.crowding import network_of, oldest_of_most_crowded
 from webviz.edges.scene.frame_header import header
 from webviz.edges.scene.http_requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.edges.scene.listener import Handshakes
@@ -51,7 +52,8 @@ class ConnectionLimits:
         descriptors, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
         self.limit = max(4, min(MAX_BROWSERS, descriptors // 4))
         """Opening connections and browsers, each."""
-        self._opening: dict[Connection, None] = {}
+        self._opening: dict[Connection, str] = {}
+        """With the network of each."""
         self._open: set[Connection] = set()
 
     def refusal(self, newcomer: Connection) -> str:
@@ -65,20 +67,21 @@ class ConnectionLimits:
             return f"{limit} browsers are connected, which is the limit{reserved}. {CLOSE_ONE}"
         if len(browsers) >= self.limit:
             return f"{self.limit} browsers are connected, which is the limit. {CLOSE_ONE}"
-        near = sum(connection.address == newcomer.address for connection in browsers)
+        network = network_of(newcomer.address)
+        near = sum(network_of(connection.address) == network for connection in browsers)
         if near >= limits.per_address:
             return f"{near} browsers of your address are connected, which is the limit. {CLOSE_ONE}"
         return ""
 
     def enter(self, connection: Connection) -> None:
-        """Adds an opening connection; if there are too many, the oldest is aborted."""
+        """Adds an opening connection; of too many, one of the most crowded network is aborted."""
         if self._handshakes is not None:
             self._handshakes.end(connection.transport.get_extra_info("socket").fileno())
-        self._opening[connection] = None
+        self._opening[connection] = network_of((connection.remote_address or ("",))[0])
         if len(self._opening) > self.limit:
-            oldest = next(iter(self._opening))
-            del self._opening[oldest]
-            oldest.transport.abort()
+            crowding = oldest_of_most_crowded(self._opening)
+            del self._opening[crowding]
+            crowding.transport.abort()
 
     def leave(self, connection: Connection) -> None:
         """Removes a connection that is open or lost."""

@@ -8,8 +8,10 @@ import http
 import logging
 import os
 import socket
+from typing import Any
 
 from webviz.api.errors import Error
+from webviz.edges.scene.crowding import network_of, oldest_of_most_crowded
 
 MAX_PORT = 65535
 
@@ -20,7 +22,8 @@ UNSENT_BYTES = 1 << 16
 """Data per connection that is ready to be sent."""
 
 MAX_HANDSHAKES = 32
-"""Connections whose TLS handshake is not complete; of more, the oldest is closed."""
+"""Connections whose TLS handshake is not complete; of more, the oldest of the most crowded network
+ends."""
 
 _BUSY = "webviz has no file descriptors left for another connection. Try again later.\n"
 
@@ -37,16 +40,18 @@ class Handshakes:
     """Limits the TLS handshakes that are not complete, as of strangers who only connect."""
 
     def __init__(self) -> None:
-        self._sockets: dict[int, socket.socket] = {}
+        self._sockets: dict[int, tuple[socket.socket, str]] = {}
+        """With the network of each."""
 
-    def begin(self, accepted: socket.socket) -> None:
-        """Adds a connection; if there are too many, the oldest is closed."""
+    def begin(self, accepted: socket.socket, address: str) -> None:
+        """Adds a connection; if there are too many, one of the most crowded network ends."""
         self._sockets = {
-            number: other for number, other in self._sockets.items() if other.fileno() == number
+            number: other for number, other in self._sockets.items() if other[0].fileno() == number
         }
-        self._sockets[accepted.fileno()] = accepted
+        self._sockets[accepted.fileno()] = accepted, network_of(address)
         if len(self._sockets) > MAX_HANDSHAKES:
-            self._shut(next(iter(self._sockets)))
+            networks = {number: network for number, (_, network) in self._sockets.items()}
+            self._shut(oldest_of_most_crowded(networks))
 
     def end(self, number: int) -> None:
         """Removes a connection, by its file descriptor."""
@@ -60,7 +65,7 @@ class Handshakes:
     def _shut(self, number: int) -> None:
         # asyncio owns the socket and closes it once it reads the end.
         with contextlib.suppress(OSError):
-            self._sockets.pop(number).shutdown(socket.SHUT_RDWR)
+            self._sockets.pop(number)[0].shutdown(socket.SHUT_RDWR)
 
 
 class Listener(socket.socket):
@@ -75,7 +80,7 @@ class Listener(socket.socket):
     handshakes: Handshakes | None = None
     """With TLS, the connections that have not become one of websockets yet."""
 
-    def accept(self) -> tuple[socket.socket, object]:
+    def accept(self) -> tuple[socket.socket, tuple[Any, ...]]:
         """Accepts a connection; raises BlockingIOError if there is none, or no descriptor left."""
         self._keep_spare()
         try:
@@ -88,7 +93,7 @@ class Listener(socket.socket):
             self._refuse()
             raise BlockingIOError from None
         if self.handshakes is not None:
-            self.handshakes.begin(accepted[0])
+            self.handshakes.begin(accepted[0], accepted[1][0])
         return accepted
 
     def close(self) -> None:
