@@ -19,6 +19,7 @@ from webviz.engine.pipeline.guard import Guard
 from webviz.engine.sources import Gate, NotConnected, Outlet, Rights
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
+from webviz.shell.app.allow_list import report_everything
 from webviz.shell.testing.source import HandFedSource
 
 POINT = ((1.0, 2.0, 0.0),)
@@ -225,6 +226,32 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
         *(f"/arm/{name}" for name in panel),
         *(f"/{name}" for name in panel),
     }
+
+
+@pytest.mark.parametrize(
+    "config",
+    [
+        "tools: [{type: GoalPose, topic: '/*'}]",
+        "tools: [{type: GoalPose, topic: '/[a-z]*'}]",
+        "tools: [{type: Teleop, topic: {name: '/cmd_???'}}]",
+        "panels: [{type: Nav2, namespace: '*'}]",
+        "displays: [{type: InteractiveMarkers, interactive_markers_namespace: '*'}]",
+    ],
+)
+def test_a_pattern_as_a_property_is_no_name_that_may_be_written(config: str) -> None:
+    names = own_names(parse(f"version: 1\n{config}\n", "x.yaml"), Guard("", True))
+    assert {name for name in names if set("*?[") & set(name)} == {"/*/feedback"}
+
+
+@pytest.mark.parametrize("pattern", ["/*", "*", "/**", "/*/*"])
+def test_a_pattern_that_allows_everything_is_reported(
+    pattern: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    report_everything(("/goal_pose", "/arm/*", "~/*", pattern))
+    assert caplog.messages == [
+        f"The pattern {pattern} lets operators publish and call everything. List names instead, "
+        "such as /cmd_vel or /arm/*."
+    ]
 
 
 def test_a_plug_in_that_cannot_name_what_it_uses_adds_nothing(

@@ -14,13 +14,17 @@ from webviz.files.config import Branch, Config, Item
 
 Plugin = Tool | Panel | Display
 
+PATTERN = frozenset("*?[")
+"""Characters that match others in a list of what may be published."""
+
 
 def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
     """The names of a config's own topics, services and actions, sorted.
 
     They are those of its tools, displays and panels, and those of installed displays and panels
     with default properties, since pages may add these. What is changed later adds no name, or
-    everybody who may change a property could publish anywhere.
+    everybody who may change a property could publish anywhere. Nor does a pattern that somebody
+    has entered as a property: patterns are for the list `publish`, and for plug-ins.
 
     Args:
         config: with which a viewer is started.
@@ -30,6 +34,7 @@ def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
     for item in [*config.tools, *config.panels, *_flat(config.displays)]:
         if isinstance(item, Plugin):
             names |= guard.attempt(item.name, set[str](), _names_of, item)
+    names = {name for name in names if PATTERN.isdisjoint(name)}
     for base in (Panel, Display):
         for name, cls in plugin_types(base).items():
             names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))

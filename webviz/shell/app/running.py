@@ -30,8 +30,8 @@ from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config
-from webviz.files.config.model import Name
 from webviz.files.sessions import Sessions
+from webviz.shell.app.allow_list import check_names, report_everything
 from webviz.shell.app.link_rate import bytes_per_second
 from webviz.shell.pictures import files as picture_files
 from webviz.shell.ros_source import ros_source
@@ -89,7 +89,7 @@ class Running:
     ) -> None:
         with contextlib.ExitStack() as stack:
             closing = _Closing(stack)
-            _check_names(allow_publish)
+            check_names(allow_publish)
             link_rate = bytes_per_second(link) if link else None
             kept = None if journal is None else JournalFile(Path(journal))
             if kept is not None:
@@ -133,6 +133,8 @@ class Running:
                     path = Path(node_control.initial["config_file"])
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
             shown = shown or read(path)
+            if publish:
+                report_everything((*(shown.settings.publish or ()), *allow_publish))
             if fixed_frame:
                 shown.set_fixed_frame(fixed_frame)
             session = sessions.claim(path) if sessions else None
@@ -336,16 +338,6 @@ class _Closing:
         thread.join(patience_s)
         if thread.is_alive():
             log.warning("%s did not close within %.1f s.", what, patience_s)
-
-
-def _check_names(names: Sequence[str]) -> None:
-    for name in names:
-        try:
-            msgspec.convert(name, Name)
-        except msgspec.ValidationError:
-            raise Error(
-                f"{name!r} is not a valid name to publish on. Use one such as /cmd_vel or /arm/*."
-            ) from None
 
 
 def _tls(
