@@ -23,6 +23,7 @@ from webviz.edges.access.access import CHECK_S, Access
 from webviz.edges.access.roles import LIMITS, LINKS, Limits, Role
 from webviz.edges.access.tokens import make
 from webviz.edges.page.acts import NOT_OF_PAGES
+from webviz.edges.page.refusals import HALF
 from webviz.edges.scene import open_server
 from webviz.edges.scene.connections import BURST_S, BYTES_PER_MESSAGE
 from webviz.engine.commands import Command
@@ -377,6 +378,27 @@ def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:
     assert refused["text"].endswith(f" characters in one message; the limit is {limit}.")
     guest.send("Do", number=2, command="Export", arguments={})
     assert guest.receive("Done")["number"] == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        (r'{"type":"Do","number":1,"command":"Save","arguments":{"path":"\ud83d"}}', "Done"),
+        (r'{"type":"Do","number":1,"command":"Save","arguments":{"path":"\\\udfff"}}', "Done"),
+        (
+            r'{"type":"Invite","number":1,"name":"\ud800","role":"owner","days":null,'
+            r'"url":"http://a"}',
+            "Invitation",
+        ),
+    ],
+)
+def test_half_a_letter_is_answered(house: House, text: str, answer: str) -> None:
+    owner = house.enter(Role.OWNER)
+    owner.say(text)
+    answered = owner.receive(answer)
+    assert answered["number"] == 1
+    assert HALF in (answered.get("text"), answered.get("problem"))
+    assert house.reached == []
 
 
 def test_no_secret_reaches_the_log(house: House, caplog: pytest.LogCaptureFixture) -> None:

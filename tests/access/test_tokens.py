@@ -54,7 +54,8 @@ def test_a_cookie_is_not_the_secret_of_the_link() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["", " ", "a\nb", "a\x1b[2J", "a" * 41, "../a", "a'", "a ", "a\u202eb", "\ud800", "a\n"]
+    "name",
+    ["", " ", "a\nb", "a\x1b[2J", "a" * 41, "../a", "a'", "a ", "a\u202eb", "\ud800", "a\n", "-x"],
 )
 def test_a_name_that_could_deceive_in_a_log_is_refused(name: str) -> None:
     with pytest.raises(TokenError, match=r"^A name has 1 to 40 letters"):

@@ -53,6 +53,18 @@ def test_a_name_that_webviz_lacks_is_an_attribute_error() -> None:
         webviz.Viewr  # noqa: B018  # pyright: ignore[reportAttributeAccessIssue]
 
 
+def test_a_list_that_allows_everything_is_reported(
+    source: HandFedSource, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    config = tmp_path / "lab.yaml"
+    config.write_text("version: 1\npublish: [/goal_pose, /*]\n")
+    with webviz.Viewer(config, port=0, source=source):
+        assert "The pattern /* lets operators publish and call everything." in caplog.text
+    caplog.clear()
+    with webviz.Viewer(config, port=0, source=source, publish=False):
+        assert "The pattern" not in caplog.text
+
+
 def test_the_page_is_there_as_long_as_the_block(source: HandFedSource) -> None:
     with no_thread_left(), webviz.Viewer(port=0, source=source) as viewer:
         assert b"<html" in urllib.request.urlopen(viewer.url, timeout=60).read(4000)

@@ -13,6 +13,7 @@ import pytest
 
 from webviz.api.declared import Topic, to_values
 from webviz.api.group import DisplayGroup
+from webviz.api.views import Orbit
 from webviz.engine.commands import (
     AddDisplay,
     AddPanel,
@@ -25,6 +26,8 @@ from webviz.engine.commands import (
     Refresh,
     ResetDisplay,
     Save,
+    SaveImage,
+    SaveView,
     Sender,
     SetBackground,
     SetFrameRate,
@@ -462,6 +465,81 @@ def test_a_page_stays_in_the_folder_of_the_config(
         b.until_done(answer)
         assert "Pages open and save config files in" in str(answer.exception())
     assert [each.name for each in folder.rglob("*")] == ["sub"]
+
+
+BIDI = "\u202e"
+INVISIBLE = "The name contains line breaks or other invisible characters. Remove them."
+DASH = "The name begins with a dash, which programs take for an option. Remove it."
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("a\nb.yaml", INVISIBLE),
+        (f"a{BIDI}b.yaml", INVISIBLE),
+        ("-rf.yaml", DASH),
+        (f"{'x' * 300}.yaml", f"{'x' * 40}… is not a file name: it is too long."),
+        (f"{'é' * 130}.yaml", f"{'é' * 40}… is not a file name: it is too long."),
+        (f"{'x' * 240}.yaml", "The name has 245 characters; the limit is 200."),
+    ],
+)
+def test_a_page_gives_no_file_a_name_that_deceives(
+    bench: Callable[..., Any],
+    folder: Path,
+    name: str,
+    sentence: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    b = bench(Axes(name="A"))
+    refused = b.viewer.enqueue(Save(name), Sender(browser=1))
+    b.until_done(refused)
+    assert str(refused.exception()) == sentence
+    opened = b.viewer.enqueue(Open(name), Sender(browser=1))
+    b.until_done(opened)
+    assert opened.exception() is not None
+    assert not caplog.records
+    assert not [*folder.iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("command", "sentence"),
+    [
+        (SaveView("a\nb", view=Orbit()), INVISIBLE),
+        (SaveView(BIDI, view=Orbit()), INVISIBLE),
+        (SaveView(" ", view=Orbit()), "The name is empty. Enter one."),
+        (SaveImage(name="-a.png"), DASH),
+        (SaveImage(name="a\nb.png"), INVISIBLE),
+    ],
+)
+def test_a_view_or_picture_has_no_name_that_deceives(
+    bench: Callable[..., Any], command: Command, sentence: str
+) -> None:
+    assert bench().refused(command) == sentence
+
+
+def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench()
+    b.do(AddDisplay("Grid", {"name": f"a\nb{BIDI}c\ud800"}))
+    assert names(b.states[-1]) == ["a b c "]
+    b.do(SetProperty("display1", "name", f"{BIDI}d"))
+    assert names(b.states[-1]) == [" d"]
+    loaded = b.viewer.enqueue(Load("version: 1\n", f"a\n{BIDI}b.yaml"))
+    b.until_done(loaded)
+    assert loaded.result() == "Opened a  b.yaml (not yet saved on this machine)."
+
+
+@pytest.mark.parametrize(
+    "text", ['version: "\\ud800"', 'tools: [{type: GoalPose, name: "\\ud800"}]', '"\\udfff": 1']
+)
+@pytest.mark.parametrize("suffix", ["yaml", "rviz"])
+def test_a_config_with_half_a_letter_is_refused(
+    bench: Callable[..., Any], text: str, suffix: str
+) -> None:
+    answer = bench().refused(Load(text, f"x.{suffix}"))
+    half = "a text contains half of a surrogate pair, such as \\ud800. Remove it."
+    assert answer == f"x.{suffix}:1: {half}"
 
 
 def test_a_page_follows_no_link_out_of_the_folder_and_opens_no_device(

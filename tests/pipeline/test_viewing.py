@@ -216,12 +216,12 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     looking.do(SaveView("Other", BOB))
     assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
     assert "already" in looking.refused(RenameView("Map", "Other"))
-    assert "needs a name" in looking.refused(RenameView("Map", ""))
-    assert "at most 200 characters" in looking.refused(SaveView("x" * 201, ALICE))
+    assert "name is empty" in looking.refused(RenameView("Map", ""))
+    assert "the limit is 200" in looking.refused(SaveView("x" * 201, ALICE))
     assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
     assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
     assert "Unknown saved view `Map`" in looking.refused(RemoveView("Map"))
-    assert "needs a name" in looking.refused(SaveView("", ALICE))
+    assert "name is empty" in looking.refused(SaveView("", ALICE))
 
 
 def test_a_config_begins_with_the_view_that_somebody_chose(looking: Looking) -> None:

@@ -38,7 +38,11 @@ class Guest:
 
     def send(self, type_: str, **fields: Any) -> None:
         """Send a message."""
-        self._socket.send(msgspec.json.encode({"type": type_, **fields}).decode())
+        self.say(msgspec.json.encode({"type": type_, **fields}).decode())
+
+    def say(self, text: str) -> None:
+        """Send any text."""
+        self._socket.send(text)
 
     def receive(self, type_: str) -> dict[str, Any]:
         """The next message of a type."""

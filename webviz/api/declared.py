@@ -14,6 +14,8 @@ from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 import msgspec
 
+from webviz.data.names import readable
+
 Byte = Annotated[int, msgspec.Meta(ge=0, le=255)]
 Color = tuple[Byte, Byte, Byte]
 """Red, green and blue, 0 to 255."""
@@ -102,8 +104,7 @@ def make(cls: type[P], values: dict[str, Any]) -> P:
     merged = {key: _merge(defaults.get(key), value) for key, value in values.items()}
     declared = msgspec.convert(merged, cls, strict=True)
     _check_finite(declared, "$")
-    if not declared.name:
-        declared.name = default_name(cls)
+    declared.name = readable(declared.name) or default_name(cls)
     return declared
 
 

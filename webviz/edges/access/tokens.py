@@ -75,9 +75,10 @@ def make(name: str, role: Role, now: datetime, days: float | None = None) -> Tok
     Raises:
         TokenError: the name or the time is not allowed.
     """
-    if not re.match(NAME, name):
+    if not re.match(NAME, name) or name.startswith("-"):  # for commands, an option
         raise TokenError(
-            f"A name has 1 to {MAX_NAME} letters, digits, spaces and . @ + - _, unlike {name!r}."
+            f"A name has 1 to {MAX_NAME} letters, digits, spaces and . @ + - _, and begins with "
+            f"none of - and space, unlike {name!r}."
         )
     try:
         expires = None if days is None else now + timedelta(days=days)

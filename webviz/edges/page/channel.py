@@ -33,7 +33,7 @@ from webviz.edges.page.messages import (
 )
 from webviz.edges.page.outgoing import PageQueue
 from webviz.edges.page.pace import LinkPace, Stretch
-from webviz.edges.page.refusals import answer
+from webviz.edges.page.refusals import answer, answer_to_halves
 from webviz.edges.page.stores import Stores
 
 MAX_QUOTED = 200
@@ -308,6 +308,8 @@ class Channel:
         except (msgspec.MsgspecError, RecursionError) as error:
             # It may quote what the page sent, control characters included.
             log.warning("A message of a page was ignored: %s.", ascii(str(error))[1:MAX_QUOTED])
+            if (refused := answer_to_halves(self._decoder, text)) is not None:
+                self.send(refused, browser)
             return
         if refusal := self._refusal(connection.grant.role, message):
             log.warning("Refused a message of %s.", connection.grant.role.phrase)

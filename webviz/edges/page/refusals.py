@@ -1,6 +1,10 @@
-"""What a page is answered whose message its role does not allow."""
+"""What a page is answered whose message its role does not allow, or which is not text."""
 
 from __future__ import annotations
+
+import re
+
+import msgspec
 
 from webviz.edges.page.invitation_messages import Dismiss, Invitation, Invite
 from webviz.edges.page.messages import (
@@ -16,6 +20,10 @@ from webviz.edges.page.messages import (
     ToPage,
     Use,
 )
+
+HALF = "Not done: the text contains half of a letter, such as of an emoji. Remove it."
+_ESCAPE = re.compile(r"(\\\\)|\\u[dD][89a-fA-F][0-9a-fA-F]{2}")
+"""A backslash, or half of a surrogate pair, in JSON."""
 
 
 def answer(message: FromPage, reason: str) -> ToPage | None:
@@ -38,3 +46,17 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
             return HelmReport(message.tool, 0, None, reason)
         case _:
             return None
+
+
+def answer_to_halves(decoder: msgspec.json.Decoder[FromPage], text: str) -> ToPage | None:
+    """The answer to a message with halves of surrogate pairs, which texts of JavaScript may have.
+
+    Args:
+        decoder: of messages, which has refused this one.
+        text: of the message.
+    """
+    try:
+        message = decoder.decode(_ESCAPE.sub(lambda found: found[1] or "?", text))
+    except (msgspec.MsgspecError, RecursionError):
+        return None
+    return answer(message, HALF)

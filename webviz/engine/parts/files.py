@@ -15,6 +15,7 @@ from webviz.api.panel import Panel
 from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
+from webviz.data.names import MAX_FILE_BYTES, file_problem_of, readable
 from webviz.engine.commands import (
     Command,
     Export,
@@ -166,6 +167,8 @@ class FilesPart(Part):
                 f"Pages open and save config files in {self._folder} only. Give a name without "
                 "folders that ends with .yaml or .rviz."
             )
+        if len(path.encode(errors="replace")) > MAX_FILE_BYTES and is_config:
+            raise ConfigError(f"{readable(path)[:40]}… is not a file name: it is too long.")
         return self._folder / path
 
     def _check(self, file: Path, sender: Sender) -> Callable[[], None]:
@@ -197,7 +200,7 @@ class FilesPart(Part):
         self.views.open(command.config.settings.view)
 
     def _load(self, command: Load, sender: Sender) -> Job[Config]:
-        text, name = command.text, command.name
+        text, name = command.text, readable(command.name)
         refuse_too_large(len(text), name)
 
         def then(config: Config) -> str:
@@ -211,6 +214,9 @@ class FilesPart(Part):
 
     def _save(self, command: Save, sender: Sender) -> Job[list[str]]:
         target = self._in_folder(command.path, sender) if command.path else self._path
+        is_named = bool(command.path) and sender.browser is not None
+        if is_named and (problem := file_problem_of(command.path)):
+            raise ConfigError(problem)
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
         config = self.config()

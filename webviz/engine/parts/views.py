@@ -22,6 +22,7 @@ from webviz.api.views import (
     target_group,
     type_of,
 )
+from webviz.data.names import file_problem_of, problem_of
 from webviz.engine.commands import (
     ChangeView,
     Command,
@@ -44,8 +45,6 @@ from webviz.files.config import ConfigError, nearest
 
 FRAME_M = 0.5
 """Half of the edge of the cube around a frame that is looked at."""
-
-MAX_NAME = 200
 
 
 class ViewsPart(Part):
@@ -186,6 +185,8 @@ class ViewsPart(Part):
         self.start_with(view)
 
     def _save_image(self, command: SaveImage, sender: Sender) -> None:
+        if command.name and (problem := file_problem_of(command.name)):
+            raise ConfigError(problem)
         self._cameras.save_image(command.name, _browser(command, sender))
 
     def _seen(self, browser: int | None) -> Mapping[int, View]:
@@ -238,10 +239,8 @@ class ViewsPart(Part):
 
 
 def _check_name(name: str) -> None:
-    if not name:
-        raise ConfigError("A saved view needs a name.")
-    if len(name) > MAX_NAME:
-        raise ConfigError(f"The name of a view can have at most {MAX_NAME} characters.")
+    if problem := problem_of(name):
+        raise ConfigError(problem)
 
 
 def _browser(command: Any, sender: Sender) -> int | None:

@@ -29,6 +29,8 @@ MAX_DIGITS = 1000
 """Of an integer. Python writes none of more than 4300 decimal digits, but reads them as 0xfff…"""
 MAX_DEPTH = 64
 """Levels; real files have fewer than 20."""
+HALF = "a text contains half of a surrogate pair, such as \\ud800. Remove it."
+_HALF = re.compile("[\ud800-\udfff]")
 TOO_LONG = f"a number has more than {MAX_DIGITS} digits."
 _SAFE = re.compile(r"""(?:[^"']|(["'])(?:<[a-z ]+>|.)\1)*""")
 """Text before the first quotation other than a single character or a kind of token."""
@@ -96,6 +98,8 @@ class YamlDocument:
             count += 1
             if isinstance(node, ScalarNode):
                 characters += len(node.value)
+                if _HALF.search(node.value):
+                    raise ConfigError(f"{self.where}:{node.start_mark.line + 1}: {HALF}")
                 if len(node.value) > MAX_DIGITS and node.tag.endswith(":int"):
                     raise ConfigError(f"{self.where}:{node.start_mark.line + 1}: {TOO_LONG}")
             _refuse_too_large(self.where, count, depth, characters)

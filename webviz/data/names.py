@@ -1,0 +1,40 @@
+"""Names that people give: of files, views, displays and links."""
+
+from __future__ import annotations
+
+import re
+
+MAX_NAME = 200
+"""Characters of a name."""
+MAX_FILE_BYTES = 251
+"""Of a file name, as Linux allows 255 and the previous version ends with `.bak`."""
+
+_UNREADABLE = re.compile(
+    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+)
+"""Control characters, line ends, marks that turn the direction of text, halves of pairs."""
+
+
+def readable(name: str) -> str:
+    """A name as one line that is read in one direction."""
+    return _UNREADABLE.sub(" ", name)
+
+
+def problem_of(name: str) -> str:
+    """Why a name cannot be given: a sentence, "" if it can."""
+    if not name.strip():
+        return "The name is empty. Enter one."
+    if len(name) > MAX_NAME:
+        return f"The name has {len(name)} characters; the limit is {MAX_NAME}."
+    if _UNREADABLE.search(name):
+        return "The name contains line breaks or other invisible characters. Remove them."
+    return ""
+
+
+def file_problem_of(name: str) -> str:
+    """Why a file cannot be given a name: a sentence, "" if it can."""
+    if name.startswith("-"):
+        return "The name begins with a dash, which programs take for an option. Remove it."
+    if len(name.encode(errors="replace")) > MAX_FILE_BYTES:
+        return f"The name is too long; the limit is {MAX_FILE_BYTES} bytes."
+    return problem_of(name)
