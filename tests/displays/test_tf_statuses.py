@@ -83,7 +83,7 @@ def test_a_fixed_frame_that_does_not_exist_is_told_once(bench) -> None:
     sentences = [text for _, text in at.statuses().values() if "does not exist" in text]
     assert sentences == [
         'Fixed frame "map" does not exist. Start localisation or SLAM, or use "odom", the root of '
-        "the largest tree (21 frames): -f odom"
+        "the largest tree (21 frames)."
     ]
 
 

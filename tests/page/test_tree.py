@@ -12,7 +12,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group, height_of
 from webviz.api.declared import Topic
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.edges.scene.server import Server
 from webviz.engine.commands import (
     AddDisplay,
@@ -21,6 +21,7 @@ from webviz.engine.commands import (
     MoveDisplay,
     RemoveDisplay,
     ResetDisplay,
+    SetFixedFrame,
     SetProperty,
     WriteDisplays,
 )
@@ -74,6 +75,23 @@ def test_a_problem_is_a_line_under_the_name_and_a_disabled_display_has_none(
     loop.show(make_row("a", statuses=LOST, enabled=False))
     tree.tab.wait_for(lambda: tree.row("a").inner_text() == "a")
     assert tree.row("a").get_attribute("data-level") is None
+
+
+def test_one_cause_stands_on_top_with_a_button_that_solves_it(
+    loop: Loop, tree: Tree, make_row: MakeRow
+) -> None:
+    cause = Status(Level.ERROR, "Fixed frame does not exist.", OtherFixedFrame("odom"))
+    names = ("Map", "Scan", "Robot")
+    loop.show(
+        *(make_row(name, statuses={"Transform": replace(cause, remedy=None)}) for name in names),
+        statuses={"Fixed Frame": cause},
+    )
+    tree.tab.wait_for(lambda: tree.tab.text().count(cause.text) == 1)
+    tree.row("Global Options").get_by_role("button", name="Use odom").click()
+    tree.tab.wait_for_command(SetFixedFrame("odom"))
+    assert tree.selected() == []
+    loop.show(*map(make_row, names), statuses={})
+    tree.tab.wait_for(lambda: tree.tab.button("Use odom").count() == 0)
 
 
 def test_a_long_line_takes_two_lines_and_the_others_move(

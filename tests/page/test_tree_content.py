@@ -10,7 +10,7 @@ import pytest
 
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.edges.page.content import MAKERS
 from webviz.edges.page.reading import StateReading
 from webviz.edges.page.stores import Stores
@@ -53,6 +53,36 @@ def test_ages_and_rates_in_a_line_change_seldom(make_row: MakeRow, text: str, sh
 def test_a_group_names_the_display_that_has_the_problem() -> None:
     group = Row("g", "Group", DisplayGroup(name="G"), "G", {"Front scan": STATUSES["Points"]})
     assert row_of(group)["line"] == "Front scan: No points."
+
+
+def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
+    remedy = Remedy("topic.name", "/front", "Use /front")
+    statuses = {"Topic": Status(Level.WARN, "No publisher.", remedy), "Later": STATUSES["Topic"]}
+    fields = {"display": "a", "path": "topic.name", "value": "/front"}
+    told = {"label": "Use /front", "command": "SetProperty", "arguments": fields}
+    assert row_of(make_row("a", statuses=statuses))["remedy"] == told
+    statuses["Later"] = STATUSES["Transform"]
+    assert "remedy" not in row_of(make_row("a", statuses=statuses)), "it would not help yet"
+
+
+def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_everywhere(
+    make_row: MakeRow,
+) -> None:
+    cause = Status(Level.ERROR, "Fixed frame does not exist.", OtherFixedFrame("odom"))
+    own = Status(Level.ERROR, f"{cause.text} 3 messages were given up.")
+    few = Status(Level.ERROR, "0 of 3 links.")  # first, and because of the cause
+    rows = (
+        make_row("a", statuses={"Links": few, "Transform": own}),
+        make_row("b", statuses=STATUSES),
+    )
+    shown = MAKERS["displays"](State(rows=rows, statuses={"Fixed Frame": cause}), "")
+    assert (shown["a"]["line"], shown["a"]["level"]) == ("", "error")
+    assert shown["b"]["line"] == "No transform."
+    assert MAKERS["displays"](State(rows=rows), "")["a"]["line"] == few.text
+    told = {"label": "Use odom", "command": "SetFixedFrame", "arguments": {"frame": "odom"}}
+    state = State(rows=rows, statuses={"Fixed Frame": cause})
+    assert MAKERS["statuses"](state, "a")["statuses"][1] == ["Transform", "error", own.text, told]
+    assert MAKERS["settings"](state, "")["statuses"][0][3] == told
 
 
 def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:

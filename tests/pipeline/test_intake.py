@@ -9,6 +9,7 @@ import pytest
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import Remedy
+from webviz.engine.commands import SetProperty
 from webviz.engine.sources import Offer, Publisher, Raw
 
 SECOND = 1_000_000_000
@@ -48,7 +49,7 @@ def test_nobody_publishes_but_the_type_is_elsewhere(bench: Callable[..., Any]) -
     text = "No publisher on /pose. Choose /goal_pose, the nearest topic of its type."
     assert b.statuses()["Topic"] == ("WARN", text)
     remedy = b.states[-1].rows[0].statuses["Topic"].remedy
-    assert remedy == Remedy("topic.name", "/goal_pose")
+    assert remedy == Remedy("topic.name", "/goal_pose", "Use /goal_pose")
 
 
 def test_another_type_names_both(bench: Callable[..., Any]) -> None:
@@ -78,6 +79,10 @@ def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(
     assert "requests reliable, volatile" in text
     assert "offers best effort, volatile" in text
     assert "Set reliability and durability to auto." in text
+    remedy = b.states[-1].rows[0].statuses["Topic"].remedy
+    assert remedy.label == "Set QoS to automatic"
+    b.do(SetProperty("display1", remedy.path, remedy.value))
+    assert b.source.wanted["/pose"].topic == Topic("/pose")
 
 
 def test_a_problem_of_the_source_is_told(bench: Callable[..., Any]) -> None:

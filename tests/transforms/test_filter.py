@@ -203,6 +203,7 @@ def test_a_queue_too_short_for_the_lag_is_told_with_the_length_it_needs(
     assert explanation.kind == Kind.QUEUE_FULL
     assert "300 ms late" in explanation.sentence
     assert "raise the filter size to 17" in explanation.sentence
+    assert explanation.filter_size == 17
     enough: MessageFilter[str] = MessageFilter(17)
     flowed = []
     for i in range(40, 80):

@@ -27,10 +27,28 @@ class Remedy:
     Args:
         path: dotted, such as `topic.name`.
         value: to give it.
+        label: of the button that does it, in the imperative.
     """
 
     path: str
     value: Any
+    label: str = "Use it"
+
+
+@dataclass(frozen=True)
+class OtherFixedFrame:
+    """A fixed frame in which more could be drawn.
+
+    Args:
+        frame: its id.
+    """
+
+    frame: str
+
+    @property
+    def label(self) -> str:
+        """Of the button that chooses it."""
+        return f"Use {self.frame}"
 
 
 @dataclass(frozen=True)
@@ -40,12 +58,12 @@ class Status:
     Args:
         level: its severity.
         text: a sentence.
-        remedy: a change of a property that would help, None if none would.
+        remedy: a change that would help, None if none would.
     """
 
     level: Level
     text: str
-    remedy: Remedy | None = None
+    remedy: Remedy | OtherFixedFrame | None = None
 
 
 def worst(statuses: Iterable[Status]) -> Level:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.explain import unknown_fixed_frame
 
@@ -20,7 +20,8 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
             f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown. Start a "
             "publisher of transforms, such as robot_state_publisher.",
         )
-    return Status(Level.ERROR, unknown_fixed_frame(buffer, fixed_frame))
+    sentence, other = unknown_fixed_frame(buffer, fixed_frame)
+    return Status(Level.ERROR, sentence, OtherFixedFrame(other))
 
 
 def import_status(report: Sequence[str]) -> Status:

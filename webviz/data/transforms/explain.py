@@ -72,7 +72,7 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
             "localisation).",
         )
     if fixed_frame not in names:
-        sentence = unknown_fixed_frame(buffer, fixed_frame)
+        sentence, _ = unknown_fixed_frame(buffer, fixed_frame)
         return Explanation(Kind.UNKNOWN_FIXED_FRAME, sentence)
     if frame not in names:
         text = f'Frame "{frame}" does not exist'
@@ -87,17 +87,17 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
     return None
 
 
-def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> str:
-    """The fixed frame is unknown; suggests another one."""
+def unknown_fixed_frame(buffer: TransformBuffer, fixed_frame: str) -> tuple[str, str]:
+    """The fixed frame is unknown: a sentence that suggests another one, and that frame."""
     text = f'Fixed frame "{fixed_frame}" does not exist.'
     if near := _nearest(buffer, fixed_frame):
-        return f'{text} Did you mean "{near}"?'
+        return f'{text} Did you mean "{near}"?', near
     root, size = buffer.largest_tree()
     if fixed_frame == "map":
         text += " Start localisation or SLAM, or use"
     else:
         text += " Use"
-    return f'{text} "{root}", the root of the largest tree ({size} frames): -f {root}'
+    return f'{text} "{root}", the root of the largest tree ({size} frames).', root
 
 
 def _nearest(buffer: TransformBuffer, name: str) -> str:

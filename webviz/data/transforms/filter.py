@@ -139,15 +139,17 @@ class MessageFilter(Generic[P]):
     def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:
         """Transforms arrive, but later than the queue can wait."""
         text = f"The queue of {self._queue_size} messages is full before their transforms arrive"
-        remedy = "raise the filter size"
+        remedy, size = "raise the filter size", 0
         if len(self._queue) > 1:
             newest = self._queue[-1]
             lag = _why(buffer, fixed_frame, newest, now_ns).lag_ns
             period = (newest.stamp_ns - self._queue[0].stamp_ns) / (len(self._queue) - 1)
             if lag > 0 and period > 0:
                 text = f"{text}, which are {in_words(lag)} late"
-                remedy = f"{remedy} to {int(lag / period) + 2}"
-        return Explanation(Kind.QUEUE_FULL, f"{text}: {remedy}, or speed up what publishes them.")
+                size = int(lag / period) + 2
+                remedy = f"{remedy} to {size}"
+        sentence = f"{text}: {remedy}, or speed up what publishes them."
+        return Explanation(Kind.QUEUE_FULL, sentence, filter_size=size)
 
 
 def _why(

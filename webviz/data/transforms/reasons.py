@@ -48,6 +48,7 @@ class Explanation:
         lag_ns: by how much the transforms are behind the stamp, if they are.
         is_catching_up: the transforms are behind, but still arriving.
         cause: what is missing, equal for all frames that lack it; "" for this frame alone.
+        filter_size: of a queue that would be long enough, 0 if it is unknown.
     """
 
     kind: Kind
@@ -55,6 +56,7 @@ class Explanation:
     lag_ns: int = 0
     is_catching_up: bool = False
     cause: str = ""
+    filter_size: int = 0
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)

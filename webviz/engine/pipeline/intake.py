@@ -10,7 +10,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, inputs
 from webviz.api.frames import Frames
 from webviz.api.ports import ANY, Input
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, Remedy, Status
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.transforms import MessageFilter
 from webviz.data.words import counted
@@ -189,7 +189,11 @@ class Intake:
         waiting = self._filter.explanation(frames.buffer, frames.fixed_frame, frames.now_ns)
         since = self._waiting_since
         if waiting and since is not None and clock - since > PATIENCE_S:
-            return Status(Level.ERROR, waiting.sentence)
+            size, remedy = waiting.filter_size, None
+            if size:
+                label = f"Set the filter size to {size}"
+                remedy = Remedy(f"{self.path}.filter_size", size, label)
+            return Status(Level.ERROR, waiting.sentence, remedy)
         if not self._placed_at:
             return None
         if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:

@@ -11,6 +11,9 @@ from webviz.api.ports import ANY
 from webviz.api.status import Level, Remedy, Status
 from webviz.engine.sources import Offer, Publisher, Raw
 
+AUTOMATIC = {"reliability": "auto", "durability": "auto"}
+"""Of a topic, whose other values stay."""
+
 
 class Reception:
     """Counts the messages of one input, and explains which are missing.
@@ -67,15 +70,17 @@ class Reception:
         publishers = offer.publishers if offer else ()
         matching = [p for p in publishers if p.type == self.type]
         if publishers and not matching:
+            other = self._nearest(offers)
             return Status(
                 Level.ERROR,
                 f"{self._name} has the type {publishers[0].type}, this display shows "
                 f"{' or '.join(self._types)}. Choose another topic or another display.",
+                self._choose(other) if other else None,
             )
         if not publishers:
             return self._no_publisher(offers, clock)
         if refusal := self._refusal(offer, matching):
-            return Status(Level.ERROR, refusal)
+            return Status(Level.ERROR, refusal, self._automatic())
         who = ", ".join(
             sorted({f"{p.label} ({_words(p.reliability, p.durability)})" for p in matching})
         )
@@ -103,12 +108,18 @@ class Reception:
             return Status(Level.WARN, text)
         if other := self._nearest(offers):
             text = f"No publisher on {self._name}. Choose {other}, the nearest topic of its type."
-            return Status(Level.WARN, text, Remedy(f"{self._path}.name", other))
+            return Status(Level.WARN, text, self._choose(other))
         text = (
             f"No publisher on {self._name}. Start the node that publishes it or choose another "
             "topic."
         )
         return Status(Level.WARN, text)
+
+    def _choose(self, topic: str) -> Remedy:
+        return Remedy(f"{self._path}.name", topic, f"Use {topic}")
+
+    def _automatic(self) -> Remedy:
+        return Remedy(self._path, AUTOMATIC, "Set QoS to automatic")
 
     def _nearest(self, offers: Mapping[str, Offer]) -> str:
         """The topic of this type whose name is most like this one's, "" if there is none."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from webviz.api.display import inputs
-from webviz.api.status import Level
+from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.edges.page.content.forms import sendable
 from webviz.engine.state import Row, State
 
 _LEVELS = {level: level.name.lower() for level in Level}
@@ -18,7 +19,7 @@ _CHANGING = re.compile(r"(?<![\w.-])(\d{1,9}(?:\.\d{1,9})?)( (?:s|Hz)\b)")
 
 def displays(state: State, _: str) -> Mapping[str, Any]:
     """The rows by id, and "order": the ids from top to bottom."""
-    return {"order": [row.id for row in state.rows], **_rows(state.rows)}
+    return {"order": [row.id for row in state.rows], **_rows(state.rows, causes(state))}
 
 
 def rate(state: State, id_: str) -> Mapping[str, Any]:
@@ -33,11 +34,17 @@ class _Rows:
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[Row, Mapping[str, Any]]] = {}
+        self._causes: tuple[Status, ...] = ()
 
-    def __call__(self, rows: Iterable[Row]) -> Mapping[str, Mapping[str, Any]]:
-        before = self._known
+    def __call__(
+        self, rows: Iterable[Row], causes: tuple[Status, ...]
+    ) -> Mapping[str, Mapping[str, Any]]:
+        before = self._known if causes == self._causes else {}
+        self._causes = causes
         self._known = now = {
-            row.id: known if (known := before.get(row.id)) and known[0] is row else (row, _row(row))
+            row.id: known
+            if (known := before.get(row.id)) and known[0] is row
+            else (row, _row(row, causes))
             for row in rows
         }
         return {id_: shown for id_, (_, shown) in now.items()}
@@ -46,18 +53,52 @@ class _Rows:
 _rows = _Rows()
 
 
-def _row(row: Row) -> Mapping[str, Any]:
+def causes(state: State) -> tuple[Status, ...]:
+    """The problems of the viewer that a click can solve; displays have others because of them."""
+    return tuple(status for status in state.statuses.values() if status.remedy)
+
+
+def remedy_of(
+    status: Status, display: str, known: Sequence[Status] = ()
+) -> Mapping[str, Any] | None:
+    """A command that would help, its arguments, and the label of its button; None if none would.
+
+    Args:
+        status: of a display, or of the viewer.
+        display: id of the display.
+        known: see `causes`.
+    """
+    cause = next((each for each in known if each.text in status.text), None)
+    remedy = status.remedy or (cause.remedy if cause else None)
+    if remedy is None:
+        return None
+    if isinstance(remedy, OtherFixedFrame):
+        command, fields = "SetFixedFrame", {"frame": remedy.frame}
+    else:
+        command = "SetProperty"
+        fields = {"display": display, "path": remedy.path, "value": remedy.value}
+    told = {"label": remedy.label, "command": command, "arguments": fields}
+    return sendable(told)
+
+
+def _row(row: Row, causes: Sequence[Status]) -> Mapping[str, Any]:
     level = row.level
-    return {
+    worst = next((s for s in row.statuses.values() if s.level == level), None)
+    is_said = any(each.text in status.text for each in causes for status in row.statuses.values())
+    told = {
         "type": row.type,
         "name": row.name,
         "depth": row.depth,
         "enabled": row.enabled,
         "can_edit": row.display is not None,
         "level": level_name(level),
-        "line": _worst(row, level),
+        # What the viewer says is on top of the list, once.
+        "line": "" if is_said else _worst(row, level),
         "topics": _topics(row),
     }
+    has_own = worst and level > Level.OK and not is_said and row.type != "Group"
+    remedy = remedy_of(worst, row.id) if worst and has_own else None
+    return told | {"remedy": remedy} if remedy else told
 
 
 def _worst(row: Row, level: Level) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.display import inputs
 from webviz.api.ports import ANY
 from webviz.api.status import Status
-from webviz.edges.page.content.displays import level_name
+from webviz.edges.page.content.displays import causes, level_name, remedy_of
 from webviz.edges.page.content.forms import brief, form, sendable, values_of
 from webviz.edges.page.content.visibility import names, switches_of
 from webviz.engine.sources import Offer, Publisher
@@ -44,7 +44,7 @@ def properties(state: State, id_: str) -> Mapping[str, Any]:
 def statuses(state: State, id_: str) -> Mapping[str, Any]:
     """The "statuses" of the display with this id, see `lines`."""
     row = _row(state, id_)
-    return lines(row.statuses) if row else {}
+    return lines(row.statuses, row.id, causes(state)) if row else {}
 
 
 def topics_of(state: State, types: str) -> Mapping[str, Any]:
@@ -75,8 +75,15 @@ def topics_of(state: State, types: str) -> Mapping[str, Any]:
     }
 
 
-def lines(statuses: Mapping[str, Status]) -> Mapping[str, Any]:
+def lines(
+    statuses: Mapping[str, Status], display: str = "", known: Sequence[Status] = ()
+) -> Mapping[str, Any]:
     """Statuses as the page shows them: key, level, text, and what a click could do about it.
+
+    Args:
+        statuses: by key.
+        display: id of the display they belong to, "" for the viewer.
+        known: causes of which they may be a consequence; see `causes`.
 
     Returns:
         The lines in "statuses", of very many the worst, and in "more" how many are left out.
@@ -84,13 +91,16 @@ def lines(statuses: Mapping[str, Status]) -> Mapping[str, Any]:
     all_ = list(statuses.items())
     if len(all_) > MAX_STATUSES:
         all_ = sorted(all_, key=lambda line: -line[1].level)[:MAX_STATUSES]
-    return {"statuses": [_line(*line) for line in all_], "more": len(statuses) - len(all_)}
+    return {
+        "statuses": [_line(*line, display, known) for line in all_],
+        "more": len(statuses) - len(all_),
+    }
 
 
-def _line(key: str, status: Status) -> list[Any]:
+def _line(key: str, status: Status, display: str, known: Sequence[Status]) -> list[Any]:
     line = [brief(key), level_name(status.level), brief(status.text)]
-    remedy = status.remedy
-    return [*line, {"path": remedy.path, "value": sendable(remedy.value)}] if remedy else line
+    told = remedy_of(status, display, known)
+    return [*line, told] if told else line
 
 
 def _worst(row: Row) -> Mapping[str, Any] | None:

@@ -10,11 +10,11 @@ export const GLOBAL = "global";
 export function globalItem(settings) {
   const statuses = settings.get("statuses") ?? [];
   const level = ["error", "warn"].find((one) => statuses.some((status) => status[1] === one)) ?? "ok";
-  const line = level === "ok" ? "" : statuses.find((status) => status[1] === level)[2];
+  const [, , line, remedy] = level === "ok" ? ["", "", ""] : statuses.find((one) => one[1] === level);
   const rate = settings.get("frame_rate");
   const note = rate === undefined ? "" : `${settings.get("fixed_frame")}, ${Math.round(rate)} Hz`;
   return {
-    id: GLOBAL, path: GLOBAL, name: "Global Options", type: "Global", depth: 0, level, line, note,
+    id: GLOBAL, path: GLOBAL, name: "Global Options", type: "Global", depth: 0, level, line, remedy, note,
     topics: [], enabled: true, isActive: true, isGroup: false, parent: null, children: [],
   };
 }

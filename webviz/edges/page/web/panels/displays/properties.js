@@ -20,7 +20,6 @@ export function properties(element, id) {
   const said = statuses({
     open: (show) =>
       watch(`statuses:${id}`, (values) => show(values.get("statuses") ?? [], values.get("more") ?? 0)),
-    use: ({ path, value }) => act("SetProperty", { display: id, path, value }),
   });
   const place = el("div");
   element.append(said.element, place);

@@ -7,6 +7,7 @@ import { plain } from "../../plain.js";
 import { typeIcon } from "../../shell/type_icons.js";
 import { watch } from "../../stores.js";
 import { globalOptions, properties } from "./properties.js";
+import { remedyButton } from "./statuses.js";
 
 const LEVELS = { idle: "Not shown", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
@@ -36,7 +37,8 @@ export function makeRow(first, look) {
       icon(isGlobal ? "gear" : typeIcon(type))),
     name, note, isGlobal ? null : more, dot,
   );
-  const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line);
+  const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
+  const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line, remedy);
   const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row);
   let inside = null;
   let unwatch = null;
@@ -53,6 +55,13 @@ export function makeRow(first, look) {
       inside.place.remove();
       inside = null;
     }
+  }
+
+  function showRemedy(wanted) {
+    const key = JSON.stringify(wanted);
+    if (remedy.dataset.remedy === key) return;
+    set(remedy, { "data-remedy": key, hidden: !wanted });
+    remedy.replaceChildren(...(wanted ? [remedyButton(wanted)] : []));
   }
 
   function showRate(isShown) {
@@ -86,6 +95,7 @@ export function makeRow(first, look) {
     set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
     setText(line, said);
     set(line, { "data-tip": said || null, hidden: !said });
+    showRemedy(said ? (item.remedy ?? null) : null);
     if (isGlobal) setText(note, plain(item.note));
     else showRate(hasRate && item.topics.length > 0);
     showInside(isOpen && !item.isGroup, item);

@@ -1,19 +1,26 @@
 // What a display, or the viewer, says about itself: a line each, folded to the worst.
 
 import { needs } from "../../access.js";
+import { act } from "../../act.js";
 import { el, set, setChildren, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 
 let count = 0;
 
+/** A button that does what helps. */
+export const remedyButton = ({ label, command, arguments: fields }) =>
+  needs(command, el("button", {
+    type: "button", class: "wv-button wv-remedy", onclick: () => act(command, fields),
+  }, label));
+
 /**
  * Statuses that are folded while all is well, until they are unfolded by hand.
  *
  * `open(listener)` is called while they are unfolded, and returns what ends that; the listener gets
- * `lines`: `[key, level, text, remedy]`, and how many `more` there are. `use(remedy)` does what a click
- * can do about one, null if nothing can be done. Returns `{element, worst(line), end()}`.
+ * `lines`: `[key, level, text, remedy]`, and how many `more` there are; a remedy is
+ * `{label, command, arguments}`, what a click can do about it. Returns `{element, worst(line), end()}`.
  */
-export function statuses({ open, use = null }) {
+export function statuses({ open }) {
   count += 1;
   const list = el("ul", { class: "wv-statuses-lines", id: `wv-statuses-${count}` });
   const note = el("span", { class: "wv-status-note" });
@@ -51,11 +58,9 @@ export function statuses({ open, use = null }) {
     setText(said, text);
     const isThere = element.children.length > 2;
     if (isThere && element.dataset.remedy !== JSON.stringify(remedy)) element.lastElementChild.remove();
-    if (remedy && use && element.children.length === 2) {
+    if (remedy && element.children.length === 2) {
       set(element, { "data-remedy": JSON.stringify(remedy) });
-      const run = () => use(remedy);
-      const button = el("button", { type: "button", class: "wv-link", onclick: run }, "Use it");
-      element.append(needs("SetProperty", button));
+      element.append(remedyButton(remedy));
     }
     return element;
   }

@@ -160,7 +160,7 @@ export function buildTree({ after, changed }) {
   function onClick(event) {
     const item = tree.itemAt(event.target);
     const part = event.target.closest("[data-part]")?.dataset.part;
-    if (!item || part === "box") return;
+    if (!item || part === "box" || part === "remedy") return;
     if (part === "fold") {
       selection.activate(item.id);
       tree.setOpen(item, !folding.isOpen(item));
