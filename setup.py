@@ -112,9 +112,12 @@ setup(
             "Teleop = webviz.tools.teleop:Teleop",
         ],
         "webviz.panels": [
+            "Docking = webviz.panels.docking:Docking",
             "Joints = webviz.panels.joints:Joints",
             "Nav2 = webviz.panels.nav2:Nav2",
             "Plot = webviz.panels.plot:Plot",
+            "RvizVisualToolsGui = webviz.panels.visual_tools:RvizVisualToolsGui",
+            "Selector = webviz.panels.selector:Selector",
         ],
     },
     # What `ros2 run`, `ros2 launch` and RViz look for. RViz finds the demo robot's meshes in the

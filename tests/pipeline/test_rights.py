@@ -215,6 +215,8 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
     services = {f"{each}/{name}" for each in managers for name in ("is_active", "manage_nodes")}
     actions = {"navigate_to_pose", "navigate_through_poses", "follow_waypoints"}
     panel = services | actions
+    servers = ("controller", "planner", "smoother", "docking")
+    selected = ("controller", "planner", "goal_checker", "smoother", "progress_checker")
     assert names == {
         "drive",
         "/navigate_through_poses",
@@ -225,6 +227,9 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
         "/joint_states",
         *(f"/arm/{name}" for name in panel),
         *(f"/{name}" for name in panel),
+        *(f"/{each}_server/get_parameters" for each in servers),
+        *(f"/{each}_selector" for each in selected),
+        *("/dock_robot", "/undock_robot", "/rviz_visual_tools_gui"),
     }
 
 

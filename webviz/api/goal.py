@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from webviz.data.messages import encode, interfaces
+
 
 def nothing(result: Any) -> str:
     """Find no fault with a result."""
@@ -40,3 +42,38 @@ class GoalRequest:
     success: str
     read: Callable[[Any], Mapping[str, str]] | None
     fault: Callable[[Any], str]
+
+
+def goal_request(
+    action: str,
+    type: str,
+    goal: Mapping[str, Any],
+    *,
+    definition: str = "",
+    label: str = "",
+    poses: Sequence[tuple[float, float, float, float]] = (),
+    remedy: str = "Start its node, or choose another name.",
+    success: str = "Succeeded.",
+    feedback: Callable[[Any], Mapping[str, str]] | None = None,
+    fault: Callable[[Any], str] = nothing,
+) -> GoalRequest:
+    """A goal from values by field; see `GoalRequest` and `webviz.api.tool.ToolContext.send_goal`.
+
+    Raises:
+        EncodeError: a value does not fit the goal.
+        UnknownTypeError: the message type has no known definition.
+    """
+    parts = interfaces.action(type, definition)
+    return GoalRequest(
+        action=action,
+        type=type,
+        goal=encode(parts.goal, goal),
+        feedback_type=parts.feedback,
+        result_type=f"{parts.get_result}_Response",
+        label=label,
+        poses=poses,
+        remedy=remedy,
+        success=success,
+        read=feedback,
+        fault=fault,
+    )

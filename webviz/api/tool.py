@@ -26,7 +26,7 @@ import msgspec
 
 from webviz.api.declared import Declared, Prop, Topic
 from webviz.api.frames import Frames
-from webviz.api.goal import GoalRequest, nothing
+from webviz.api.goal import GoalRequest, goal_request, nothing
 from webviz.api.ports import Output
 from webviz.api.properties import properties_of
 from webviz.api.status import Level, Status
@@ -215,22 +215,20 @@ class ToolContext:
             EncodeError: a value does not fit the goal.
             UnknownTypeError: the message type has no known definition.
         """
-        parts = interfaces.action(type, definition)
         yaws = (stroke.yaws or (stroke.yaw,)) if stroke else ()
         points = stroke.points if stroke else ()  # a drag has its end, too
         poses = [(*point, yaw) for point, yaw in zip(points, yaws, strict=False)]
         self._send_goal(
-            GoalRequest(
-                action=action,
-                type=type,
-                goal=encode(parts.goal, goal),
-                feedback_type=parts.feedback,
-                result_type=f"{parts.get_result}_Response",
+            goal_request(
+                action,
+                type,
+                goal,
+                definition=definition,
                 label=label,
                 poses=poses,
                 remedy=remedy,
                 success=success,
-                read=feedback,
+                feedback=feedback,
                 fault=fault,
             )
         )

@@ -26,6 +26,9 @@ visualization_msgs/InteractiveMarker[] markers""",
     "moveit_msgs/srv/GetPlanningScene": """moveit_msgs/PlanningSceneComponents components
 ---
 moveit_msgs/PlanningScene scene""",
+    "rcl_interfaces/srv/GetParameters": """string[] names
+---
+rcl_interfaces/ParameterValue[] values""",
     "nav2_msgs/srv/ManageLifecycleNodes": """uint8 STARTUP=0
 uint8 PAUSE=1
 uint8 RESUME=2
@@ -39,6 +42,28 @@ bool success""",
 }
 
 ACTIONS = {
+    "nav2_msgs/action/DockRobot": """bool use_dock_id
+string dock_id
+geometry_msgs/PoseStamped dock_pose
+string dock_type
+float32 max_staging_time
+bool navigate_to_staging_pose
+---
+bool success
+uint16 error_code
+uint16 num_retries
+string error_msg
+---
+uint16 state
+builtin_interfaces/Duration docking_time
+uint16 num_retries""",
+    "nav2_msgs/action/UndockRobot": """string dock_type
+float32 max_undocking_time
+---
+bool success
+uint16 error_code
+string error_msg
+---""",
     "nav2_msgs/action/NavigateToPose": """geometry_msgs/PoseStamped pose
 string behavior_tree
 ---

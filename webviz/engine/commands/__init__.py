@@ -33,6 +33,7 @@ from webviz.engine.commands.tools import (
     CancelGoal,
     DismissGoal,
     Publish,
+    SendGoal,
     SetToolProperty,
     UseTool,
 )
@@ -105,6 +106,7 @@ __all__ = [
     "SaveImage",
     "SaveView",
     "Select",
+    "SendGoal",
     "Sender",
     "SetBackground",
     "SetFixedFrame",

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from webviz.api.goal import GoalRequest
 from webviz.api.status import Status
 from webviz.api.tool import Position
 from webviz.engine.commands.command import Command, ignore
@@ -68,11 +69,30 @@ class Publish(Command):
         type: such as "std_msgs/msg/String".
         values: of the message by field; missing fields have their defaults.
         report: called with the result from any thread; must not block.
+        latched: whether subscriptions that come later get the message, too (transient local).
     """
 
     topic: str
     type: str
     values: Mapping[str, Any]
+    report: Callable[[Status], None] = ignore
+    latched: bool = False
+
+
+@dataclass(frozen=True)
+class SendGoal(Command):
+    """Send a goal to an action instead of the previous one of the same sender.
+
+    Args:
+        request: the goal; see `webviz.api.goal.goal_request`.
+        by: id of the sender, such as a panel's name.
+        title: what pages call it.
+        report: called with whether the goal is accepted; must not block.
+    """
+
+    request: GoalRequest
+    by: str
+    title: str
     report: Callable[[Status], None] = ignore
 
 

@@ -1,4 +1,4 @@
-"""The goals that tools sent to actions: all browsers see them and can cancel them."""
+"""The goals that tools and panels sent to actions: all browsers see them and can cancel them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.status import Level, Status
-from webviz.engine.commands import CancelGoal, Command, DismissGoal, Sender
+from webviz.engine.commands import CancelGoal, Command, DismissGoal, Sender, SendGoal
 from webviz.engine.goals import RunningGoal
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.sources import Goal
@@ -32,7 +32,7 @@ class GoalsPart(Part):
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {CancelGoal: self._cancel, DismissGoal: self._dismiss}
+        return {CancelGoal: self._cancel, DismissGoal: self._dismiss, SendGoal: self._send}
 
     def send(
         self, tool: str, title: str, request: GoalRequest, report: Callable[[Status], None]
@@ -101,6 +101,9 @@ class GoalsPart(Part):
         if id not in self._goals:
             raise Error("This goal has ended.")
         return self._goals[id]
+
+    def _send(self, command: SendGoal, sender: Sender) -> None:
+        self.send(command.by, command.title, command.request, command.report)
 
     def _cancel(self, command: CancelGoal, sender: Sender) -> None:
         self._find(command.goal).cancel()

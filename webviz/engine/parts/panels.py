@@ -146,7 +146,9 @@ class PanelsPart(Part):
             payload = encode(command.type, command.values)
         except MessageError as error:
             raise ConfigError(f"Not published: {error}") from error
-        publish(self.core, command.type, Topic(command.topic), payload, command.report)
+        durability, depth = ("transient_local", 1) if command.latched else ("auto", 0)
+        topic = Topic(command.topic, durability=durability, depth=depth)
+        publish(self.core, command.type, topic, payload, command.report)
 
     def _call(self, command: CallService, sender: Sender) -> None:
         try:

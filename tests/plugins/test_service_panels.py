@@ -1,0 +1,169 @@
+"""The panels Visual Tools, Selector and Docking: what they send for each button."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar
+
+import pytest
+from remembering_graph import RememberingGraph
+
+from webviz.api.errors import Error
+from webviz.api.panel import Panel
+from webviz.data.messages import decode, encode
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.engine.commands import AddPanel, OpenPanels, Refresh, Sender
+from webviz.engine.own_names import own_names
+from webviz.engine.pipeline.guard import Guard
+from webviz.files.config import Config
+from webviz.panels.docking import Docking
+from webviz.panels.selector import Selector
+from webviz.panels.visual_tools import RvizVisualToolsGui
+
+PARAMETERS = "rcl_interfaces/srv/GetParameters"
+P = TypeVar("P", bound=Panel)
+
+
+class Bench(Generic[P]):
+    """A panel in a viewer, without a page."""
+
+    def __init__(self, bench: Callable[..., Any], cls: type[P], **values: Any) -> None:
+        self.graph = RememberingGraph()
+        self.viewer = bench(graph=self.graph)
+        self.viewer.do(AddPanel(cls.__name__, values))
+        self.viewer.do(OpenPanels(frozenset({cls.__name__})))
+        panel = self.viewer.viewer.state().panels[0].panel
+        assert isinstance(panel, cls)
+        self.panel, self.ui = panel, RecordedUi()
+        panel.build(self.ui, self.send)
+        self.show()
+
+    def send(self, command: Any, browser: int | None = None) -> None:
+        self.viewer.until_done(self.viewer.viewer.enqueue(command, Sender(browser)))
+
+    def show(self) -> None:
+        self.panel.show(self.viewer.viewer.state())
+
+    def widget(self, label: str) -> Any:
+        return next(w for w in self.ui.widgets.values() if w.values.get("label") == label)
+
+    def said(self) -> str:
+        self.show()
+        areas = (w.values for w in self.ui.widgets.values() if w.values["kind"] == "area")
+        return " ".join(map(str, areas))
+
+    def offers(self, service: str, *lists: list[str]) -> None:
+        values = [{"type": 9, "string_array_value": each} for each in lists]
+        self.graph.responses[service] = encode(f"{PARAMETERS}_Response", {"values": values})
+
+
+@pytest.fixture
+def tools(bench: Callable[..., Any]) -> Bench[RvizVisualToolsGui]:
+    return Bench(bench, RvizVisualToolsGui)
+
+
+def test_each_button_presses_its_own(tools: Bench[RvizVisualToolsGui]) -> None:
+    assert {each.topic for each in tools.graph.advertised} >= {"/rviz_visual_tools_gui"}
+    for label in ("Next", "Continue", "Break", "Stop"):
+        tools.widget(label).use(None, 1)
+    pressed = [message.buttons.tolist() for _, message in tools.graph.published]
+    assert pressed == [[int(each == index) for each in range(9)] for index in (1, 2, 3, 4)]
+    keys = {each.values["label"]: each.values["key"] for each in tools.ui.commands.values()}
+    assert keys["Visual Tools: Next"] == "x"
+
+
+def test_a_press_that_nobody_hears_is_said(tools: Bench[RvizVisualToolsGui]) -> None:
+    tools.graph.subscriptions = 0
+    tools.widget("Next").use(None, 1)
+    assert "No subscription to /rviz_visual_tools_gui" in tools.said()
+
+
+def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.panels.selector.ASK_S", 0.0)
+    b = Bench(bench, Selector, namespace="/robot1/")
+    assert "No names of controller_server, planner_server, smoother_server." in b.said()
+    b.offers("/robot1/controller_server/get_parameters", ["MPPI", "RPP"], ["goal"], ["progress"])
+    b.offers("/robot1/planner_server/get_parameters", ["GridBased"])
+    b.offers("/robot1/smoother_server/get_parameters", [])
+    b.show()
+    b.show()
+    assert b.widget("Controller").values["options"] == ["Default", "MPPI", "RPP"]
+    assert b.widget("Goal Checker").values["options"] == ["Default", "goal"]
+    assert b.widget("Smoother").values["options"] == ["Default"]
+    count = len(b.graph.requests)
+    b.show()
+    assert len(b.graph.requests) == count, "all servers have answered"
+    b.widget("Controller").use("RPP", 1)
+    ((outlet, message),) = b.graph.published
+    assert (outlet.topic, message.data) == ("/robot1/controller_selector", "RPP")
+    assert (outlet.durability, outlet.depth) == ("transient_local", 1)
+    b.show()
+    assert b.widget("Controller").values["options"] == ["MPPI", "RPP"]
+    assert b.widget("Controller").value == "RPP"
+
+
+def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.panels.docking.ASK_S", 0.0)
+    b = Bench(bench, Docking)
+    with pytest.raises(Error, match="No dock id"):
+        b.widget("Dock").use(None, 1)
+    b.widget("Dock id").use("home", 1)
+    b.widget("Dock").use(None, 1)
+    goal = b.graph.goals[-1]
+    assert (goal.action, goal.values.dock_id, goal.values.use_dock_id) == (
+        "/dock_robot",
+        "home",
+        True,
+    )
+    assert (goal.values.max_staging_time, goal.values.navigate_to_staging_pose) == (1000.0, True)
+    goal.accepted.set_result(True)
+    b.viewer.do(Refresh())
+    feedback = {"feedback": {"state": 3, "docking_time": {"sec": 4}, "num_retries": 1}}
+    goal.feedback(encode("nav2_msgs/action/DockRobot_FeedbackMessage", feedback))
+    (shown,) = b.viewer.do(Refresh()).goals
+    assert (shown.title, shown.label) == ("Docking", "home")
+    assert shown.values.get("State") == "controlling"
+    result = {"status": 6, "result": {"error_code": 904}}
+    answer = encode("nav2_msgs/action/DockRobot_GetResult_Response", result)
+    goal.result.set_result((6, answer))
+    (shown,) = b.viewer.do(Refresh()).goals
+    assert shown.status is not None
+    assert "Failed (904): the dock was not detected" in shown.status.text
+
+    b.offers("/docking_server/get_parameters", ["simple"])
+    b.show()
+    b.show()
+    assert b.widget("Dock type").values["options"] == ["Default", "simple"]
+    b.widget("Dock type").use("simple", 1)
+    b.widget("By id").use(False, 1)
+    for label, text in (("x (m)", "1"), ("y (m)", "-2"), ("yaw (rad)", str(math.pi))):
+        b.widget(label).use(text, 1)
+    b.widget("Dock").use(None, 1)
+    values = b.graph.goals[-1].values
+    assert (values.dock_pose.header.frame_id, values.dock_type) == ("map", "simple")
+    position, turn = values.dock_pose.pose.position, values.dock_pose.pose.orientation
+    assert (position.x, position.y, turn.z) == (1.0, -2.0, 1.0)
+    b.widget("x (m)").use("far", 1)
+    with pytest.raises(Error, match="`far` is not a number"):
+        b.widget("Dock").use(None, 1)
+
+    # The previous goal has to end first.
+    b.graph.goals[-1].accepted.set_result(False)
+    b.viewer.do(Refresh())
+    b.widget("Undock").use(None, 1)
+    goal = b.graph.goals[-1]
+    assert (goal.action, goal.values.dock_type) == ("/undock_robot", "simple")
+
+
+def test_what_the_panels_send_to_may_be_sent_to() -> None:
+    names = own_names(Config(), Guard("", strict=True))
+    for name in ("/rviz_visual_tools_gui", "/planner_selector", "/dock_robot", "/undock_robot"):
+        assert name in names
+    assert "/docking_server/get_parameters" in names
+    request = encode(f"{PARAMETERS}_Request", {"names": ["dock_plugins"]})
+    assert decode(f"{PARAMETERS}_Request", request).names == ["dock_plugins"]
