@@ -323,6 +323,22 @@ def test_markers_far_away_keep_their_precision(shown: Benches) -> None:
     assert abs(abs(b[0] - a[0]) - 0.001) < 2e-4
 
 
+def test_markers_in_very_many_places_are_limited_and_the_rest_comes_when_there_is_room(
+    shown: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz_displays.markers.blocks.MAX_PLACES", 2)
+    bench = shown([cube(number, 1e5 * number) for number in range(4)])
+    assert len(bench.nodes()) == 2
+    assert bench.statuses()["Places"][1].startswith("2 markers left out")
+    assert bench.statuses()["Markers"][1].startswith("2 of 4 markers shown")
+    send(bench, cube(0, action=DELETE))
+    assert len(bench.nodes()) == 2
+    assert bench.statuses()["Places"][1].startswith("1 marker left out")
+    send(bench, cube(1, action=DELETE))
+    assert "Places" not in bench.statuses()
+    assert bench.statuses()["Markers"][1].startswith("2 markers in")
+
+
 # Topics
 
 

@@ -19,6 +19,8 @@ BLOCK = 1024
 """Rows per block."""
 LARGE = 2000
 """Points above which a marker is a block by itself."""
+MAX_PLACES = 500
+"""Groups of a display: each frame that markers are locked to, and each cell."""
 CELL_M = 4000.0
 """Nodes are float32, which resolves 0.1 mm at half this distance from their origin."""
 
@@ -35,12 +37,14 @@ class Block:
         faults: sentences about markers that cannot be seen, by row.
         shown: how many markers are drawn.
         requests: the files that they name.
+        left_out: how many markers are in places beyond `MAX_PLACES`.
     """
 
     nodes: Mapping[Place, Mapping[str, Node]] = field(default_factory=dict)
     faults: Mapping[int, tuple[Level, str]] = field(default_factory=dict)
     shown: int = 0
     requests: Set[LoadRequest] = frozenset()
+    left_out: int = 0
 
 
 class Blocks:
@@ -90,8 +94,12 @@ class Blocks:
         self._large = (self._large - were_large) | large
         dirty.update(-1 - row for row in large | were_large)
         dirty.update((np.array(list(rows - (large & were_large)), np.intp) // BLOCK).tolist())
+        clean = [block for number, block in self._blocks.items() if number not in dirty]
+        places = {place for block in clean for place in block.nodes}
+        if len(places) < MAX_PLACES:
+            dirty.update(number for number, block in self._blocks.items() if block.left_out)
         for number in dirty:
-            block = self._make(number, table, is_drawn, assets)
+            block = self._make(number, table, is_drawn, assets, places)
             if block is None:
                 self._blocks.pop(number, None)
             else:
@@ -110,7 +118,12 @@ class Blocks:
                     groups[place].add(f"{name} in {number}", node)
 
     def _make(
-        self, number: int, table: Table, is_drawn: NDArray[np.bool_], assets: Assets
+        self,
+        number: int,
+        table: Table,
+        is_drawn: NDArray[np.bool_],
+        assets: Assets,
+        places: set[Place],
     ) -> Block | None:
         if number < 0:
             rows = np.array([-1 - number] if -1 - number in self._large else [], np.intp)
@@ -123,7 +136,12 @@ class Blocks:
         nodes: dict[Place, Mapping[str, Node]] = {}
         faults: dict[int, tuple[Level, str]] = {}
         requests: set[LoadRequest] = set()
+        left_out = 0
         for place, some in _by_group(table, drawn):
+            if place not in places and len(places) >= MAX_PLACES:
+                left_out += len(some)
+                continue
+            places.add(place)
             batch = table.batch(some, place[1])
             files, missing, named = assets.of(batch)
             requests |= named
@@ -132,7 +150,7 @@ class Blocks:
                 nodes[place] = made
             for row, level, text in (*faults_of(batch), *missing):
                 faults[int(some[row])] = level, text
-        return Block(nodes, faults, len(drawn) - len(faults), requests)
+        return Block(nodes, faults, len(drawn) - len(faults) - left_out, requests, left_out)
 
 
 def _by_group(table: Table, rows: NDArray[np.intp]) -> Iterator[tuple[Place, NDArray[np.intp]]]:

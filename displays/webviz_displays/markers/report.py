@@ -11,7 +11,7 @@ from webviz import Context, Level
 from webviz.data.messages.markers import Marker
 from webviz.data.words import counted, listed
 from webviz_displays.markers.actions import Key, name_of
-from webviz_displays.markers.blocks import Blocks
+from webviz_displays.markers.blocks import MAX_PLACES, Blocks
 from webviz_displays.markers.store import MAX_MARKERS, Store
 
 NAMED = 10
@@ -53,6 +53,12 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
     if texts > MAX_TEXTS:
         text = f"Browsers show {MAX_TEXTS} of all texts; these are {texts}. Delete some."
         ctx.warn("Texts", text)
+    if left_out := sum(block.left_out for block in blocks):
+        ctx.warn(
+            "Places",
+            f"{counted(left_out, 'marker')} left out: at most {MAX_PLACES} frames that markers are "
+            "locked to, and areas of 4 km, are drawn. Use fewer.",
+        )
     if loading:
         (ctx.ok if shown else ctx.warn)("Loading", f"Loading {counted(loading, 'file')}.")
     if remarks.duplicates:

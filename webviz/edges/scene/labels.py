@@ -10,6 +10,7 @@ from viser import LabelHandle
 
 from webviz.api.nodes import U8, Labels
 from webviz.edges.scene.adapter import Adapter
+from webviz.edges.scene.label_budget import MAX_LABELS
 
 # Line height of RViz's Liberation Sans in font sizes (measured). Browsers use Arial or a font of
 # the same size.
@@ -25,7 +26,10 @@ class _Label(NamedTuple):
 
 
 class LabelsDrawn:
-    """One viser label per text, under one frame; labels are reused in order."""
+    """One viser label per text, under one frame; labels are reused in order.
+
+    Many are added over several flushes, and no more than `LabelBudget` allows.
+    """
 
     def __init__(self, link: Adapter, name: str) -> None:
         self._link = link
@@ -33,33 +37,60 @@ class LabelsDrawn:
         self._frame = link.server.scene.add_frame(name, show_axes=False)
         self._labels: list[LabelHandle] = []
         self._sent: list[_Label] = []
+        self._wanted: list[_Label] = []
 
     def draw(self, node: Labels) -> None:
         """Sends changed labels; those whose position is not finite are dropped."""
         anchor = "top-center" if node.below else "center-center"
+        texts = node.texts[:MAX_LABELS]
         colors = np.broadcast_to(np.asarray(node.colors, np.uint8), (len(node.texts), 3))
-        heights = _tinted(node.height / _LINE, colors)
-        labels = zip(node.texts, node.positions.tolist(), heights, strict=True)
-        wanted = [
+        heights = _tinted(node.height / _LINE, colors[:MAX_LABELS])
+        labels = zip(texts, node.positions[:MAX_LABELS].tolist(), heights, strict=True)
+        self._wanted = [
             _Label(_encodable(text), (x, y, z), {"font_scene_height": height, "anchor": anchor})
             for text, (x, y, z), height in labels
             if math.isfinite(x + y + z)
         ]
-        for label in self._labels[len(wanted) :]:
-            label.remove()
-        self._link.count_removals(max(0, len(self._labels) - len(wanted)))
-        del self._labels[len(wanted) :], self._sent[len(wanted) :]
-        for index, new in enumerate(wanted):
-            if index == len(self._labels):
-                self._add(index, new)
-            else:
-                self._change(index, self._sent[index], new)
-        self._sent = wanted
+        budget = self._link.label_budget
+        for index, (old, new) in enumerate(zip(self._sent, self._wanted, strict=False)):
+            if not budget.change(old.text, new.text):
+                self._remove_from(index)
+                break
+            self._change(index, old, new)
+            self._sent[index] = new
+        self._remove_from(len(self._wanted))
+        self._add_more()
 
     def remove(self) -> None:
         """Removes the labels from the scene."""
         self._link.count_removals(len(self._labels))
+        self.forget()
         self._frame.remove()
+
+    def forget(self) -> None:
+        """Gives back the room of labels that go with their group."""
+        budget = self._link.label_budget
+        budget.leave(self._name)
+        for label in self._sent:
+            budget.free(label.text)
+
+    def _add_more(self) -> None:
+        budget = self._link.label_budget
+        budget.leave(self._name)
+        for index in range(len(self._labels), len(self._wanted)):
+            new = self._wanted[index]
+            if not budget.take(new.text):
+                budget.wait(self._name, self._add_more)
+                return
+            self._add(index, new)
+            self._sent.append(new)
+
+    def _remove_from(self, index: int) -> None:
+        for label, sent in zip(self._labels[index:], self._sent[index:], strict=True):
+            label.remove()
+            self._link.label_budget.free(sent.text)
+        self._link.count_removals(len(self._labels[index:]))
+        del self._labels[index:], self._sent[index:]
 
     def _add(self, index: int, new: _Label) -> None:
         name = f"{self._name}/{index}"

@@ -151,18 +151,22 @@ class ViserScene:
                 the next flush.
         """
         self.link.late.deliver()
-        if not self._dirty and not self._gone:
+        texts = self.link.label_budget
+        if not self._dirty and not self._gone and not texts.is_waiting:
             return
         moves: list[Move] = []
         with self.link.atomic():
             while self._gone:
                 self._gone.pop().remove(self.link)
+            texts.deliver()
             try:
                 for name, group in tuple(self._dirty.items()):
                     group.send(self.link, moves)
                     del self._dirty[name]
             finally:
                 self.link.place(moves)
+        if texts.is_unfinished:
+            self.link.late.wake()
 
     def acknowledge(self, timeout: float) -> None:
         """Waits until every browser has applied everything that was flushed.
@@ -171,6 +175,8 @@ class ViserScene:
             TimeoutError: it takes longer than `timeout` seconds.
         """
         self.link.late.finish(timeout)
+        while self.link.label_budget.is_unfinished:
+            self.flush()
         self.link.acknowledge(timeout)
 
     def _touch(self, name: str) -> _Group:
@@ -245,8 +251,11 @@ class _Group:
 
     def remove(self, link: Adapter) -> None:
         link.late.drop(self._path)
-        for pane in self._panes():  # all others are below the frame of the group
-            pane.remove()
+        for _, _, drawn in self._drawn.values():  # all others are below the frame of the group
+            if isinstance(drawn, PaneDrawn):
+                drawn.remove()
+            elif isinstance(drawn, LabelsDrawn):
+                drawn.forget()
         if self._handle is not None:
             self._handle.remove()
             link.count_removals(1 + len(self._drawn))

@@ -24,6 +24,7 @@ from webviz.edges.scene.adapter.poses import (
     queue_moves,
 )
 from webviz.edges.scene.adapter.sender import SceneSender
+from webviz.edges.scene.label_budget import LabelBudget
 from webviz.edges.scene.late import Late
 from webviz.edges.scene.quiet_server import Server
 
@@ -50,6 +51,7 @@ class Adapter:
         """In panes beside the scene."""
         self.late = Late()
         """Messages that are slow to make, and are sent later."""
+        self.label_budget = LabelBudget()
         self._socket = server._websock_server
         self._buffer = self._socket.get_message_buffer()
         self._queue = self._socket.queue_message
