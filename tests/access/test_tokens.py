@@ -277,6 +277,10 @@ def headers(*cookies: str, **more: str) -> Headers:
     return Headers([*(("Cookie", cookie) for cookie in cookies), *more.items()])
 
 
+TYPED = Headers([("Sec-Fetch-Site", "none")])
+"""Of an address that somebody has entered."""
+
+
 def test_a_cookie_is_that_of_the_port() -> None:
     made = token()
     known = access(made)
@@ -323,7 +327,7 @@ def test_a_request_with_all_its_cookies_costs_little_beside_many_tokens() -> Non
 def test_a_link_leads_to_an_address_without_the_token() -> None:
     made = token(days=1.0)
     answer = login.welcome(
-        access(made), f"/?fixedDpr=1&operate={made.secret}", headers(), 80, is_secure=False
+        access(made), f"/?fixedDpr=1&operate={made.secret}", TYPED, 80, is_secure=False
     )
     assert answer is not None
     assert (answer.status, answer.headers["Location"]) == (303, "./?fixedDpr=1")
@@ -335,7 +339,7 @@ def test_a_link_leads_to_an_address_without_the_token() -> None:
 
 def test_with_tls_the_cookie_is_sent_by_tls_only() -> None:
     made = token()
-    answer = login.welcome(access(made), f"/?operate={made.secret}", headers(), 80, is_secure=True)
+    answer = login.welcome(access(made), f"/?operate={made.secret}", TYPED, 80, is_secure=True)
     assert answer is not None
     assert answer.headers["Set-Cookie"].endswith("; SameSite=Strict; Secure")
 

@@ -90,7 +90,7 @@ def told(port: int, host: str, path: str, origin: str = "", cookie: str = "") ->
     """The head of a proxy's answer: to a websocket of a page of an origin, or to a request."""
     context = ssl.create_default_context()
     authority().configure_trust(context)
-    lines = [f"GET {path} HTTP/1.1", f"Host: {host}"]
+    lines = [f"GET {path} HTTP/1.1", f"Host: {host}", "Sec-Fetch-Site: none"]
     if cookie:
         lines.append(f"Cookie: {cookie}")
     if origin:

@@ -31,7 +31,8 @@ def token(env: dict[str, str], *arguments: str, status: int = 0) -> str:
 
 def ask(url: str, path: str = "/", cookie: str = "") -> http.client.HTTPResponse:
     connection = http.client.HTTPConnection(url.removeprefix("http://"), timeout=60)
-    connection.request("GET", path, headers={"Cookie": cookie} if cookie else {})
+    headers = {"Sec-Fetch-Site": "none", **({"Cookie": cookie} if cookie else {})}
+    connection.request("GET", path, headers=headers)
     response = connection.getresponse()
     response.read()
     connection.close()

@@ -28,6 +28,17 @@ INVALID_LINK = (
     "viewer for another one."
 )
 
+NO_COOKIES = (
+    "This browser keeps no cookies of this viewer. Allow them, or open the link in another browser."
+)
+AGAIN = "again"
+"""Parameter of a link, and part of a cookie, when this site sends its browser to it again."""
+AGAIN_S = 60
+
+
+class NoCookies(Exception):
+    """A browser keeps no cookies, without which no link lets in."""
+
 
 @dataclass(frozen=True)
 class Welcome:
@@ -65,6 +76,10 @@ def welcome(
 ) -> Welcome | None:
     """The response to a link with a token: a cookie, and the address without it.
 
+    A link of a lower role replaces the cookie of a higher one only if its user has entered it, or
+    any page could take an owner's rights away. Browsers keep cookies back from requests that
+    another site began; therefore such a request is first sent again by this site.
+
     Args:
         access: knows the tokens.
         path: of the request, with its parameters.
@@ -74,24 +89,39 @@ def welcome(
 
     Returns:
         None if the link is not valid.
+
+    Raises:
+        NoCookies: the browser keeps none.
     """
     fields = _fields(path) or []
     given = [(LINKS[name], value) for name, value in fields if name in LINKS]
     if len(given) != 1 or (grant := access.by_secret(given[0][1], given[0][0])) is None:
         return None
-    rest = urlencode([(name, value) for name, value in fields if name not in LINKS])
+    site = headers.get("Sec-Fetch-Site")  # by https and on loopback only
+    before = grant_of(access, headers, port)
+    again = f"{cookie_name(port)}_{AGAIN}"
+    is_again = any(_cookies(headers, again))
+    if before is None and not is_again and site in (None, "cross-site"):
+        if any(name == AGAIN for name, _ in fields):
+            raise NoCookies
+        cookie = _cookie(again, "1", AGAIN_S, is_secure)
+        address = f"./?{urlencode([*fields, (AGAIN, '')])}"
+        return Welcome(
+            http.HTTPStatus.OK,
+            {"Set-Cookie": cookie, "Refresh": f"0; url={address}", "Cache-Control": "no-store"},
+        )
+    rest = urlencode([(name, value) for name, value in fields if name not in (*LINKS, AGAIN)])
     # Relative, so that it is right behind a proxy; without a path the cookie is that of the folder.
-    address = f"./?{rest}" if rest else "./"
-    age = min(MAX_AGE_S, access.seconds_left(grant))
-    cookie = f"{cookie_name(port)}={grant.cookie}; Max-Age={age:.0f}; HttpOnly; SameSite=Strict"
-    answer = {
-        "Set-Cookie": f"{cookie}; Secure" if is_secure else cookie,
-        "Cache-Control": "no-store",
-    }
-    if headers.get("Sec-Fetch-Site", "none") == "cross-site":
-        # Browsers would not send the cookie after a redirect that began at another site.
-        return Welcome(http.HTTPStatus.OK, {**answer, "Refresh": f"0; url={address}"})
-    return Welcome(http.HTTPStatus.SEE_OTHER, {**answer, "Location": address})
+    answer = {"Location": f"./?{rest}" if rest else "./", "Cache-Control": "no-store"}
+    if before is None or before.role <= grant.role or site == "none":
+        age = min(MAX_AGE_S, access.seconds_left(grant))
+        answer["Set-Cookie"] = _cookie(cookie_name(port), grant.cookie, age, is_secure)
+    return Welcome(http.HTTPStatus.SEE_OTHER, answer)
+
+
+def _cookie(name: str, value: str, seconds: float, is_secure: bool) -> str:
+    cookie = f"{name}={value}; Max-Age={seconds:.0f}; HttpOnly; SameSite=Strict"
+    return f"{cookie}; Secure" if is_secure else cookie
 
 
 def page(sentence: str) -> bytes:

@@ -117,7 +117,11 @@ def guarded_serve(
         return response
 
     def welcomed(connection: Connection, request: Request) -> Response:
-        welcome = login.welcome(access, request.path, request.headers, port, connection.is_secure)
+        secure = connection.is_secure
+        try:
+            welcome = login.welcome(access, request.path, request.headers, port, secure)
+        except login.NoCookies:
+            return turned_away(connection, login.NO_COOKIES)
         if welcome is None:
             return turned_away(connection, login.INVALID_LINK)
         response = connection.respond(welcome.status, "")
