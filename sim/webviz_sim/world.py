@@ -207,12 +207,14 @@ def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | 
             if image.mode.startswith("I"):  # 16 bits of grey
                 return np.asarray(image, dtype=np.float64) / 65535.0, None
             has_alpha = "A" in image.getbands() or "transparency" in image.info
-            pixels = np.asarray(image.convert("RGBA"), dtype=np.float64) / 255.0
+            pixels = np.asarray(image.convert("RGBA"), dtype=np.float64)
     except FileNotFoundError:
         raise WorldError(f"its image {path} does not exist") from None
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         raise WorldError(f"its image {path} cannot be read") from None
-    return pixels[..., :3].mean(axis=-1), pixels[..., 3] if has_alpha else None
+    # Divided once, as by map_server: a mean of quotients is off by a bit, which decides ties of .5.
+    shade = pixels[..., :3].mean(axis=-1) / 255.0
+    return shade, pixels[..., 3] / 255.0 if has_alpha else None
 
 
 def _finite(value: Any) -> bool:

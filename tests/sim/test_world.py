@@ -51,6 +51,13 @@ def test_scale_mode_puts_what_is_between_in_proportion(write):
     assert world.cells.tolist() == [[100, 62, 0, 0]]
 
 
+def test_ties_of_scale_mode_are_decided_as_by_map_server(write):
+    changes = {"mode": "scale", "occupied_thresh": 0.9, "free_thresh": 0.1}
+    # 1 - 51/255 is 0.8, and (0.8 - 0.1) / (0.9 - 0.1) * 100 in doubles just above 87.5.
+    assert load_world(write([[51]], **changes)).cells.tolist() == [[88]]
+    assert load_world(write([[[51, 51, 51]]], "RGB", **changes)).cells.tolist() == [[88]]
+
+
 def test_raw_mode_takes_pixels_up_to_100_as_they_are(write):
     world = load_world(write([[0, 1, 50, 100, 101, 205, 255]], mode="raw"))
     assert world.cells.tolist() == [[0, 1, 50, 100, -1, -1, -1]]
