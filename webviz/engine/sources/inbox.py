@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 
 MAX_BYTES = 64 << 20
 """Of the messages of one topic between two calls of `drain`."""
+MAX_TOTAL = 256 << 20
+"""Of the messages of all topics."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,13 +31,15 @@ class Raw:
 class Inbox:
     """Holds the messages that arrived since the last `drain`.
 
-    Each topic is bounded in count and bytes: its oldest messages are dropped and counted.
+    Each topic is bounded in count and bytes, and so are the bytes of all topics: the oldest
+    messages of the topic, or of the one with the most bytes, are dropped and counted.
 
     Args:
-        max_bytes: per topic. The newest message is always kept, however large.
+        max_bytes: per topic. The newest message is kept, however large.
+        max_total: of all topics. A message is kept, however large, if it is the only one.
     """
 
-    def __init__(self, max_bytes: int = MAX_BYTES) -> None:
+    def __init__(self, max_bytes: int = MAX_BYTES, max_total: int = MAX_TOTAL) -> None:
         self._lock = threading.Lock()
         self._queues: dict[str, deque[Raw]] = {}
         self._limits: dict[str, int] = {}
@@ -43,6 +47,8 @@ class Inbox:
         self._dropped: dict[str, int] = {}
         self._received: dict[str, tuple[int, int]] = {}
         self._max_bytes = max_bytes
+        self._max_total = max_total
+        self._total = 0
         self.arrived = threading.Event()
         """Set by every arrival, and to wake the frame loop for other reasons."""
 
@@ -54,6 +60,7 @@ class Inbox:
     def close(self, topic: str) -> None:
         """Discard the messages of a topic, and ignore new ones."""
         with self._lock:
+            self._total -= self._bytes.get(topic, 0)
             tables = (self._limits, self._queues, self._bytes, self._dropped, self._received)
             for table in tables:
                 table.pop(topic, None)
@@ -68,17 +75,17 @@ class Inbox:
             self._received[topic] = count + 1, total + len(raw.cdr)
             queue = self._queues.setdefault(topic, deque())
             queue.append(raw)
-            size = self._bytes.get(topic, 0) + len(raw.cdr)
-            while len(queue) > 1 and (len(queue) > limit or size > self._max_bytes):
-                size -= len(queue.popleft().cdr)
-                self._dropped[topic] = self._dropped.get(topic, 0) + 1
-            self._bytes[topic] = size
+            self._count_bytes(topic, len(raw.cdr))
+            while len(queue) > 1 and (len(queue) > limit or self._bytes[topic] > self._max_bytes):
+                self._drop_oldest(topic)
+            while self._total > self._max_total and self._total > len(raw.cdr):
+                self._drop_oldest(max(self._bytes, key=self._bytes.__getitem__))
         self.arrived.set()
 
     def drain(self) -> dict[str, deque[Raw]]:
         """Take all messages by topic, oldest first."""
         with self._lock:
-            taken, self._queues, self._bytes = self._queues, {}, {}
+            taken, self._queues, self._bytes, self._total = self._queues, {}, {}, 0
         return taken
 
     def dropped(self, topic: str) -> int:
@@ -90,3 +97,11 @@ class Inbox:
         """How many messages and bytes arrived on each topic since it was opened."""
         with self._lock:
             return dict(self._received)
+
+    def _count_bytes(self, topic: str, size: int) -> None:
+        self._bytes[topic] = self._bytes.get(topic, 0) + size
+        self._total += size
+
+    def _drop_oldest(self, topic: str) -> None:
+        self._count_bytes(topic, -len(self._queues[topic].popleft().cdr))
+        self._dropped[topic] = self._dropped.get(topic, 0) + 1
