@@ -231,6 +231,31 @@ def test_frames_in_a_loop_are_answered_as_one_at_a_time() -> None:
             assert found.ok.tolist() == one == many
 
 
+@pytest.mark.parametrize("arrays_pay_from", [0, 10**9], ids=["arrays", "floats"])
+@pytest.mark.parametrize("seed", range(20))
+def test_frames_of_any_graph_are_answered_as_one_at_a_time(
+    seed: int, arrays_pay_from: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(many_frames, "ARRAYS_PAY_FROM", arrays_pay_from)
+    buffer, dice = TransformBuffer(), random.Random(seed)
+    for child in dice.sample(range(12), 11):  # loops of all lengths, with trees below them
+        parent = (child + dice.randrange(1, 12)) % 12
+        pose = (dice.random(), 1.0, 2.0), (0.0, 0.0, dice.random(), 1.0)
+        stamps = [10**9] if dice.random() < 0.3 else [10**9, 2 * 10**9]
+        for stamp in stamps:
+            buffer.set_transform(f"f{parent}", f"f{child}", stamp, *pose)
+    for target in buffer.frames():
+        for stamp in (0, 10**9, 15 * 10**8):
+            found = buffer.poses_in(target, None, stamp)
+            for i, frame in enumerate(found.frames):
+                assert found.ok[i] == buffer.can_transform(target, frame, stamp)
+                if found.ok[i]:
+                    one = buffer.lookup(target, frame, stamp)
+                    assert found.stamps_ns[i] == one.stamp_ns
+                    assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
+                    assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+
+
 def test_no_stamps_give_no_poses() -> None:
     buffer = TransformBuffer()
     buffer.set_transform("a", "b", 10**9, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from webviz.data.transforms import many_frames
 from webviz.data.transforms.cache import Cache, StaticCache, TimeCache
-from webviz.data.transforms.errors import NS_PER_S
+from webviz.data.transforms.errors import NS_PER_S, TransformException
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple, canonical, compose_as_matrices
 from webviz.data.transforms.listing import frames_as_yaml
 from webviz.data.transforms.many_frames import FramesIn
@@ -20,7 +20,7 @@ from webviz.data.transforms.many_stamps import lookup_many
 from webviz.data.transforms.publishers import Publishers
 from webviz.data.transforms.records import NewestTransform, Rejection, Transform, fault_of, too_old
 from webviz.data.transforms.topology import Topology
-from webviz.data.transforms.tree import FrameTree
+from webviz.data.transforms.tree import FrameTree, roots
 
 QUATERNION_TOLERANCE = 10e-3
 """How far the squared length of a normalised quaternion may be from 1 (tf2's constant)."""
@@ -248,7 +248,11 @@ class TransformBuffer:
 
     def can_transform(self, target: str, source: str, stamp_ns: int) -> bool:
         """Whether `lookup` would succeed."""
-        return self.can_transform_error(target, source, stamp_ns) is None
+        try:
+            self._pose(target, source, stamp_ns)
+        except TransformException:
+            return False
+        return True
 
     def can_transform_error(self, target: str, source: str, stamp_ns: int) -> str | None:
         """The text of tf2's canTransform, or None if the transform is available."""
@@ -306,7 +310,7 @@ class TransformBuffer:
     def largest_tree(self) -> tuple[str, int]:
         """The root of the tree with the most frames, and how many it has; "" and 0 without any."""
         if self._largest is None or self._largest[0] != self.structure_version:
-            sizes = Counter(self._tree.root(frame) for frame in self._tree.names)
+            sizes = Counter(roots(self._tree).values())
             (largest,) = sizes.most_common(1) or [("", 0)]
             self._largest = (self.structure_version, largest)
         return self._largest[1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice, pairwise
 
@@ -10,8 +9,8 @@ from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import Cache, TimeCache
 from webviz.data.transforms.errors import NS_PER_S
 from webviz.data.transforms.quarrels import quarrels
-from webviz.data.transforms.reasons import YEAR_NS, in_words
-from webviz.data.transforms.tree import ancestors
+from webviz.data.transforms.reasons import MOST_LISTED, YEAR_NS, in_words, listed
+from webviz.data.transforms.tree import ancestors, roots
 
 GAP_NS = NS_PER_S // 2
 GAP_PERIODS = 10
@@ -75,14 +74,14 @@ class Diagnosis:
     def problems(self) -> list[str]:
         """All faults, one sentence each."""
         found = [
-            f"The frames form a loop: {' → '.join(loop)}. Two publishers disagree about the "
+            f"The frames form a loop: {listed(loop, ' → ')}. Two publishers disagree about the "
             "parents; stop one of them."
-            for loop in self.loops
+            for loop in self.loops[:MOST_LISTED]
         ]
         if len(self.roots) > 1:
             found.append(
                 f"No transform connects the {len(self.roots)} trees with the roots "
-                f"{', '.join(self.roots)}."
+                f"{listed(self.roots)}."
             )
         return found + [problem for report in self.frames for problem in report.problems]
 
@@ -96,22 +95,15 @@ def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
     """
     tree = buffer.tree
     now_ns = now_ns or max((cache.newest_stamp for cache in tree.caches.values()), default=0)
-    roots: list[str] = []
-    loops: dict[frozenset[str], tuple[str, ...]] = {}
-    for name in tree.names:
-        cache = tree.caches.get(name)
-        if cache is None or cache.newest is None:
-            roots.append(name)
-            continue
-        chain = ancestors(tree, name)
-        if chain[-1] == name:
-            loops.setdefault(frozenset(chain), tuple(chain))
+    tops = dict.fromkeys(roots(tree).values())
+    loops = [tuple(chain) for top in tops if len(chain := ancestors(tree, top)) > 1]
     frames = [
         _report(buffer, name, tree.caches[name], now_ns)
         for name in tree.names
         if name in tree.caches
     ]
-    return Diagnosis(tuple(roots), tuple(loops.values()), tuple(frames))
+    ends = tuple(name for name in tree.names if name in tops and len(ancestors(tree, name)) == 1)
+    return Diagnosis(ends, tuple(loops), tuple(frames))
 
 
 def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
@@ -122,23 +114,25 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
     for report in diagnosis.frames:
         children.setdefault(report.parent, []).append(report.frame)
 
-    def lines(frame: str, lead: str, below: str, path: tuple[str, ...]) -> Iterator[str]:
-        if frame in path:
-            yield f"{lead}{frame} (loop)"
-            return
-        yield f"{lead}{frame}{_facts(reports.get(frame))}"
-        own = children.get(frame, [])
-        for i, child in enumerate(own):
-            is_last = i == len(own) - 1
-            yield from lines(
-                child,
-                f"{below}{'└─ ' if is_last else '├─ '}",
-                f"{below}{'   ' if is_last else '│  '}",
-                (*path, frame),
-            )
-
+    lines: list[str] = []
     starts = [*diagnosis.roots, *(loop[0] for loop in diagnosis.loops)]
-    return "\n".join(line for start in starts for line in lines(start, "", "", ()))
+    # Not recursive: a chain of frames may be longer than Python's stack.
+    pending = [(start, "", "") for start in reversed(starts)]
+    met: set[str] = set()
+    while pending:
+        frame, lead, below = pending.pop()
+        if frame in met:
+            lines.append(f"{lead}{frame} (loop)")
+            continue
+        met.add(frame)
+        lines.append(f"{lead}{frame}{_facts(reports.get(frame))}")
+        forks = [("├─ ", "│  ")] * (len(children.get(frame, [])) - 1) + [("└─ ", "   ")]
+        own = [
+            (child, f"{below}{fork}", f"{below}{rest}")
+            for child, (fork, rest) in zip(children.get(frame, []), forks, strict=False)
+        ]
+        pending += reversed(own)
+    return "\n".join(lines)
 
 
 def _facts(report: FrameReport | None) -> str:

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 NS_PER_S = 1_000_000_000
 
 
 class TransformException(Exception):
-    """A transform is not available; the base of tf2's exceptions."""
+    """A transform is not available; the base of tf2's exceptions.
+
+    Args:
+        text: in tf2's words, or what makes it: most failures are counted, few are read.
+    """
+
+    def __init__(self, text: str | Callable[[], str]) -> None:
+        super().__init__(text)
+        self._text = text
+
+    def __str__(self) -> str:
+        return self._text if isinstance(self._text, str) else self._text()
 
 
 class LookupException(TransformException):

@@ -8,7 +8,7 @@ from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.errors import ConnectivityException, LookupException, TransformException
 from webviz.data.transforms.explain_time import explain_time
 from webviz.data.transforms.geometry import REACH_M, is_within_reach
-from webviz.data.transforms.reasons import Explanation, Kind
+from webviz.data.transforms.reasons import Explanation, Kind, listed
 from webviz.data.transforms.tree import FrameTree, ancestors
 
 SLIP = 0.85
@@ -136,7 +136,7 @@ def _loop(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:
     for start in (frame, fixed_frame):
         chain = ancestors(tree, start)
         if chain[-1] in chain[:-1]:
-            loop = " → ".join(chain[chain.index(chain[-1]) :])
+            loop = listed(chain[chain.index(chain[-1]) :], " → ")
             return Explanation(
                 Kind.LOOP,
                 f"The frames form a loop, each the child of the next: {loop}. Two publishers "

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -21,7 +20,6 @@ from webviz.data.transforms.arrays import (
     poses_to_rows,
     to_rows,
 )
-from webviz.data.transforms.errors import TransformException
 from webviz.data.transforms.geometry import (
     IDENTITY,
     PoseTuple,
@@ -85,8 +83,7 @@ class _Links:
             cache = tree.caches.get(frame)
             bracket = cache.bracket(stamp_ns) if cache is not None else None
             if bracket is None:
-                number = known[frame] = len(self.starts)
-                self._append(IDENTITY, IDENTITY, 0.0, -1, 0, number)
+                number = self.top(frame, known)
                 break
             known[frame] = -1  # met again before it gets its number: a loop
             start, end, ratio, parent = bracket
@@ -100,6 +97,12 @@ class _Links:
             parent_number, number = number, len(self.starts)
             known[frame] = number
             self._append(start, end, ratio, parent_number, depth, top)
+        return number
+
+    def top(self, frame: str, known: dict[str, int]) -> int:
+        """Add a frame as a top; its number."""
+        number = known[frame] = len(self.starts)
+        self._append(IDENTITY, IDENTITY, 0.0, -1, 0, number)
         return number
 
     def _append(
@@ -145,7 +148,6 @@ def poses_in(
     known: dict[int, dict[str, int]] = {}
     found: list[int] = []
     pairs: list[tuple[int, int]] = []
-    odd: list[int] = []
     stamps = _stamps(tree, target, frames, stamp_ns)
     for i, (frame, stamp) in enumerate(zip(frames, stamps, strict=True)):
         if frame == target:
@@ -153,14 +155,16 @@ def poses_in(
             continue
         if stamp is None or frame not in valid:
             continue
-        at_stamp = known.setdefault(stamp, {})
+        if (at_stamp := known.get(stamp)) is None:
+            at_stamp = known[stamp] = {}
+            if links.chain(tree, target, stamp, at_stamp) < 0:
+                # Of the frames in and below a loop only those below the target have a pose.
+                at_stamp.clear()
+                links.top(target, at_stamp)
         if (number := at_stamp.get(frame)) is None:
             number = links.chain(tree, frame, stamp, at_stamp)
-        if (base := at_stamp.get(target)) is None:
-            base = links.chain(tree, target, stamp, at_stamp)
-        if number < 0 or base < 0:
-            odd.append(i)
-        elif links.tops[number] == links.tops[base]:
+        base = at_stamp[target]
+        if number >= 0 and links.tops[number] == links.tops[base]:
             found.append(i)
             pairs.append((base, number))
 
@@ -175,10 +179,6 @@ def poses_in(
         rows = to_rows(compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers]))
         out[:3, found] = rows[:3]
         out[3:, found] = canonical_many(rows[3:])
-    for i in odd:
-        with suppress(TransformException):
-            pose, _ = tree.resolve(target, frames[i], stamps[i] or 0)
-            out[:, i] = (*pose[:3], *canonical(*pose[3:]))
     return FramesIn.of(frames, out, np.array([stamp or 0 for stamp in stamps], np.int64))
 
 
@@ -198,7 +198,8 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
         common = _older(common, cache.newest_stamp)
         frame = newest[1]
     else:
-        return [_latest_common_time(tree, target, frame) for frame in frames]
+        # Chains that meet a loop do not end: only those through the target itself have a time.
+        spine = {target: None}
 
     meets: dict[str, tuple[str, int | None] | None] = {frame: (frame, None) for frame in spine}
     stamps: list[int | None] = []
@@ -229,10 +230,3 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
 def _older(common: int | None, stamp: int) -> int | None:
     """The older of the two; a stamp of 0 does not count."""
     return stamp if stamp != 0 and (common is None or stamp < common) else common
-
-
-def _latest_common_time(tree: FrameTree, target: str, frame: str) -> int | None:
-    try:
-        return tree.latest_common_time(target, frame)
-    except TransformException:
-        return None

@@ -62,6 +62,7 @@ class Explanation:
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)
 """Reasons that do not depend on a single frame."""
 MOST_TRIED = 20
+MOST_LISTED = 10
 
 
 def distinct(
@@ -81,6 +82,12 @@ def distinct(
             return {frame: reason.sentence}
         found.setdefault((reason.kind, reason.cause or frame), (frame, reason.sentence))
     return dict(list(found.values())[:most])
+
+
+def listed(frames: Sequence[str], link: str = ", ") -> str:
+    """The first frames by name; the number of the others."""
+    more = len(frames) - MOST_LISTED
+    return link.join(frames) if more <= 0 else f"{link.join(frames[:MOST_LISTED])} and {more} more"
 
 
 def in_words(duration_ns: int) -> str:

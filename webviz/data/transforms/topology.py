@@ -49,10 +49,12 @@ class Topology:
     def __init__(self, tree: FrameTree, target: str, frames: Sequence[str]) -> None:
         self._nodes: dict[str, int] = {}
         self._parents: list[int] = []
-        self.is_usable = all(self._climb(tree, frame) for frame in (target, *frames))
-        """Whether no requested frame is in or below a loop."""
+        self.is_usable = self._climb(tree, target)
+        """Whether the target is neither in nor below a loop."""
         if not self.is_usable:
             return
+        for frame in frames:
+            self._climb(tree, frame)
         parents = np.array(self._parents, np.int64)
         caches = [tree.caches.get(name) for name in self._nodes]
         self._base = self._nodes[target]
@@ -83,12 +85,17 @@ class Topology:
         self._is_target = self._asked == self._base
 
     def _climb(self, tree: FrameTree, frame: str) -> bool:
-        """Number a frame and its ancestors, parents first; False if they form a loop."""
+        """Number a frame and its ancestors, parents first; False if they form a loop.
+
+        Then they get no pose: the frame at which the loop closes counts as a root.
+        """
         climbed: dict[str, None] = {}
         above: str | None = frame
+        is_loop = False
         while above is not None and above not in self._nodes:
-            if above in climbed:
-                return False
+            if is_loop := above in climbed:
+                above = None
+                break
             climbed[above] = None
             cache = tree.caches.get(above)
             above = cache.newest[1] if cache is not None and cache.newest is not None else None
@@ -97,7 +104,7 @@ class Topology:
             self._nodes[name] = len(self._parents)
             self._parents.append(parent)
             parent = self._nodes[name]
-        return True
+        return not is_loop
 
     def poses(self) -> tuple[F64, I64] | None:
         """The poses of all frames in the target, each at its latest common time with it.

@@ -163,7 +163,7 @@ class FrameTree:
 
     def rigid_root(self, frame: str) -> str:
         """`TransformBuffer.rigid_root`."""
-        for _ in range(len(self.caches)):
+        for _ in range(MAX_DEPTH):
             cache = self.caches.get(frame)
             if not isinstance(cache, StaticCache) or cache.sample is None:
                 break
@@ -187,7 +187,7 @@ class FrameTree:
 
     def _loop(self) -> LookupException:
         return LookupException(
-            f"The tf tree is invalid because it contains a loop.\n{self.as_text()}\n"
+            lambda: f"The tf tree is invalid because it contains a loop.\n{self.as_text()}\n"
         )
 
 
@@ -208,11 +208,29 @@ def extrapolation(cache: Cache, target: str, source: str, stamp_ns: int) -> Exce
 
 def ancestors(tree: FrameTree, frame: str) -> list[str]:
     """The frame and its current ancestors, up to the root or until a loop closes."""
-    chain: list[str] = []
+    chain: dict[str, None] = {}
     while frame not in chain:
-        chain.append(frame)
+        chain[frame] = None
         cache = tree.caches.get(frame)
         if cache is None or cache.newest is None:
-            return chain
+            return list(chain)
         frame = cache.newest[1]
     return [*chain, frame]
+
+
+def roots(tree: FrameTree) -> dict[str, str]:
+    """`FrameTree.root` of all frames; for those in or below a loop, one frame of the loop."""
+    found: dict[str, str] = {}
+    for name in tree.names:
+        chain: list[str] = []
+        seen: set[str] = set()
+        frame = name
+        while frame not in found and frame not in seen:
+            chain.append(frame)
+            seen.add(frame)
+            cache = tree.caches.get(frame)
+            if cache is None or cache.newest is None:
+                break
+            frame = cache.newest[1]
+        found |= dict.fromkeys(chain, found.get(frame, frame))
+    return found
