@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Annotated, Any
 
 import pytest
 
@@ -18,10 +18,15 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Int32, String
 
-from webviz.api.declared import Topic
+from webviz import Display, Input, Topic
+from webviz.api.frames import Frames
+from webviz.api.status import Level
 from webviz.data.messages import decode
+from webviz.data.transforms import TransformBuffer
 from webviz.edges.ros.node import RosSource
-from webviz.engine.sources import Gate, Outlet, Rights, Subscription
+from webviz.engine.pipeline.guard import Guard
+from webviz.engine.pipeline.inputs import Inputs
+from webviz.engine.sources import Gate, Outlet, Rights, Subscription, merged
 
 STRING = "std_msgs/msg/String"
 
@@ -138,6 +143,45 @@ def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
     publisher.publish(String(data="lost"))
     time.sleep(0.3)
     assert heard(source) == []
+
+
+class Words(Display):
+    """Any strings."""
+
+    topic: Annotated[Topic, Input(STRING)] = Topic("/words")
+
+
+@pytest.mark.parametrize("first", [0, 1], ids=["the strict one first", "the strict one last"])
+def test_the_qos_of_each_display_is_judged_by_itself(
+    talker: Node, listen: Callable[..., RosSource], first: int
+) -> None:
+    """A display that requests what no publisher offers says so, and costs others no message."""
+    publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
+    source = listen()
+    displays = Words(topic=Topic("/words", reliability="reliable")), Words()
+    strict, easy = (Inputs(each, Guard("", strict=True), source.resolve) for each in displays)
+    both = (strict, easy)[:: 1 - 2 * first]
+
+    def told(inputs: Inputs) -> tuple[Level, str]:
+        frames, offers = Frames(TransformBuffer(), "map", 0), source.offers()
+        inputs.take(source.inbox.drain() if inputs is easy else {}, frames, offers, 1.0)
+        status = inputs.statuses(offers, frames, lambda _: 0, 1.0)["Topic"]
+        return status.level, status.text
+
+    source.want(merged([strict.subscriptions()]))
+    until(lambda: requested(source) == ("reliable", "volatile"), "it is subscribed alone")
+    alone = told(strict)
+    assert alone[0] is Level.ERROR
+    source.want(merged(each.subscriptions() for each in both))
+    until(lambda: requested(source) == ("best_effort", "volatile"), "they share a subscription")
+
+    def is_heard() -> bool:
+        publisher.publish(String(data="again"))
+        return told(easy)[0] is Level.OK
+
+    until(is_heard, "the display with the automatic QoS gets messages")
+    remark = " Messages arrive only because another display reads the topic."
+    assert told(strict) == (Level.ERROR, alone[1] + remark)
 
 
 def test_a_topic_of_another_type_is_reported_and_not_subscribed(

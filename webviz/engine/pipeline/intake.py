@@ -55,7 +55,7 @@ class Intake:
         self.name = name
         self.type = "" if spec.type == ANY else spec.type
         """Of the messages: the one of `spec.types` that is published; "" of `ANY` until one is."""
-        self._reception = Reception(path, spec.types, name, problem)
+        self._reception = Reception(path, spec, topic, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""
         self._placed_at = 0.0

@@ -7,7 +7,8 @@ import functools
 from collections import deque
 from collections.abc import Mapping, Sequence
 
-from webviz.api.ports import ANY
+from webviz.api.declared import Topic
+from webviz.api.ports import ANY, Input
 from webviz.api.status import Level, Remedy, Status
 from webviz.engine.sources import Offer, Publisher, Raw
 
@@ -20,18 +21,21 @@ class Reception:
 
     Args:
         path: of the input among the properties of the display.
-        types: of the messages that the display reads; the first until another one is published.
-            `ANY` is none until one is.
+        spec: the input as the display declares it; its first type is read until another one is
+            published, `ANY` is none until one is.
+        topic: the topic the user chose.
         name: the full name of the topic, "" if it has none.
         problem: why it has none.
     """
 
-    def __init__(self, path: str, types: tuple[str, ...], name: str, problem: str) -> None:
+    def __init__(self, path: str, spec: Input, topic: Topic, name: str, problem: str) -> None:
         self.count = 0
         self.last: Raw | None = None
         self._path = path
-        self.type = types[0] if types[0] != ANY else ""
-        self._types = types
+        self.type = spec.types[0] if spec.types[0] != ANY else ""
+        self._types = spec.types
+        self._reliability = topic.reliability
+        self._durability = "transient_local" if spec.latched else topic.durability
         self._name = name
         self._problem = problem
         self._times: deque[float] = deque(maxlen=50)
@@ -137,26 +141,39 @@ class Reception:
         return self._others[1]
 
     def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
-        """Why DDS matches none of the publishers, though the type fits."""
-        if offer is None or offer.requested is None:
+        """Why DDS matches none of the publishers with the QoS of this input, though the type fits.
+
+        Another display may read the topic with a QoS that matches.
+        """
+        if offer is None or offer.requested is None or offer.is_recorded:
+            return ""
+        if any(_is_match(self._reliability, self._durability, each) for each in publishers):
             return ""
         reliability, durability = offer.requested
-        for publisher in publishers:
-            unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
-            forgetful = durability == "transient_local" and publisher.durability == "volatile"
-            if not unreliable and not forgetful:
-                return ""
-        ours = _words(reliability, durability)
+        ours = _words(
+            reliability if self._reliability == "auto" else self._reliability,
+            durability if self._durability == "auto" else self._durability,
+        )
         theirs = _words(publishers[0].reliability, publishers[0].durability)
-        return (
+        text = (
             f"QoS does not match on {self._name}: this display requests {ours}, "
             f"the publisher offers {theirs}. Set reliability and durability to auto."
         )
+        if any(_is_match(*offer.requested, each) for each in publishers):
+            text += " Messages arrive only because another display reads the topic."
+        return text
 
     def _rate(self) -> float:
         """Messages per second over the last ones, 0 if unknown."""
         span = self._times[-1] - self._times[0] if len(self._times) > 2 else 0.0
         return (len(self._times) - 1) / span if span > 0 else 0.0
+
+
+def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
+    """Whether DDS connects a request, of which "auto" follows the publisher, with an offer."""
+    unreliable = reliability == "reliable" and publisher.reliability == "best_effort"
+    forgetful = durability == "transient_local" and publisher.durability == "volatile"
+    return not unreliable and not forgetful
 
 
 def _words(reliability: str, durability: str) -> str:

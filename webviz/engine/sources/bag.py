@@ -245,8 +245,8 @@ class BagSource:
         wish, problem = self._wanted.get(topic), self._problems.get(topic, "")
         matching = [p for p in publishers if wish and p.type == wish.type]
         if wish is None or not matching:
-            return Offer(publishers, None, problem)
-        return Offer(publishers, _weakest(matching), problem, wish.type)
+            return Offer(publishers, None, problem, is_recorded=True)
+        return Offer(publishers, _weakest(matching), problem, wish.type, is_recorded=True)
 
 
 def _is_new(wish: Subscription, before: Subscription | None) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import msgspec
+
 from webviz.api.declared import Topic
 from webviz.engine.sources.graph import Durability, Graph, Reliability
 from webviz.engine.sources.inbox import Inbox
@@ -29,14 +31,31 @@ class Subscription:
 
 
 def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscription]:
-    """All subscriptions by topic. The first decides on type and QoS of a topic."""
+    """All subscriptions by topic. The first decides on the type of a topic.
+
+    A topic has one subscription. It follows the publishers if its readers do not agree on the QoS,
+    so that none of them misses messages for the choice of another.
+    """
     wanted: dict[str, Subscription] = {}
     for wish in wishes:
-        for topic, subscription in wish.items():
-            first = wanted.setdefault(topic, subscription)
-            if subscription.asked > first.asked:
-                wanted[topic] = replace(first, asked=subscription.asked)
+        for topic, other in wish.items():
+            first = wanted.setdefault(topic, other)
+            if first is not other:
+                wanted[topic] = _shared(first, other)
     return wanted
+
+
+def _shared(first: Subscription, other: Subscription) -> Subscription:
+    """A subscription that serves both."""
+    asked = max(first.asked, other.asked)
+    if other.type != first.type:
+        return replace(first, asked=asked)
+    topic, latched = first.topic, first.latched
+    if other.topic.reliability != topic.reliability:
+        topic = msgspec.structs.replace(topic, reliability="auto")
+    if (other.latched, other.topic.durability) != (latched, topic.durability):
+        topic, latched = msgspec.structs.replace(topic, durability="auto"), False
+    return replace(first, topic=topic, latched=latched, asked=asked)
 
 
 @dataclass(frozen=True)
@@ -70,6 +89,7 @@ class Offer:
         problem: why no message can arrive, "" if it can.
         type: of our subscription, "" without one; a topic can be read as one type only.
         subscribers: their number, webviz included; None if unknown.
+        is_recorded: whether it is of a bag, whose messages match any QoS.
     """
 
     publishers: tuple[Publisher, ...]
@@ -77,6 +97,7 @@ class Offer:
     problem: str = ""
     type: str = ""
     subscribers: int | None = None
+    is_recorded: bool = False
 
 
 class Source(Protocol):
