@@ -76,6 +76,8 @@ setup(
             "Marker = webviz_displays.markers:Marker",
             "MarkerArray = webviz_displays.markers:MarkerArray",
             "MotionPlanning = webviz_displays.moveit:MotionPlanning",
+            "NvbloxMesh = webviz_displays.nvblox:NvbloxMesh",
+            "NvbloxVoxelBlockLayer = webviz_displays.nvblox:NvbloxVoxelBlockLayer",
             "OccupancyGrid = webviz_displays.octomap:OccupancyGrid",
             "OccupancyGridStamped = webviz_displays.octomap:OccupancyGridStamped",
             "OccupancyMap = webviz_displays.octomap:OccupancyMap",

@@ -34,6 +34,7 @@ from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
+from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
@@ -135,6 +136,8 @@ DISPLAYS: list[Callable[[], Display]] = [
     GridMap,
     ImagePlane,
     lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
+    NvbloxMesh,
+    NvbloxVoxelBlockLayer,
     lambda: VoxelGrid(show_unknown=True, show_free=True),
     Costmap,
     lambda: Imu(acceleration_properties=AccelerationSettings(enable_acceleration=True)),

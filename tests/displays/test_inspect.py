@@ -14,7 +14,7 @@ import PIL.Image
 import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
-from mapping_scenes import COSTMAP, FIELD, IMU, VOXEL_GRID, hill
+from mapping_scenes import COSTMAP, FIELD, IMU, MESH, VOXEL_GRID, VOXELS, hill
 from moveit_scenes import moveit
 from octrees import OCTOMAP
 from robot_arm import ARM, describe, place_arm
@@ -33,6 +33,7 @@ from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
 from webviz_displays.markers import MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
+from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import ColorOccupancyGrid
 from webviz_displays.odometry import Odometry
 from webviz_displays.path import Path
@@ -306,6 +307,18 @@ def voxel_of_a_costmap(bench: Benches) -> Details:
     return one_of(bench, VoxelGrid(), "nav2_msgs/msg/VoxelGrid", VOXEL_GRID, "marked", 1)
 
 
+def voxel_of_nvblox(bench: Benches) -> Details:
+    type_name = "nvblox_msgs/msg/VoxelBlockLayer"
+    return one_of(bench, NvbloxVoxelBlockLayer(), type_name, VOXELS, "region 0 0 0", 1)
+
+
+def surface_of_nvblox(bench: Benches) -> Details:
+    at = bench(NvbloxMesh())
+    at.send("nvblox_msgs/msg/Mesh", MESH, frame="map", topic="/nvblox_node/mesh")
+    at.turn()
+    return pick(at, "region 0 0 0", None, (0.1, 0.1, 0.1))
+
+
 def cell_of_a_costmap(bench: Benches) -> Details:
     at = bench(Costmap())
     at.send("nav2_msgs/msg/Costmap", COSTMAP, frame="map", topic="/local_costmap/costmap_raw")
@@ -507,6 +520,8 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
         "Cell 0, 3", {"elevation": "0.5", "variance": "0.25", "Size of a cell": "0.5 m"}
     ),
     voxel_of_a_costmap: ("Voxel 0, 0, 1", {"State": "marked"}),
+    voxel_of_nvblox: ("Voxel", {"Edge": "0.1 m"}),
+    surface_of_nvblox: ("Mesh", {}),
     cell_of_a_costmap: ("Cell 1, 1", {"Value": "254, lethal"}),
     inertial_sensor: (
         "Inertial sensor",

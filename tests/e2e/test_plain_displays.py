@@ -20,6 +20,7 @@ from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
 from webviz_displays.markers import Marker, MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
+from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import OccupancyGrid, OccupancyMap
 from webviz_displays.poses import (
     ParticleCloud,
@@ -46,6 +47,7 @@ CLASSES: tuple[type[Display], ...] = (
     *(FluidPressure, Illuminance, PointCloud, Range, RelativeHumidity, Temperature),
     *(AccelStamped, Effort, TwistStamped, Wrench),
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
+    *(NvbloxMesh, NvbloxVoxelBlockLayer),
 )
 MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES
 

@@ -22,6 +22,7 @@ from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, BoxSettings
 from webviz_displays.map import Costmap
+from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import (
     ColorOccupancyGrid,
     OccupancyGrid,
@@ -147,6 +148,29 @@ def obstacles() -> Values:
     }
 
 
+def reconstructed() -> tuple[Values, Values]:
+    """The hill as a mesh and as voxels of nvblox, in blocks of 0.4 m."""
+    indices, meshes, voxels = [], [], []
+    for x, y in product(range(-3, 3), range(-3, 3)):
+        corners = [(0.4 * x + 0.1 * i, 0.4 * y + 0.1 * j) for j in range(5) for i in range(5)]
+        colors = [
+            {"r": 0.3 + summit(*xy), "g": 0.6, "b": 0.4 - 0.3 * xy[0], "a": 1.0} for xy in corners
+        ]
+        faces = [
+            corner
+            for j, i in product(range(4), range(4))
+            for first in (5 * j + i,)
+            for corner in (first, first + 1, first + 5, first + 1, first + 6, first + 5)
+        ]
+        indices.append({"x": x, "y": y, "z": 0})
+        points = [vector(*xy, summit(*xy)) for xy in corners]
+        meshes.append({"vertices": points, "colors": colors, "triangles": faces})
+        centers = [vector(a, b, 0.1 * round(10 * summit(a, b))) for a, b in corners]
+        voxels.append({"centers": centers, "colors": colors})
+    layer = {"block_size_m": 0.4, "block_indices": indices}
+    return {**layer, "blocks": meshes}, {**layer, "voxel_size_m": 0.1, "blocks": voxels}
+
+
 def inflated() -> Values:
     """Costs around two obstacles."""
     cells = [
@@ -215,6 +239,8 @@ CASES = [
     Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
     Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
     Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
+    Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
+    Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),
     Case("costmap", Costmap(), (inflated(),)),
     Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
     Case("mag", Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),

@@ -46,6 +46,28 @@ COSTMAP = {
     },
     "data": [0, 60, 130, 253, 254, 255],
 }
+CORNERS = ((0.0, 0.0), (0.8, 0.0), (0.0, 0.8))
+COLORS = [{"r": 1.0, "a": 1.0}, {"g": 0.5, "a": 1.0}, {"b": 1.0, "a": 1.0}]
+MESH = {
+    "block_size_m": 0.8,
+    "block_indices": [{"x": 0, "y": 0, "z": 0}, {"x": 1, "y": 0, "z": 1}, {"x": 5, "y": 0, "z": 2}],
+    "blocks": [
+        {
+            "vertices": [{"x": 0.8 * block + x, "y": y, "z": z} for x, y in CORNERS],
+            "colors": colors,
+            "triangles": [0, 1, 2],
+        }
+        for block, z, colors in ((0, 0.1, COLORS), (1, 0.9, COLORS), (5, 1.7, []))
+    ],
+}
+"""Triangles in three blocks; the last is without colours and above 1.5 m."""
+VOXELS = {
+    "block_size_m": 0.8,
+    "voxel_size_m": 0.1,
+    "block_indices": MESH["block_indices"],
+    "blocks": [{"centers": each["vertices"], "colors": each["colors"]} for each in MESH["blocks"]],
+}
+"""Voxels at the corners of these triangles."""
 IMU = {"orientation": {"z": 0.6, "w": 0.8}, "linear_acceleration": {"x": 1.0, "z": 9.0}}
 FIELD = {"magnetic_field": {"x": 2e-5, "y": 1e-5, "z": -4e-5}}
 
@@ -86,6 +108,8 @@ MAPPING_SCENES: dict[str, Callable[[Any], None]] = {
     "OccupancyMapStamped": seen_from_above,
     "GridMap": in_moving_frame(GRID_MAP, terrain(), terrain()),
     "VoxelGrid": in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID),
+    "NvbloxMesh": in_moving_frame("nvblox_msgs/msg/Mesh", MESH),
+    "NvbloxVoxelBlockLayer": in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS),
     "Costmap": costmaps,
     "Imu": in_moving_frame("sensor_msgs/msg/Imu", IMU),
     "Mag": in_moving_frame("sensor_msgs/msg/MagneticField", FIELD),
@@ -95,6 +119,8 @@ MAPPING_MESSAGES: dict[str, dict[str, Any]] = {
     OCTOMAP: hill("OcTree"),
     GRID_MAP: terrain(),
     "nav2_msgs/msg/VoxelGrid": VOXEL_GRID,
+    "nvblox_msgs/msg/Mesh": MESH,
+    "nvblox_msgs/msg/VoxelBlockLayer": VOXELS,
     "nav2_msgs/msg/Costmap": COSTMAP,
     "nav2_msgs/msg/CostmapUpdate": {"x": 1, "size_x": 1, "size_y": 1, "data": [77]},
     "sensor_msgs/msg/Imu": IMU,

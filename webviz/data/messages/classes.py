@@ -71,6 +71,7 @@ VECTORS = {
     "shape_msgs/msg/Plane": ("float64", 4),
     "visualization_msgs/msg/UVCoordinate": ("float32", 2),
     "nav2_msgs/msg/Particle": ("float64", 8),
+    "nvblox_msgs/msg/Index3D": ("int32", 3),
 }
 """Messages of k equal numbers, nested ones included: a sequence of N is one (N, k) array."""
 

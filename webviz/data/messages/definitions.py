@@ -1,8 +1,8 @@
 """Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
-moveit_msgs, object_recognition_msgs, vision_msgs, foxglove_msgs and ffmpeg_image_transport_msgs in
-ROS 2 Jazzy, in the order of the wire.
+moveit_msgs, nvblox_msgs, object_recognition_msgs, vision_msgs, foxglove_msgs and
+ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
 DEFINITIONS = {
@@ -68,6 +68,32 @@ DEFINITIONS = {
     "nav2_msgs/msg/ParticleCloud": """
         std_msgs/Header header
         nav2_msgs/Particle[] particles""",
+    "nvblox_msgs/msg/Index3D": """
+        int32 x
+        int32 y
+        int32 z""",
+    "nvblox_msgs/msg/MeshBlock": """
+        geometry_msgs/Point32[] vertices
+        geometry_msgs/Point32[] normals
+        std_msgs/ColorRGBA[] colors
+        int32[] triangles""",
+    "nvblox_msgs/msg/Mesh": """
+        std_msgs/Header header
+        float32 block_size_m
+        nvblox_msgs/Index3D[] block_indices
+        nvblox_msgs/MeshBlock[] blocks
+        bool clear""",
+    "nvblox_msgs/msg/VoxelBlock": """
+        geometry_msgs/Point32[] centers
+        std_msgs/ColorRGBA[] colors""",
+    "nvblox_msgs/msg/VoxelBlockLayer": """
+        std_msgs/Header header
+        float32 block_size_m
+        float32 voxel_size_m
+        nvblox_msgs/Index3D[] block_indices
+        nvblox_msgs/VoxelBlock[] blocks
+        bool clear
+        int32 layer_type""",
     "foxglove_msgs/msg/CompressedVideo": """
         builtin_interfaces/Time timestamp
         string frame_id

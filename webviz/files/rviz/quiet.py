@@ -40,6 +40,7 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Show Joint Torques": (False,),
     "Alpha": (1,),
     "Marker Alpha": (1,),
+    "Mesh Color": ("Color",),
     "Show Trail": (False,),
 }
 """By key: RViz's default values, which need no support."""

@@ -1,0 +1,97 @@
+"""Base of the displays of nvblox."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated, ClassVar
+
+from webviz import Context, Display, Node, Prop, Sample
+from webviz.data.words import counted
+from webviz_displays.nvblox.layer import Key, Layer, MapBlock, regions
+from webviz_displays.shared.geometry import FARTHEST
+
+EDGE = 4
+"""Blocks along the edge of a node."""
+
+
+@dataclass
+class _State:
+    """What is drawn: by region, the blocks and their node."""
+
+    drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = field(default_factory=dict)
+
+
+class NvbloxDisplay(Display):
+    """Base of displays of maps of blocks; messages bring those that have changed."""
+
+    noun: ClassVar[str] = ""
+    """One of the things that are drawn."""
+    most: ClassVar[int] = 0
+    """How many of them are drawn at once."""
+
+    cut_ceiling: Annotated[bool, Prop(help="Hide blocks above Ceiling Height.")] = False
+    ceiling_height: Annotated[
+        float,
+        Prop(ge=-1e6, le=1e6, unit="m", when=("cut_ceiling", True), help="In the map's frame."),
+    ] = 1.5
+
+    def new_state(self) -> _State:
+        """Nothing drawn."""
+        return _State()
+
+    def fold(self, name: str, sample: Sample, state: Layer | None) -> Layer:
+        """Take the blocks of a message."""
+        return (state or Layer()).merged(sample.message)
+
+    def draw(self, sample: Sample, ctx: Context) -> None:
+        """The blocks, in the frame and at the stamp of the newest message."""
+        layer: Layer = sample.message
+        state: _State = ctx.state
+        for what, metres in (("block_size_m", layer.block_m), ("voxel_size_m", layer.voxel_m)):
+            if not 0 <= metres < FARTHEST:
+                ctx.error("Blocks", f"{what} is {metres:g}. Fix the publisher.")
+                return
+        top = self.ceiling_height if self.cut_ceiling else math.inf
+        drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = {}
+        count = left_out = 0
+        for key, blocks in regions(layer.below(top), EDGE).items():
+            size = sum(self.size(block) for block in blocks)
+            if count + size > self.most:
+                left_out += size
+                continue
+            count += size
+            before = state.drawn.get(key)
+            is_known = before is not None and list(map(id, before[0])) == list(map(id, blocks))
+            drawn[key] = before if before and is_known else (blocks, self.node(blocks, layer))
+            ctx.add("region {} {} {}".format(*key), drawn[key][1])
+        state.drawn = drawn
+        self._report(layer, count, left_out, ctx)
+
+    def size(self, block: MapBlock) -> int:
+        """How many things of a block are drawn."""
+        raise NotImplementedError
+
+    def node(self, blocks: Sequence[MapBlock], layer: Layer) -> Node:
+        """What draws blocks."""
+        raise NotImplementedError
+
+    def _report(self, layer: Layer, count: int, left_out: int, ctx: Context) -> None:
+        shown = f"{counted(count, self.noun)} in {counted(len(layer.blocks), 'block')}"
+        if layer.faults:
+            (x, y, z), why = next(iter(layer.faults.items()))
+            more = len(layer.faults) - 1
+            rest = f", and {more} more" if more else ""
+            ctx.warn("Blocks", f"Block {x} {y} {z} is left out{rest}: {why}. Fix the publisher.")
+        elif layer.dropped:
+            dropped = counted(layer.dropped, "block")
+            ctx.warn("Blocks", f"{dropped} left out: the map is too large. Send it with clear set.")
+        elif left_out:
+            ctx.warn("Blocks", f"Showing {count} of {counted(count + left_out, self.noun)}.")
+        elif not layer.blocks:
+            ctx.warn("Blocks", "The map is empty.")
+        elif not count:
+            ctx.warn("Blocks", "All blocks are above Ceiling Height. Raise it.")
+        else:
+            ctx.ok("Blocks", f"{shown} of {layer.block_m:g} m.")
