@@ -194,6 +194,13 @@ def test_messages_that_did_not_fit_the_inbox_are_counted(bench: Callable[..., An
     level, text = b.statuses()["Message"]
     assert level == "WARN"
     assert text == "5 messages dropped: they arrive faster than they can be read."
+    b.clock += 9.0
+    assert "Message" in b.statuses()
+    b.clock += 9.0
+    assert "Message" not in b.statuses()  # it was once
+    for _ in range(1001):
+        b.pose("/pose", "base", T)
+    assert b.statuses()["Message"][1].startswith("1 message dropped")
 
 
 def test_a_flood_of_junk_leaves_the_viewer_running(bench: Callable[..., Any]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Annotated, Any
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
-from webviz.engine.commands import DuplicateDisplay
+from webviz.engine.commands import DuplicateDisplay, Pause
 from webviz.engine.sources import Offer, Publisher
 
 SECOND = 1_000_000_000
@@ -93,6 +93,48 @@ def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(
     assert shown(b) == [12.0]
     b.clock += 20.0
     b.source.now += 20
+    assert "Time" not in statuses(b)
+
+
+def elapsed_s(b: Any) -> float:
+    b.clock += 1.1
+    b.statuses()
+    return b.states[-1].clock.ros_elapsed_ns / SECOND
+
+
+def test_elapsed_time_restarts_when_time_goes_back(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    assert elapsed_s(b) == 0.0
+    b.source.now += 20 * SECOND
+    assert elapsed_s(b) == 20.0
+    b.source.now -= 50 * SECOND
+    assert elapsed_s(b) == 0.0
+    b.source.now += 5 * SECOND
+    assert elapsed_s(b) == 5.0
+    b.do(Pause(True))
+    b.source.now -= 50 * SECOND
+    b.turn()
+    b.do(Pause(False))
+    assert elapsed_s(b) == 0.0
+
+
+def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    b.do(Pause(True))
+    b.turn()
+    for _ in range(1005):
+        b.pose("/pose", "base", T, 2.0)
+    assert statuses(b)["Time"] == ("OK", "5 messages dropped while paused; the newest are kept.")
+    b.do(Pause(False))
+    b.turn()
+    assert shown(b)[-1] == 2.0
+    assert "Message" not in b.statuses()
+    b.source.now += SECOND
     assert "Time" not in statuses(b)
 
 

@@ -27,7 +27,9 @@ class Arrivals:
         batches: Batches = {}
         core.now_ns = attempt("Source", core.now_ns, core.source.now_ns)
         core.offers = attempt("Source", core.offers, core.source.offers)
-        if not self._time.is_paused:
+        if self._time.is_paused:
+            self._time.missed = attempt("Source", self._time.missed, core.source.inbox.hold)
+        else:
             batches = attempt("Source", batches, core.source.inbox.drain)
         if attempt("Time", False, self._time.ros.step, core.now_ns):
             # Messages of this turn may be older or newer. Latched ones are requested again.

@@ -6,7 +6,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
+from webviz.data.words import counted
 from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.pace import PaceMeter, Rate
@@ -31,6 +32,8 @@ class TimePart(Part):
         self._pace = PaceMeter()
         self._clock_rate = Rate()
         self._start()
+        self.missed = 0
+        """How many messages were dropped while paused."""
         self.ros = RosTime(core.clock)
         """Detects that time went back."""
 
@@ -52,7 +55,8 @@ class TimePart(Part):
     def state(self) -> Mapping[str, Any]:
         """Both clocks."""
         ros_ns, wall_s = self.core.frames.now_ns, time.time()
-        self._began_ns = self._began_ns or ros_ns
+        if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
+            self._began_ns = ros_ns
         messages = self.core.source.clock_messages()
         clock = PanelTimes(
             ros_ns,
@@ -69,16 +73,21 @@ class TimePart(Part):
     def statuses(self) -> Mapping[str, Status]:
         """Whether time runs."""
         status = self.ros.status(self.core.offers)
+        if self.is_paused and self.missed and not status:
+            text = f"{counted(self.missed, 'message')} dropped while paused; the newest are kept."
+            status = Status(Level.OK, text)
         return {"Time": status} if status else {}
 
-    def _start(self) -> None:
+    def reset(self) -> None:
         """Restart elapsed time."""
+        self._start()
+
+    def _start(self) -> None:
         self._began_ns = 0  # set when ROS time is known
         self._began_s = time.time()
 
     def _reset(self, command: Reset, sender: Sender) -> None:
         self._reset_all()
-        self._start()
 
     def _pause(self, command: Pause, sender: Sender) -> None:
         self._paused_ns = self.core.frames.now_ns if command.paused else None

@@ -19,6 +19,8 @@ from webviz.engine.sources import Offer, Raw, Subscription
 
 PATIENCE_S = 1.0
 """A message that waits longer for its transform gets a status; TF is often 30 ms late."""
+DROPS_S = 10.0
+"""How long dropped messages are reported."""
 LATE_S = 0.3
 """A message drawn later than this because of its transform gets a warning."""
 
@@ -35,6 +37,28 @@ class Arrival:
     stamp_ns: int
     number: int
     message: Any = field(default=None, compare=False)
+
+
+class Drops:
+    """Counts dropped messages from the first until none was dropped for `DROPS_S`."""
+
+    def __init__(self) -> None:
+        self._total = self._before = 0
+        self._last_at = 0.0
+
+    def recent(self, total: int, clock: float) -> int:
+        """How many to report.
+
+        Args:
+            total: dropped so far; less than before if counting started over.
+            clock: monotonic time in seconds.
+        """
+        if total != self._total:
+            self._last_at, self._before = clock, min(self._before, total)
+        elif clock - self._last_at > DROPS_S:
+            self._before = total
+        self._total = total
+        return total - self._before
 
 
 class Intake:
@@ -62,6 +86,7 @@ class Intake:
         self._late_s = 0.0
         self._waiting_since: float | None = None
         self._newest = self._newest_placed = -1
+        self._drops = Drops()
 
     @property
     def has_received(self) -> bool:
@@ -176,9 +201,9 @@ class Intake:
             result["Topic"] = self._reception.status(offers, frames.now_ns, clock)
         if self._fault:
             result["Message"] = Status(Level.ERROR, self._fault)
-        elif dropped:
+        elif recent := self._drops.recent(dropped, clock):
             text = (
-                f"{counted(dropped, 'message')} dropped: they arrive faster than they can be read."
+                f"{counted(recent, 'message')} dropped: they arrive faster than they can be read."
             )
             result["Message"] = Status(Level.WARN, text)
         if transform := self._transform_status(frames, clock):

@@ -49,6 +49,7 @@ class Inbox:
         self._max_bytes = max_bytes
         self._max_total = max_total
         self._total = 0
+        self._held_drops: int | None = None
         self.arrived = threading.Event()
         """Set by every arrival, and to wake the frame loop for other reasons."""
 
@@ -86,10 +87,21 @@ class Inbox:
         """Take all messages by topic, oldest first."""
         with self._lock:
             taken, self._queues, self._bytes, self._total = self._queues, {}, {}, 0
+            self._held_drops = None
         return taken
 
+    def hold(self) -> int:
+        """Let messages wait until the next `drain`, such as while paused.
+
+        Returns:
+            How many were dropped since the first call, which `dropped` does not count.
+        """
+        with self._lock:
+            self._held_drops = self._held_drops or 0
+            return self._held_drops
+
     def dropped(self, topic: str) -> int:
-        """How many messages of a topic were dropped since it was opened."""
+        """How many messages of a topic were dropped since it was opened, but for `hold`."""
         with self._lock:
             return self._dropped.get(topic, 0)
 
@@ -104,4 +116,7 @@ class Inbox:
 
     def _drop_oldest(self, topic: str) -> None:
         self._count_bytes(topic, -len(self._queues[topic].popleft().cdr))
-        self._dropped[topic] = self._dropped.get(topic, 0) + 1
+        if self._held_drops is None:
+            self._dropped[topic] = self._dropped.get(topic, 0) + 1
+        else:
+            self._held_drops += 1
