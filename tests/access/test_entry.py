@@ -289,6 +289,19 @@ def test_a_command_has_the_priority_of_its_role(house: House, role: Role) -> Non
     assert house.priorities[-1] == role
 
 
+def test_an_owner_revokes_any_link_but_their_own(house: House) -> None:
+    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+    watcher.send("Revoke", number=1, name="some owner")
+    assert "this needs an owner" in watcher.receive("Done")["text"]
+    owner.send("Revoke", number=1, name="nobody")
+    assert "nobody is not in the file of tokens" in owner.receive("Done")["text"]
+    owner.send("Revoke", number=1, name="some owner")
+    assert "this is your own link" in owner.receive("Done")["text"]
+    owner.send("Revoke", number=2, name="some operator")
+    assert owner.receive("Done")["text"] == "Revoked the link of some operator."
+    assert {token.role for token in token_file.read(house.path)} == {"watcher", "owner"}
+
+
 def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     few = {
         Role.WATCHER: Limits(0.5, 64, 100.0, 1000),

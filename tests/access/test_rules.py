@@ -20,6 +20,7 @@ NOT_OF_PAGES = {
     "CallService": "panels of the viewer send it",
     "OpenPanels": "follows from the stores that pages watch",
     "Publish": "panels of the viewer send it",
+    "SendGoal": "panels of the viewer send it",
     "Command": "base class",
     "FileCommand": "base class",
     "ViewCommand": "base class",
@@ -76,7 +77,7 @@ def test_every_message_to_viser_is_one_that_viser_knows() -> None:
 
 
 def test_stores_with_a_role_of_their_own_exist() -> None:
-    assert rules.STORES.keys() <= MAKERS.keys() | {"addresses", "journal"}
+    assert rules.STORES.keys() <= MAKERS.keys() | {"addresses", "journal", "links"}
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))

@@ -57,7 +57,9 @@ def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory)
 
     def tab(role: Role) -> Tab:
         page = open_page(browser)
-        answer = page.context.request.get(link(url, tokens[role]))
+        answer = page.context.request.get(
+            link(url, tokens[role]), headers={"Sec-Fetch-Site": "none"}
+        )
         assert answer.ok
         return Tab(page, server, loop)
 
@@ -90,8 +92,10 @@ def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
         page.wait_for_function("document.querySelector('#root')")
         assert page.evaluate("document.cookie") == ""
         assert page.evaluate("document.referrer") == ""
-        (cookie,) = context.cookies()
-        assert (cookie.get("httpOnly"), cookie.get("sameSite")) == (True, "Strict")
+        cookies = context.cookies()
+        assert cookies
+        for cookie in cookies:
+            assert (cookie.get("httpOnly"), cookie.get("sameSite")) == (True, "Strict")
         page.goto(link(house.url, house.tokens[Role.OPERATOR]))
         assert page.url == f"{house.url}/"
 
@@ -201,9 +205,19 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
     (token,) = (t for t in token_file.read(house.path) if t.name == "Ada")
     assert made == link(house.url, token)
     assert owner.page.evaluate("document.querySelector('.wv-invitation img').naturalWidth") > 50
+    expect(people.get_by_role("note")).to_contain_text("Only this machine can open this link.")
     people.get_by_label("Name", exact=True).fill("Ada")
     people.get_by_role("button", name="Make a link").click()
     owner.wait_for(lambda: "There is a link for Ada already" in people.inner_text())
+    links = people.get_by_role("table", name="Links").get_by_role("row")
+    expect(links.filter(has_text="the owner").get_by_role("button")).to_have_count(0)
+    ada = links.filter(has_text="Ada")
+    expect(ada).to_contain_text("operator")
+    ada.get_by_role("button", name="Revoke link").click()
+    owner.page.get_by_role("button", name="Revoke", exact=True).click()
+    expect(toasts(owner)).to_contain_text("Revoked the link of Ada.")
+    owner.wait_for(lambda: ada.count() == 0)
+    assert "Ada" not in {token.name for token in token_file.read(house.path)}
     owner.page.keyboard.press("Escape")
 
 

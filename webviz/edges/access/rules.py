@@ -64,6 +64,7 @@ MESSAGES: Mapping[str, Role | None] = {
     "Ping": Role.WATCHER,
     "ReadPixel": Role.WATCHER,
     "ShowPictures": Role.WATCHER,
+    "Revoke": Role.OWNER,
     "StrokeDone": Role.OPERATOR,
     "Unwatch": Role.WATCHER,
     "Use": Role.OPERATOR,
@@ -72,7 +73,11 @@ MESSAGES: Mapping[str, Role | None] = {
 }
 """Of the messages of `webviz.edges.page.messages`; None if it is that of the command within."""
 
-STORES: Mapping[str, Role] = {"addresses": Role.OWNER, "journal": Role.OWNER}
+STORES: Mapping[str, Role] = {
+    "addresses": Role.OWNER,
+    "journal": Role.OWNER,
+    "links": Role.OWNER,
+}
 """Of the stores that not everybody may watch; see `webviz.edges.page.content`."""
 
 SCENE: Mapping[str, Role] = {

@@ -41,6 +41,18 @@ class Dismiss(FromPage, frozen=True):
     revokes: bool
 
 
+class Revoke(FromPage, frozen=True):
+    """Ends a link, and all visits by it; the answer is a `Done`.
+
+    Args:
+        number: of the request.
+        name: of the link.
+    """
+
+    number: Number
+    name: Annotated[str, msgspec.Meta(max_length=100)]
+
+
 class Dismissed(ToPage, frozen=True):
     """The last message to a page whose visit the owner has ended.
 

@@ -68,6 +68,7 @@ class Pages:
         self._of_panels = {
             "addresses": people.addresses,
             "journal": people.journal,
+            "links": people.links,
             "people": people.people,
             "commands": panels.commands,
             "panel": panels.panel,

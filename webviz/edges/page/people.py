@@ -12,13 +12,19 @@ from typing import Any, TypeVar
 from webviz.api.errors import Error
 from webviz.data.disk import DiskThreads
 from webviz.edges.access import token_file
-from webviz.edges.access.access import Access, Grant
+from webviz.edges.access.access import Access
 from webviz.edges.access.journal import Journal
 from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.tokens import Token, TokenError, make
 from webviz.edges.page.channel import Channel
-from webviz.edges.page.invitation_messages import Dismiss, Dismissed, Invitation, Invite
+from webviz.edges.page.invitation_messages import (
+    Dismiss,
+    Dismissed,
+    Invitation,
+    Invite,
+    Revoke,
+)
 from webviz.edges.page.messages import Done
 from webviz.engine.state import State
 
@@ -26,6 +32,7 @@ NOT_ASKED = (
     "Not made: this viewer asks for no tokens. Start webviz with --token, or with --host for "
     "other machines."
 )
+OWN_LINK = "Not done: this is your own link. Make another with `webviz token rotate`."
 
 MAX_THREADS = 4
 """That change the file of tokens, or wait for it."""
@@ -48,6 +55,7 @@ class People:
         self._access = access
         channel.on(Invite, self._invite)
         channel.on(Dismiss, self._dismiss)
+        channel.on(Revoke, lambda browser, asked: self._revoke(browser, asked, asked.name))
         self._dismissing: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
 
@@ -69,6 +77,16 @@ class People:
     def addresses(self, state: State, _: str) -> Mapping[str, Any]:
         """The network address of each browser by its id."""
         return {str(id_): visitor.address for id_, visitor in self._channel.visitors().items()}
+
+    def links(self, state: State, _: str) -> Mapping[str, Any]:
+        """Of each valid link by its name: its role, and when it ends, in seconds since 1970."""
+        return {
+            token.name: {
+                "role": token.role,
+                "expires_s": None if token.expires is None else token.expires.timestamp(),
+            }
+            for token in self._access.tokens
+        }
 
     def journal(self, state: State, _: str) -> Mapping[str, Any]:
         """What people did, the newest first."""
@@ -100,7 +118,7 @@ class People:
         elif dismiss.browser == browser:
             self._answer(browser, dismiss, "", "Not done: this is your own page. Close it.")
         elif dismiss.revokes:
-            self._revoke(browser, dismiss, grant)
+            self._revoke(browser, dismiss, grant.name)
         else:
             text = (
                 "The owner has ended your visit. Open the address of the viewer again to come back."
@@ -112,16 +130,21 @@ class People:
             who = visitor.name or visitor.address
             self._answer(browser, dismiss, f"Ended a visit of {who}.")
 
-    def _revoke(self, browser: int, dismiss: Dismiss, grant: Grant) -> None:
+    def _revoke(self, browser: int, asked: Dismiss | Revoke, name: str) -> None:
+        own = self._channel.grant_of(browser)
+        if name and own is not None and own.name == name:
+            self._answer(browser, asked, "", OWN_LINK)
+            return
+
         def answer(done: Future[None]) -> None:
             try:
                 done.result()
             except Error as error:
-                self._answer(browser, dismiss, "", str(error))
+                self._answer(browser, asked, "", str(error))
             else:
-                self._answer(browser, dismiss, f"Revoked the link of {grant.name}.")
+                self._answer(browser, asked, f"Revoked the link of {name}.")
 
-        self._begin(lambda: self._remove(grant)).add_done_callback(answer)
+        self._begin(lambda: self._remove(name)).add_done_callback(answer)
 
     def _begin(self, work: Callable[[], T]) -> Future[T]:
         """Work on the file of tokens in a thread; it fails if too much does already."""
@@ -132,22 +155,22 @@ class People:
             refused.set_exception(TokenError("Not done: too many at once. Try again later."))
             return refused
 
-    def _answer(self, browser: int, dismiss: Dismiss, done: str, problem: str = "") -> None:
+    def _answer(self, browser: int, asked: Dismiss | Revoke, done: str, problem: str = "") -> None:
         level = "error" if problem else "ok"
-        self._channel.send(Done(dismiss.number, level, problem or done, ""), browser)
+        self._channel.send(Done(asked.number, level, problem or done, ""), browser)
         if done:
             self._journal.note(self._channel.visitors().get(browser), done)
 
-    def _remove(self, grant: Grant) -> None:
-        """Remove the token of a grant; its pages are closed soon."""
+    def _remove(self, name: str) -> None:
+        """Remove a token from the file; its pages are closed soon."""
         if not self._access.asks or self._access.path is None:
             raise TokenError("Not revoked: this viewer asks for no tokens.")
 
         def remove(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-            kept = tuple(token for token in tokens if token.cookie != grant.cookie)
+            kept = tuple(token for token in tokens if token.name != name)
             if len(kept) == len(tokens):
                 raise TokenError(
-                    f"Not revoked: {grant.name} is not in the file of tokens. Restart webviz "
+                    f"Not revoked: {name} is not in the file of tokens. Restart webviz "
                     "without it in the environment."
                 )
             return kept

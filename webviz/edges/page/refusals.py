@@ -6,7 +6,7 @@ import re
 
 import msgspec
 
-from webviz.edges.page.invitation_messages import Dismiss, Invitation, Invite
+from webviz.edges.page.invitation_messages import Dismiss, Invitation, Invite, Revoke
 from webviz.edges.page.messages import (
     Do,
     Done,
@@ -34,7 +34,7 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         reason: a sentence.
     """
     match message:
-        case Do() | Use() | Dismiss():
+        case Do() | Use() | Dismiss() | Revoke():
             return Done(message.number, "error", reason, "")
         case StrokeDone():
             return Result(message.number, "error", reason)

@@ -57,6 +57,15 @@ export function dismiss(browser, revokes) {
   return answer;
 }
 
+/** Ends a link and all visits by it; otherwise like `act`. */
+export function revoke(name) {
+  const answer = request({ type: "Revoke", name });
+  answer.then(({ level, text }) => {
+    if (text) toast(text, { level });
+  });
+  return answer;
+}
+
 function request(message) {
   count += 1;
   channel.send({ ...message, number: count });

@@ -5,6 +5,11 @@ import { el, setText } from "../dom.js";
 
 const ENDS = [["never ends", null], ["ends in 1 day", 1], ["ends in 7 days", 7], ["ends in 30 days", 30]];
 
+const LOCAL = "Only this machine can open this link. For others, start webviz with --host, open this page "
+  + "under the address that they use, and invite them there.";
+
+const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.hostname);
+
 const waiting = new Map();
 let count = 0;
 
@@ -45,7 +50,7 @@ export function invitation(copy) {
     if (reason) return;
     result.replaceChildren(
       el("img", { src: code, alt: "QR code of the link" }),
-      el("div", {}, el("p", {}, el("code", {}, link)),
+      el("div", {}, el("p", {}, el("code", {}, link)), isOfThisMachine() ? el("p", { role: "note" }, LOCAL) : null,
         el("button", { type: "button", class: "wv-button", onclick: () => copy(link) }, "Copy")),
     );
     name.value = "";

@@ -1,7 +1,7 @@
 // Who is connected and what they did, and how the owner invites others.
 
 import { onRole, self, why } from "../access.js";
-import { dismiss } from "../act.js";
+import { dismiss, revoke } from "../act.js";
 import { copy } from "../clipboard.js";
 import { el, setText } from "../dom.js";
 import { watch } from "../stores.js";
@@ -23,8 +23,9 @@ export function roleMark() {
 
 export async function openPeople() {
   const isOwner = self().role === "owner";
-  const known = { people: new Map(), addresses: new Map(), journal: new Map() };
+  const known = { people: new Map(), addresses: new Map(), journal: new Map(), links: new Map() };
   const here = el("tbody");
+  const links = el("tbody");
   const done = el("tbody");
   const rows = new Map(); // which stay, so that their buttons can be used while texts change
   const show = () => {
@@ -44,10 +45,11 @@ export async function openPeople() {
     }
     done.replaceChildren(...(known.journal.get("entries") ?? []).map(entryRow));
   };
-  const stores = isOwner ? ["people", "addresses", "journal"] : ["people"];
+  const showLinks = () => links.replaceChildren(...[...known.links].map(linkRow));
+  const stores = isOwner ? ["people", "addresses", "journal", "links"] : ["people"];
   const ends = stores.map((name) => watch(name, (values) => {
     known[name] = values;
-    show();
+    (name === "links" ? showLinks : show)();
   }));
   const columns = ["Name", "Role", ...(isOwner ? ["Address"] : []), "Since", "Latency", "Drives", ...(isOwner ? [""] : [])];
   await openDialog({
@@ -58,6 +60,8 @@ export async function openPeople() {
       table("Connected", columns, here),
       ...(isOwner ? [
         el("h3", {}, "Invite"), invitation(tell),
+        el("h3", {}, "Links"),
+        el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)),
         el("h3", {}, "Log"),
         el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
       ] : [el("p", { class: "wv-quiet" }, why("Invite"))]),
@@ -99,13 +103,23 @@ function endings(id, { name }) {
     const question = `End this visit of ${who}? They may come back${name ? " with their link" : ""}.`;
     if (await ask(question, { title: "End visit", confirm: "End", danger: true })) dismiss(id, false);
   };
-  const revoke = async () => {
-    const question = `Revoke the link of ${name}? All pages that were opened with it are closed.`;
-    if (await ask(question, { title: "Revoke link", confirm: "Revoke", danger: true })) dismiss(id, true);
-  };
   return el("span", { class: "wv-people-ends" },
     button("End visit", "Close this page of theirs", end),
-    name ? button("Revoke link", "Close all their pages, for good", revoke) : null);
+    name ? button("Revoke link", CLOSES_ALL, async () => await isSure(name) && dismiss(id, true)) : null);
+}
+
+const CLOSES_ALL = "Close all their pages, for good";
+
+const isSure = (name) =>
+  ask(`Revoke the link of ${name}? All pages that were opened with it are closed.`,
+    { title: "Revoke link", confirm: "Revoke", danger: true });
+
+function linkRow([name, { role, expires_s }]) {
+  const row = cells(name, role, expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString());
+  const onclick = async () => await isSure(name) && revoke(name);
+  const button = el("button", { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick }, "Revoke link");
+  row.append(el("td", {}, name === self().name ? null : button));
+  return row;
 }
 
 const entryRow = ({ time_s, name, role, address, text }) =>
