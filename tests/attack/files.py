@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Mapping
 from pathlib import Path
 from random import Random
 
@@ -87,13 +88,14 @@ class Files(Attack):
 
     Args:
         folder: for the files.
+        good: files to change, by name; `corpus` without any.
     """
 
     kind = "files"
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, good: Mapping[str, bytes] | None = None) -> None:
         self._folder = folder
-        self._good = corpus()
+        self._good = corpus() if good is None else good
         self._reader: subprocess.Popen[str] | None = None
 
     def start(self) -> None:

@@ -10,8 +10,10 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 
 from tests.attack.attack import Attack, Case, Violation, random_of
+from tests.attack.bombs import Bombs
 from tests.attack.dds import Dds
 from tests.attack.files import Files
+from tests.attack.graphs import Graphs
 from tests.attack.http_requests import Requests
 from tests.attack.report import Breach, Report
 from tests.attack.saving import Saving
@@ -31,6 +33,7 @@ MOST_BREACHES = 20
 ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
+    *(class_.kind for class_ in (Bombs, Graphs)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -77,7 +80,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving):
+    for class_ in (Files, Saving, Bombs):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)
@@ -86,6 +89,7 @@ def local_attacks(folder: Path) -> Iterator[Attack]:
 def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
     """Those that attack a viewer."""
     yield Dds(domain)
+    yield Graphs(target, domain)
     for role in ROLES:
         yield Sockets(target, role)
     yield Requests(target)

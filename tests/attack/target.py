@@ -91,7 +91,8 @@ class Target:
         if role not in self._cookies:
             connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=ANSWER_S)
             with contextlib.closing(connection):
-                connection.request("GET", f"/?{PARAMETERS[role]}={SECRETS[role]}")
+                typed = {"Sec-Fetch-Site": "none"}
+                connection.request("GET", f"/?{PARAMETERS[role]}={SECRETS[role]}", headers=typed)
                 given = connection.getresponse().headers["Set-Cookie"]
             self._cookies[role] = given.partition(";")[0]
         return {"Cookie": self._cookies[role]}
