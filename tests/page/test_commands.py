@@ -12,7 +12,9 @@ from webviz.api.views import Orbit
 from webviz.commands import (
     ChangeView,
     FocusDisplay,
+    FocusFrame,
     Redo,
+    RemoveDisplay,
     Reset,
     ResetView,
     Save,
@@ -38,6 +40,35 @@ def run(tab: Tab, words: str) -> None:
     """Do what the list finds by these words."""
     open_list(tab).get_by_role("combobox").fill(words)
     tab.page.keyboard.press("Enter")
+
+
+def test_the_list_follows_a_frame_and_puts_it_into_the_middle(tab: Tab, loop: Loop) -> None:
+    loop.show(frames=("map", "odom"))
+    open_list(tab)
+    tab.wait_for(lambda: "Follow odom" in tab.text())
+    tab.page.get_by_role("dialog").get_by_role("combobox").fill("follow odom")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for(lambda: len(loop.commands) == 2)
+    followed, centred = loop.commands
+    assert isinstance(followed, ChangeView)
+    assert (followed.key, followed.value) == ("target_frame", "odom")
+    assert isinstance(centred, FocusFrame)
+    assert centred.frame == "odom"
+
+
+def test_the_list_finds_what_keys_do_in_the_tree(
+    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+) -> None:
+    loop.show(make_row("a"))
+    tab.page.get_by_role("treeitem", name="a", exact=True).click()
+    tab.page.mouse.move(800, 400)
+    for name in ("Rename display", "Remove display", "Filter displays"):
+        dialog = open_list(tab)
+        dialog.get_by_role("combobox").fill(name)
+        dialog.get_by_role("option", name=name).wait_for()
+        tab.page.keyboard.press("Escape")
+    run(tab, "remove display")
+    tab.wait_for_command(RemoveDisplay("a"))
 
 
 @pytest.mark.parametrize(
@@ -175,11 +206,11 @@ def show_history(tab: Tab, history: UndoHistory) -> None:
 def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:
     show_history(tab, UndoHistory(steps("Move Path"), steps("Hide Map")))
     for act, command in [
-        (tab.button("Undo").click, Undo()),
-        (tab.button("Redo").click, Redo()),
-        (lambda: tab.page.keyboard.press("Control+z"), Undo()),
-        (lambda: tab.page.keyboard.press("Control+Shift+z"), Redo()),
-        (lambda: tab.page.keyboard.press("Control+y"), Redo()),
+        (tab.button("Undo").click, Undo(own=True)),
+        (tab.button("Redo").click, Redo(own=True)),
+        (lambda: tab.page.keyboard.press("Control+z"), Undo(own=True)),
+        (lambda: tab.page.keyboard.press("Control+Shift+z"), Redo(own=True)),
+        (lambda: tab.page.keyboard.press("Control+y"), Redo(own=True)),
     ]:
         tab.loop.commands.clear()
         act()
@@ -207,7 +238,7 @@ def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
     show_history(tab, UndoHistory(steps("Remove Path", browser=browser, first=1001)))
     toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
     toast.get_by_role("button", name="Undo").click()
-    tab.wait_for_command(Undo())
+    tab.wait_for_command(Undo(own=True))
 
 
 def test_what_others_change_is_told_once(tab: Tab) -> None:

@@ -198,3 +198,58 @@ def test_what_was_removed_draws_again(b: Any) -> None:
     b.do(Undo())
     b.turn()
     assert len(list(b.scene.visible())) == shown
+
+
+MINE, THEIRS = Sender(1), Sender(2)
+
+
+def test_each_browser_undoes_its_own_and_leaves_what_others_did(b: Any) -> None:
+    at = ids(b)
+    b.do(SetProperty(at["Axes"], "length", 3.0), MINE)
+    b.do(SetProperty(at["Axes"], "radius", 0.5), THEIRS)
+    b.do(SetFixedFrame("odom"), THEIRS)
+    b.do(Undo(own=True), MINE)
+    (axes,) = (row.display for row in b.do(Refresh()).rows if row.id == at["Axes"])
+    assert (axes.length, axes.radius) == (2.0, 0.5)
+    assert labels(b) == ["Fixed frame odom", "Change Radius (m) of Axes"]
+    b.do(SetProperty(at["Grid"], "name", "Floor"), THEIRS)
+    state = b.do(Redo(own=True), MINE)
+    (axes,) = (row.display for row in state.rows if row.id == at["Axes"])
+    assert (axes.length, axes.radius, state.fixed_frame) == (3.0, 0.5, "odom")
+
+
+def test_who_has_done_nothing_undoes_the_newest_step(b: Any) -> None:
+    b.do(SetFixedFrame("odom"), THEIRS)
+    assert b.do(Undo(own=True), MINE).fixed_frame == "map"
+
+
+OTHERS = ("Hide TF", "Add Robot 2", "Remove Nonsense", "Move Grid", "Fixed frame odom")
+
+
+@pytest.mark.parametrize("other", OTHERS)
+@pytest.mark.parametrize(("label", "command"), CHANGES)
+def test_two_changes_are_taken_back_in_the_other_order(
+    b: Any, label: str, command: Callable[[dict[str, str]], Command], other: str
+) -> None:
+    at, before = ids(b), dump(b.viewer.config())
+    b.do(command(at), MINE)
+    mine = dump(b.viewer.config())
+    later = b.viewer.enqueue(dict(CHANGES)[other](at), THEIRS)
+    b.until_done(later)
+    has_changed = dump(b.viewer.config()) != mine
+    b.do(Undo(own=True), MINE)
+    if has_changed:
+        b.do(Undo(own=True), THEIRS)
+    assert set(ids(b).values()) == set(at.values())
+    if label != other and not label.startswith("Move"):
+        assert dump(b.viewer.config()) == before
+
+
+def test_a_change_of_what_another_removed_is_taken_back_without_harm(b: Any) -> None:
+    at = ids(b)
+    b.do(SetProperty(at["Axes"], "length", 3.0), MINE)
+    b.do(RemoveDisplay(at["Robot"]), THEIRS)
+    assert "Axes" not in {row.name for row in b.do(Undo(own=True), MINE).rows}
+    assert set(ids(b)) == {"Grid", "Path", "Nonsense"}
+    b.do(Undo(own=True), THEIRS)
+    assert ids(b) == at

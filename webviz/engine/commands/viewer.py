@@ -48,9 +48,11 @@ class Undo(Command):
 
     Args:
         steps: how many.
+        own: prefer those of the sender; what others have done since stays.
     """
 
     steps: int = 1
+    own: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,9 +61,11 @@ class Redo(Command):
 
     Args:
         steps: how many.
+        own: prefer what the sender has taken back.
     """
 
     steps: int = 1
+    own: bool = False
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 from webviz.engine.commands import Command, Redo, Sender, Undo
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.rebasing import rebased
 from webviz.engine.parts.steps import Difference, Moment, difference
 from webviz.engine.requests import Job
 from webviz.engine.state import Step, UndoHistory
@@ -24,10 +25,11 @@ Do = Callable[[Command, Sender], str | Job[Any]]
 
 @dataclass(frozen=True)
 class _Done:
-    """A step, and the moment on its other side."""
+    """A step, and the moments around it."""
 
     step: Step
-    moment: Moment
+    before: Moment
+    after: Moment
 
 
 class HistoryPart(Part):
@@ -44,7 +46,7 @@ class HistoryPart(Part):
         super().__init__(core)
         self._files = files
         self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
-        self._redo: list[_Done] = []
+        self._redo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._count = 0
         self._last: tuple[float, Sender, tuple[str, str] | None] = (-SAME_S, Sender(), None)
         self._now = Moment()
@@ -85,19 +87,21 @@ class HistoryPart(Part):
         if not done.label:
             return
         if self._goes_on(done, sender):
-            before = self._undo.pop().moment
+            before = self._undo.pop().before
             done = difference(before, self._now)
-        self._redo.clear()
+        others = [each for each in self._redo if each.step.browser != sender.browser]
+        self._redo = deque(others, MAX_STEPS)
         if done.label:  # else it is as it was before
             self._count += 1
-            self._undo.append(_Done(Step(self._count, label or done.label, sender.browser), before))
+            step = Step(self._count, label or done.label, sender.browser)
+            self._undo.append(_Done(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
         """Whether a step belongs to the one before."""
         now = self.core.clock()
         then, *same = self._last
         self._last = now, sender, done.property
-        if self._redo or not self._undo:
+        if not self._undo:
             return False
         if sender.step:
             return same[0] == sender
@@ -105,24 +109,30 @@ class HistoryPart(Part):
         return is_soon and done.property is not None and same == [sender, done.property]
 
     def _take_back(self, command: Undo, sender: Sender) -> str:
-        return self._travel(command.steps, sender, self._undo, self._redo, "undo", "Undone")
+        return self._travel(command, sender, self._undo, self._redo, "undo", "Undone")
 
     def _do_again(self, command: Redo, sender: Sender) -> str:
-        return self._travel(command.steps, sender, self._redo, self._undo, "redo", "Redone")
+        return self._travel(command, sender, self._redo, self._undo, "redo", "Redone")
 
     def _travel(
-        self, steps: int, sender: Sender, back: Any, forth: Any, verb: str, participle: str
+        self,
+        command: Undo | Redo,
+        sender: Sender,
+        back: deque[_Done],
+        forth: deque[_Done],
+        verb: str,
+        participle: str,
     ) -> str:
         if not back:
             raise ConfigError(f"There is nothing to {verb}.")
         labels = []
         moment = self._now
-        for _ in range(max(1, min(steps, len(back)))):
-            done = back.pop()
+        for _ in range(max(1, min(command.steps, len(back)))):
+            done = _newest(back, sender if command.own else None)
             self._count += 1
             step = Step(self._count, done.step.label, sender.browser)
-            forth.append(_Done(step, moment))
-            moment = done.moment
+            forth.append(_Done(step, done.after, done.before))
+            moment = rebased(moment, done.after, done.before)
             labels.append(done.step.label)
         self._show(moment)
         self._now = self._moment()
@@ -151,3 +161,12 @@ class HistoryPart(Part):
         files.settings.settings = moment.settings
         files.views.start_with(moment.settings.view)
         files.set_origin(moment.origin)
+
+
+def _newest(steps: deque[_Done], of: Sender | None) -> _Done:
+    """Take the newest step, or that of a sender if it has one."""
+    own = (at for at in reversed(range(len(steps))) if of and steps[at].step.browser == of.browser)
+    at = next(own, len(steps) - 1)
+    done = steps[at]
+    del steps[at]
+    return done

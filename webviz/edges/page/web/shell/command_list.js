@@ -85,6 +85,14 @@ const lockOf = ({ needs }) => {
   return { disabled: refusal !== "", refusal };
 };
 
+const setTarget = (value) => act("ChangeView", { key: "target_frame", value });
+
+// And puts it into the middle, since it may be far away.
+async function follow(frame) {
+  const { level } = await setTarget(frame);
+  if (level === "ok") act("FocusFrame", { frame });
+}
+
 function commands(values) {
   const { settings, frames } = values;
   const more = [...makers].flatMap(({ stores, make }) =>
@@ -110,5 +118,12 @@ function commands(values) {
       needs: "SetFixedFrame",
       run: () => act("SetFixedFrame", { frame }),
     })),
+    ...(frames?.get("frames") ?? []).map((frame) => ({
+      name: `Follow ${frame}`,
+      icon: "follow",
+      group: "Follow",
+      run: () => follow(frame),
+    })),
+    { name: "Follow nothing", icon: "follow", group: "Follow", run: () => setTarget("<Fixed Frame>") },
   ];
 }

@@ -18,7 +18,7 @@ const takers = new Set();
  * `{name, run}`, and if there are: `icon`; `key`, or several in a list, such as "Ctrl+Shift+s",
  * "g", "Delete", in the words of `keyOf`; `group` in the list of keys; `note`, which stands quietly
  * behind the name; `isHidden` for what has a key but is not in the list of commands; `isThere()`,
- * whether it can be done now; `needs`, the command of the viewer that it sends, which a role may not
+ * whether it can be done now; `isKeyHere()`, whether its key is about it there; `needs`, the command of the viewer that it sends, which a role may not
  * be allowed. A key with Ctrl that means nothing in a field is marked with
  * `inFields`.
  */
@@ -70,7 +70,8 @@ export function install() {
       event.stopPropagation();
       return;
     }
-    const matches = (one) => keysOf(one).includes(key) && (!isInField || one.inFields);
+    const matches = (one) =>
+      keysOf(one).includes(key) && (!isInField || one.inFields) && (one.isKeyHere?.() ?? true);
     // As in RViz, the last one with a key has it.
     const found = all().findLast(matches);
     if (!found) return;

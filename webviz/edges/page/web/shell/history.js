@@ -26,22 +26,25 @@ export function onSteps(listener) {
 }
 
 /** What the next step of a way, "undo" or "redo", would be about; undefined if there is none. */
-export const next = (way) => steps[way][0]?.label;
+export const next = (way) => (steps[way].find(isOwn) ?? steps[way][0])?.label;
 
-export const undo = (count = 1) => steps.undo.length && act("Undo", { steps: count });
-export const redo = (count = 1) => steps.redo.length && act("Redo", { steps: count });
+/** Takes back the newest step of this page; without one, the newest of all. */
+export const undo = () => steps.undo.length && act("Undo", { own: true });
+export const redo = () => steps.redo.length && act("Redo", { own: true });
+
+const isOwn = ({ browser }) => browser === window.webviz.browser;
 
 /** A menu of steps below a button: the one that is chosen, and all that came after it. */
 export function openSteps(button) {
   const redos = steps.redo.slice(0, MAX_LISTED).map(({ label }, index) => ({
     label: `Redo ${label}`,
     icon: "arrow-forward",
-    run: () => redo(index + 1),
+    run: () => act("Redo", { steps: index + 1 }),
   }));
   const undos = steps.undo.slice(0, MAX_LISTED).map(({ label }, index) => ({
     label: `Undo ${label}`,
     icon: "arrow-back",
-    run: () => undo(index + 1),
+    run: () => act("Undo", { steps: index + 1 }),
   }));
   const all = [...redos.reverse(), ...(redos.length && undos.length ? [null] : []), ...undos];
   openMenuBelow(button, all.length ? all : [{ label: "Nothing to undo", disabled: true }]);

@@ -18,6 +18,24 @@ const SCENE = [
   ["Look at what is under the mouse", ["F"]],
 ];
 
+// What the tree of displays listens to while it has the focus, see panels/displays/keys.js.
+const TREE = [
+  ["Show or hide displays", ["Space"]],
+  ["Copy as YAML", ["Ctrl+c"]],
+  ["Select all", ["Ctrl+a"]],
+  ["Unfold, fold", ["→", "←"]],
+  ["Properties in the tree", ["Enter"]],
+  ["Move in the list", ["Alt+↑", "Alt+↓"]],
+  ["Into and out of a group", ["Alt+→", "Alt+←"]],
+  ["Actions", ["Shift+F10"]],
+];
+
+// See tools/teleop_keys.js.
+const TELEOP = [
+  ["Drive", ["W", "A", "S", "D"]],
+  ["Drive with one hand", ["↑", "←", "↓", "→"]],
+];
+
 export function openKeys() {
   if (document.querySelector(".wv-keys[open]")) return;
   const groups = new Map(ORDER.map((name) => [name, []]));
@@ -28,6 +46,9 @@ export function openKeys() {
       ...(groups.get(group) ?? []),
       [one.name.replace("…", ""), keysOf(one).map(keyText)],
     ]);
+  }
+  for (const [keys, name] of [[TREE, "Tree of displays"], [TELEOP, "While driving"]]) {
+    groups.set(name, keys.map(([does, all]) => [does, all.map(keyText)]));
   }
   groups.set("Scene", SCENE);
   openDialog({

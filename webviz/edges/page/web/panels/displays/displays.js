@@ -82,15 +82,15 @@ export const displays = {
         icon: "copy", needs: "DuplicateDisplay", run: () => actions.duplicate(chosen()),
       }),
       about("Rename display", {
-        key: "F2", needs: "SetProperty", isThere: () => isHere() && one(), run: () => tree.rename(one().id),
+        key: "F2", needs: "SetProperty", isThere: one, isKeyHere: isHere, run: () => tree.rename(one().id),
       }),
       about("Remove display", {
-        icon: "trash", key: "Delete", needs: "RemoveDisplay", isThere: () => isHere() && chosen().length > 0,
+        icon: "trash", key: "Delete", needs: "RemoveDisplay", isKeyHere: isHere,
         run: () => actions.remove(tree.model(), tree.rows(), chosen()),
       }),
       command({
         name: "Filter displays", icon: "search", key: "Ctrl+f", group: "Displays", inFields: true,
-        isThere: isHere, run: () => field.select(),
+        isKeyHere: isHere, run: () => field.select(),
       }),
     ];
     return () => {

@@ -5,14 +5,10 @@ import { isOpen, setOpen } from "./folding.js";
 import { topmost } from "./model.js";
 import * as selection from "./selection.js";
 
-const TYPED_MS = 700;
 const WAYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "out", ArrowRight: "into" };
 
 /** Answers to keys in a tree; see `tree.js` for what is asked of that. */
 export function listenToKeys(element, tree) {
-  let typed = "";
-  let typedAt = 0;
-
   const rows = () => tree.rows();
   const here = () => rows().findIndex(({ id }) => id === selection.active());
   const chosen = () => topmost(tree.model(), selection.ids());
@@ -47,18 +43,6 @@ export function listenToKeys(element, tree) {
     if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
   }
 
-  function find(event) {
-    // Over the scene, letters are for its tools.
-    if (document.getElementById("root")?.matches(":hover")) return false;
-    typed = (event.timeStamp - typedAt < TYPED_MS ? typed : "") + event.key.toLowerCase();
-    typedAt = event.timeStamp;
-    const start = here() + (typed.length === 1 ? 1 : 0);
-    const after = [...rows().slice(start), ...rows().slice(0, start)];
-    const found = after.find(({ name }) => name.toLowerCase().startsWith(typed));
-    if (found) go(rows().indexOf(found), {});
-    return true;
-  }
-
   function onKey(event) {
     const item = rows()[here()];
     const { key, altKey, shiftKey } = event;
@@ -81,8 +65,7 @@ export function listenToKeys(element, tree) {
     else if (key === "ContextMenu" || (key === "F10" && shiftKey)) tree.openMenu(item.id);
     else if (withCtrl && key === "a") selectAll();
     else if (withCtrl && key === "c" && chosen().length) actions.copyAsYaml(chosen());
-    else if (withCtrl || key.length > 1) return false;
-    else return find(event);
+    else return false; // letters are for tools, wherever the focus is
     return true;
   }
 

@@ -13,6 +13,7 @@ let restored = new Set(recall(KEY, [])); // paths that are yet to be selected
 let added = null; // the id of a display that this page has made
 let saved = JSON.stringify([...restored]);
 let successor = null; // what follows displays that this page removes
+let gone = new Set(); // what was selected when it went, until something else is selected
 
 let tell = () => {};
 let place = 0; // of the current row, should it go
@@ -28,6 +29,7 @@ channel.on("Done", ({ display }) => display && reveal(display));
 channel.onOpen(() => {
   restored = new Set(recall(KEY, []));
   selected.clear();
+  gone = new Set();
 });
 
 export const ids = () => selected;
@@ -44,6 +46,7 @@ export const activate = (id) => (current = id);
 
 /** Selects one row and no other; null for none. */
 export function choose(id) {
+  gone = new Set();
   selected.clear();
   if (id !== null) selected.add(id);
   current = anchor = id;
@@ -51,12 +54,14 @@ export function choose(id) {
 
 /** Adds a row to the selection, or takes it away. */
 export function toggle(id) {
+  gone = new Set();
   if (!selected.delete(id)) selected.add(id);
   current = anchor = id;
 }
 
 /** Selects from where the selection began to a row. */
 export function extend(id, rows) {
+  gone = new Set();
   const order = rows.map((row) => row.id);
   const from = Math.max(order.indexOf(anchor), 0);
   const to = order.indexOf(id);
@@ -76,7 +81,10 @@ export function follow(items) {
     current = anchor = selected.values().next().value ?? null;
     restored.clear();
   }
-  for (const id of selected) if (!there.has(id)) selected.delete(id);
+  comeBack(there);
+  const went = [...selected].filter((id) => !there.has(id));
+  for (const id of went) selected.delete(id);
+  const remembered = gone; // `choose` forgets it, which is not meant here
   if (there.has(added)) {
     const id = added;
     added = null;
@@ -89,8 +97,18 @@ export function follow(items) {
     else current = next ?? items[Math.min(place, items.length - 1)]?.id ?? null;
     successor = null;
   }
+  for (const id of went) remembered.add(id);
+  gone = items.length > 1 ? remembered : new Set(); // of another config
   place = Math.max(items.findIndex(({ id }) => id === current), 0);
   return null;
+}
+
+// Undo brings back what was removed: keys are about that again, and not about its neighbour.
+function comeBack(there) {
+  const back = [...gone].filter((id) => there.has(id));
+  if (!back.length) return;
+  choose(back[0]);
+  for (const id of back) selected.add(id);
 }
 
 /** Keeps it for the next time this page is opened. */

@@ -86,6 +86,7 @@ export function buildTree({ after, changed }) {
   function update() {
     const items = [global, ...model.items];
     const hadFocus = canvas.contains(document.activeElement);
+    const before = selection.active();
     folding.follow(items);
     const added = selection.follow(items);
     if (added) {
@@ -96,7 +97,7 @@ export function buildTree({ after, changed }) {
     if (added) list.reveal(added);
     else if (!isThere && model.items.length) element.scrollTop = recall(SCROLL_KEY, 0);
     isThere ||= model.items.length > 0;
-    if (hadFocus && !canvas.contains(document.activeElement)) focus();
+    if (hadFocus && (selection.active() !== before || !canvas.contains(document.activeElement))) focus();
     if (toRename && model.byId.has(toRename)) startRename(toRename);
   }
 
