@@ -209,3 +209,31 @@ def test_deviations_of_ros_1_are_variances() -> None:
     assert (entry["Covariance x"], entry["X std deviation"]) == (0.5, 0.2)
     again, _ = rviz.read(rviz.write(config)[0], "x.rviz")
     assert [each.covariance_x for each in again.tools if isinstance(each, PoseEstimate)] == [0.5]
+
+
+PANEL = """\
+Panels:
+  - {Class: rviz_plugin_tutorials/Teleop, Name: Drive, Topic: /robot1/cmd_vel}
+Visualization Manager: {}
+"""
+
+
+def test_the_panel_teleop_of_the_tutorials_is_the_tool() -> None:
+    config, report = rviz.read(PANEL, "x.rviz")
+    (teleop,) = (tool for tool in config.tools if isinstance(tool, Teleop))
+    assert teleop.topic.name == "/robot1/cmd_vel"
+    assert report.is_complete
+    text, report = rviz.write(config)
+    assert report.sentences() == []
+    panels = YAML(typ="safe", pure=True).load(text)["Panels"]
+    assert panels == [
+        {"Class": "rviz_plugin_tutorials/Teleop", "Name": "Drive", "Topic": "/robot1/cmd_vel"}
+    ]
+    set_property(teleop, "topic.name", "/other")
+    text, report = rviz.write(config)
+    assert report.sentences() == []
+    assert YAML(typ="safe", pure=True).load(text)["Panels"][0]["Topic"] == "/other"
+    set_property(teleop, "linear", 2.0)
+    assert rviz.write(config)[1].sentences() == [
+        "Teleop: Teleop: skipped, because RViz has no such tool."
+    ]

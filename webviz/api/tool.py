@@ -254,6 +254,8 @@ class Tool(Declared, kw_only=True):
     """The key that selects it, a lower-case letter; "" is none."""
     icon: ClassVar[str] = ""
     """An icon of the page for its button, "" for that of its gesture."""
+    rviz_panel: ClassVar[str] = ""
+    """The class of the panel that does the same in RViz; its `Topic` is the property `topic`."""
     order: ClassVar[int] = 100
     """Place in a toolbar that no config orders; those of webviz come first, as in RViz."""
     gesture: ClassVar[Gesture] = "point"

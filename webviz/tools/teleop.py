@@ -23,6 +23,7 @@ class Teleop(Tool):
     """
 
     title = "Teleop"
+    rviz_panel = "rviz_plugin_tutorials/Teleop"
     shortcut = "t"
     order = 5
     gesture = "drive"

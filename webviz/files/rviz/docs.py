@@ -67,6 +67,7 @@ def page(paths: Iterable[Path]) -> str:
     classes = [*SUPPORTED["Panels"], *SUPPORTED["Tools"]]
     for base in (Tool, Panel):
         classes += [cls.rviz for cls in plugin_types(base).values() if cls.rviz]
+    classes += [cls.rviz_panel for cls in plugin_types(Tool).values() if cls.rviz_panel]
     lines += ["", WHY.format(", ".join(f"`{cls.partition('/')[2]}`" for cls in classes))]
     missing = Counter(note.what for note in whole.notes if note.reason == NO_DISPLAY)
     if missing:

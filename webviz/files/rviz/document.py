@@ -68,7 +68,8 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         entries = []
     refuse_too_many(entries, "Displays", where)
     items = read_items(entries, report, kept, Location((MANAGER, "Displays"), source))
-    tools = read_tools(manager.get("Tools"), report, Location((MANAGER, "Tools"), source))
+    place = Location((MANAGER, "Tools"), source)
+    tools = read_tools(manager.get("Tools"), document.get("Panels"), report, place)
     note_rest(document, report)
     basis = _bare(settings)
     if views.kind_of(child(manager, "Views", "Current")) is None:
@@ -103,7 +104,6 @@ def write(config: Config) -> tuple[str, Report]:
     if saved or isinstance(manager.get("Views"), Mapping):
         manager["Views"] = kept_views
     rest = {**rest, MANAGER: manager} if rest else NEW_FILE
-    tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), report)
     no_settings = Settings()
     for key in NOT_WRITTEN:
         if getattr(config.settings, key) != getattr(no_settings, key):
@@ -116,9 +116,10 @@ def write(config: Config) -> tuple[str, Report]:
     )
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
     tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
+    tree["Panels"] = panels = write_panels(config.panels, tree.get("Panels"), report)
+    tools = write_tools(config.tools, child(rest, MANAGER).get("Tools"), panels, report)
     if tools is not None:
         tree[MANAGER]["Tools"] = tools
-    tree["Panels"] = write_panels(config.panels, tree.get("Panels"), report)
     return write_tree(tree), report
 
 

@@ -57,11 +57,15 @@ IGNORED_BY_RVIZ2 = (("Queue Size",), ("Unreliable",), ("Transport Hint",))
 """Keys of ROS 1 that files keep beside the topics of ROS 2, which have the values in use."""
 
 
+IGNORED_BY_PLUGINS = {("Namespaces", "nvblox_rviz_plugin/NvbloxVoxelBlockLayer")}
+"""Keys that files have from other displays of the same name, with the class that ignores them."""
+
+
 def is_without_effect(path: Path, tree: Tree) -> bool:
     """Whether the value at a path of a display has no effect on what RViz shows."""
     if any(key in ALWAYS for key in path):
         return True
-    if path in IGNORED_BY_RVIZ2:
+    if path in IGNORED_BY_RVIZ2 or (path[0], str(tree.get("Class"))) in IGNORED_BY_PLUGINS:
         return True
     if path[0] in HIDDEN_OF_SCALARS and str(tree.get("Class")).rpartition("/")[2] in SCALARS:
         return True

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.panel import Panel
+from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
@@ -54,5 +55,7 @@ def note_rest(document: Tree, report: Report) -> None:
 def is_supported(kind: str, cls: str) -> bool:
     """Whether a class of "Panels" or "Tools" is supported, also by its name in ROS 1."""
     if counterpart(Tool if kind == "Tools" else Panel, cls):
+        return True
+    if kind == "Panels" and any(cls == tool.rviz_panel for tool in plugin_types(Tool).values()):
         return True
     return any(cls in (name, f"rviz/{name.partition('/')[2]}") for name in SUPPORTED[kind])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.api.declared import to_values
+from webviz.api.declared import make, set_property, to_values
 from webviz.api.tool import Tool
 from webviz.files.config import Location, ToolItem, all_tools
 from webviz.files.rviz import values
@@ -15,6 +15,7 @@ from webviz.files.rviz.properties import keys
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.ros1 import modern
 from webviz.files.rviz.structs import Reading, struct_tree
+from webviz.files.rviz.topics import TOPIC
 from webviz.files.rviz.tree import Tree, restored
 
 NEW_TOOLS: list[Tree] = [
@@ -33,13 +34,14 @@ NEW_TOOLS: list[Tree] = [
 """The toolbar of a new file."""
 
 
-def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
+def read_tools(entries: Any, panels: Any, report: Report, place: Location) -> list[ToolItem]:
     """The tools of the list at `place` in a .rviz file; without a list, all tools.
 
-    Tools that RViz does not have are added: no such list can name them.
+    Tools that RViz does not have are added, since no such list can name them; `panels` of the file
+    may.
     """
     if not isinstance(entries, list):
-        return all_tools()
+        return [_with_topic(tool, panels) for tool in all_tools()]
     tools: list[ToolItem] = []
     for index, entry in enumerate(entries):
         if cls := _counterpart(entry):
@@ -47,15 +49,24 @@ def read_tools(entries: Any, report: Report, place: Location) -> list[ToolItem]:
             tool = _tool_from(cls, tree, reading)
             note_properties(tool, tree, reading, report, place.at(index))
             tools.append(tool)
-    return [*tools, *(tool for tool in _all() if not type(tool).rviz)]
+    return [*tools, *(_with_topic(tool, panels) for tool in _all() if not type(tool).rviz)]
 
 
-def write_tools(tools: list[ToolItem], kept: Any, report: Report) -> list[Any] | None:
+def write_tools(
+    tools: list[ToolItem], kept: Any, panels: list[Any] | None, report: Report
+) -> list[Any] | None:
     """Tools as RViz's list, None for RViz's own tools.
 
-    `kept` is the list of the file that they come from; `report` receives skipped tools.
+    Args:
+        tools: of a config.
+        kept: the list of the file that they come from.
+        panels: of RViz's file; those that do what tools do here get their topics.
+        report: receives skipped tools.
     """
-    waiting = [tool for tool in tools if not _is_added(tool) and is_writable(tool, report)]
+    for tool in tools:
+        if entry := _panel_of(tool, panels):
+            entry[TOPIC] = getattr(tool, TOPIC.lower()).name
+    waiting = [tool for tool in tools if not _is_added(tool, panels) and is_writable(tool, report)]
     if not isinstance(kept, list):
         if list(map(_bare, waiting)) == [_bare(tool) for tool in _all() if type(tool).rviz]:
             return None
@@ -75,9 +86,27 @@ def _all() -> list[Tool]:
     return [tool for tool in all_tools() if isinstance(tool, Tool)]
 
 
-def _is_added(tool: ToolItem) -> bool:
+def _is_added(tool: ToolItem, panels: Any) -> bool:
     """Whether `read_tools` adds the tool as it is."""
-    return isinstance(tool, Tool) and not type(tool).rviz and not to_values(tool)
+    if not isinstance(tool, Tool) or type(tool).rviz:
+        return False
+    added = _with_topic(make(type(tool), {}), panels)
+    return isinstance(added, Tool) and to_values(added) == to_values(tool)
+
+
+def _with_topic(tool: ToolItem, panels: Any) -> ToolItem:
+    """A tool with the topic of the panel that does the same in RViz, if there is one."""
+    topic = (_panel_of(tool, panels) or {}).get(TOPIC)
+    if topic and isinstance(topic, str) and isinstance(tool, Tool):
+        set_property(tool, f"{TOPIC.lower()}.name", topic)
+    return tool
+
+
+def _panel_of(tool: ToolItem, panels: Any) -> Tree | None:
+    """The entry of the panel that does the same as a tool."""
+    cls = type(tool).rviz_panel if isinstance(tool, Tool) else ""
+    entries = panels if cls and isinstance(panels, list) else []
+    return next((e for e in entries if isinstance(e, dict) and e.get("Class") == cls), None)
 
 
 def _counterpart(entry: Any) -> type[Tool] | None:
