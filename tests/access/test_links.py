@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 
+from webviz.edges.access.announcing import Announcement, announced, reachable
 from webviz.edges.access.roles import Role
 from webviz.edges.access.tokens import make
-from webviz.shell.cli.links import reachable, show_links
+from webviz.shell.cli.links import show_links
 
 TOKENS = [make(f"the {role.label}", role, datetime.now(UTC)) for role in Role]
 
@@ -38,3 +42,31 @@ def test_links_name_the_machine_as_others_reach_it() -> None:
     assert reachable(url, "192.0.2.7", ()) == "https://192.0.2.7:81"
     assert reachable(url, "2001:db8::1", ()) == "https://[2001:db8::1]:81"
     assert "0.0.0.0" not in reachable(url, "0.0.0.0", ())
+
+
+def test_links_are_for_the_viewers_that_run(tmp_path: Path) -> None:
+    assert announced(tmp_path / "viewers") == []
+    first, second = (
+        Announcement(f"http://robot:{port}", port, tmp_path / "viewers") for port in (81, 80)
+    )
+    assert announced(tmp_path / "viewers") == ["http://robot:80", "http://robot:81"]
+    first.close()
+    assert announced(tmp_path / "viewers") == ["http://robot:80"]
+    second.close()
+    assert announced(tmp_path / "viewers") == []
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from webviz.edges.access.announcing import Announcement
+kept = Announcement("http://robot:80", 80, Path(sys.argv[1]))
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_viewer_that_was_killed_has_no_links(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-c", KILLED, str(tmp_path)], timeout=120, check=False)
+    assert len([*tmp_path.iterdir()]) == 1
+    assert announced(tmp_path) == []
+    assert [*tmp_path.iterdir()] == []

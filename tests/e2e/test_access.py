@@ -52,7 +52,9 @@ def test_tokens_from_first_start_to_revocation(
     assert ask(url).status == 403
     made = token(env, "make", "Ada", "--role", "operator", "--days", "1", "--url", url)
     assert "▀" in made  # the QR code
-    secrets = re.findall(r"\?\w+=(\S+)", token(env, "list", "--links"))
+    listed = token(env, "list", "--links")
+    assert set(re.findall(r"http://[^/]+", listed)) == {url}
+    secrets = re.findall(r"\?\w+=(\S+)", listed)
     assert len(secrets) == 4
     assert not [secret for secret in secrets if secret in token(env, "list")]
     (path,) = re.findall(r"/\?operate=\S+", made)

@@ -104,6 +104,7 @@ class Running:
             # Report errors in files before importing viser, which is slow.
             shown = read(path) if path is not None else None
             tls = _tls(certfile, keyfile)
+            from webviz.edges.access.announcing import Announcement, reachable
             from webviz.edges.access.starting import access_to, make_missing
             from webviz.edges.page.pages import Pages
             from webviz.edges.scene import ViserScene, open_server
@@ -162,6 +163,9 @@ class Running:
             )
             self._scheme = "http" if tls is None else "https"
             self._host, self.port = host, server.get_port()
+            if self.access.asks:
+                page = reachable(self.url, host, allow_hosts)
+                closing.add("The announcement", Announcement(page, self.port).close)
             self._ended: Future[None] = Future()
             thread = threading.Thread(target=self._run, name="webviz-viewer", daemon=True)
             thread.start()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import socket
+import sys
 from datetime import UTC, datetime
 from typing import Annotated
 
 from cyclopts import App, Parameter
 
 from webviz.edges.access import token_file
+from webviz.edges.access.announcing import announced
 from webviz.edges.access.roles import Role
 from webviz.edges.access.starting import link
 from webviz.edges.access.token_file import Tokens
@@ -41,13 +43,14 @@ def list_tokens(*, links: Flag = False, url: Url = "") -> None:
 
     Args:
         links: Show the links, too. Whoever sees them may use the viewer.
-        url: Address of the viewer (default: this machine's name and port 8080).
+        url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
     tokens = token_file.read(token_file.standard_path())
     if not tokens:
         print("No tokens. Make one with `webviz token make NAME`.")
+    addresses = _addresses(url) if links and tokens else []
     for token in tokens:
-        print("\n".join(lines_of(token, link(_address(url), token) if links else "")))
+        print("\n".join(lines_of(token, addresses)))
 
 
 @app.command(name="make")
@@ -60,7 +63,7 @@ def make_token(
         name: Of the person or group that gets the link.
         role: What the link allows.
         days: Time until the link ends (default: never).
-        url: Address of the viewer (default: this machine's name and port 8080).
+        url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
     made = make(name, Role[role.upper()], datetime.now(UTC), days)
 
@@ -83,7 +86,7 @@ def rotate_token(name: str, /, *, days: Days = None, url: Url = "") -> None:
     Args:
         name: Of the token.
         days: Time until the new link ends (default: never).
-        url: Address of the viewer (default: this machine's name and port 8080).
+        url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
     made: list[Token] = []
 
@@ -120,10 +123,19 @@ def _find(tokens: Tokens, name: str) -> Token:
 
 
 def _print(token: Token, url: str) -> None:
-    address = link(_address(url), token)
-    print("\n".join(lines_of(token, address)))
-    print(qr_code(address))
+    addresses = _addresses(url)
+    print("\n".join(lines_of(token, addresses)))
+    print(qr_code(link(addresses[0], token)))
 
 
-def _address(url: str) -> str:
-    return url or f"http://{socket.gethostname()}:8080"
+def _addresses(url: str) -> list[str]:
+    """The addresses of the viewers that links are for, at least one."""
+    if found := [url] if url else announced():
+        return found
+    guess = f"http://{socket.gethostname()}:8080"
+    print(
+        f"No viewer runs that asks for tokens. Links work once one serves {guess}; for another "
+        "address give --url.",
+        file=sys.stderr,
+    )
+    return [guess]
