@@ -72,6 +72,26 @@ def test_a_scan_that_fits_nowhere_is_of_another_place(bench: Benches) -> None:
     assert told(b).endswith("this is the map of another place.")
 
 
+def test_a_second_scan_that_does_not_fit_is_no_sign_of_a_misplaced_robot(bench: Benches) -> None:
+    b = bench(LaserScan(), Map(), LaserScan(topic=Topic("/computed")))
+    place(b, HERE)
+
+    def look_twice(ranges: Any) -> str:
+        computed = building.scan(HERE) | {"ranges": ranges}
+        stamped = {"header": header("laser", S)} | computed
+        b.publish("/computed", "sensor_msgs/msg/LaserScan", stamped)
+        look(b)
+        return told(b, row=2)
+
+    said = look_twice(np.full(360, 2.0, np.float32))
+    assert told(b).startswith("OK 100%")
+    assert said.startswith("OK Only ")
+    assert said.endswith("Another scan fits, so the robot is in place.")
+    said = look_twice(building.scan(Pose2D(HERE.x + 0.6, HERE.y))["ranges"])
+    assert said.startswith("WARN Only ")
+    assert said.endswith("so the robot is in place: check the transform of 'laser'.")
+
+
 @pytest.mark.parametrize(
     ("map_", "pose", "pitch"),
     [

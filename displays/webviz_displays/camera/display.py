@@ -192,7 +192,7 @@ class Camera(ImageDisplay):
         elif late_s:
             ctx.warn(
                 "Camera Info",
-                f"No camera info has the stamp of the image; that of the newest differs by "
+                f"No camera info has the stamp of the image; the nearest differs by "
                 f"{late_s:.3g} s. Make the driver stamp both alike.",
             )
         elif problem := optical_problem(frame):

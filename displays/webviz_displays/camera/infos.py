@@ -9,6 +9,8 @@ from webviz import Sample
 
 MOST = 30
 FAR_APART_NS = 200_000_000
+SKIPPED_NS = 2_000_000_000
+"""The same if images had the camera info of their stamp: a busy machine skips those of some."""
 
 
 class Infos:
@@ -16,6 +18,7 @@ class Infos:
 
     def __init__(self) -> None:
         self._by_stamp: OrderedDict[int, Any] = OrderedDict()
+        self._are_alike = False
 
     def put(self, sample: Sample) -> None:
         """Take a camera info."""
@@ -28,7 +31,7 @@ class Infos:
         """The camera info with the stamp of an image, else the newest one.
 
         Returns:
-            The message, and by how many seconds its stamp differs in a way that is suspicious:
+            The message, and by how many seconds the nearest stamp differs if that is suspicious:
             a single camera info is good for all images.
 
         Raises:
@@ -38,8 +41,10 @@ class Infos:
             raise LookupError("no camera info")
         found = self._by_stamp.get(stamp_ns)
         if found is not None:
+            self._are_alike = True
             return found, 0.0
-        newest, message = next(reversed(self._by_stamp.items()))
-        apart = abs(newest - stamp_ns)
-        is_suspicious = len(self._by_stamp) > 1 and stamp_ns and apart > FAR_APART_NS
+        message = next(reversed(self._by_stamp.values()))
+        apart = min(abs(stamp - stamp_ns) for stamp in self._by_stamp)
+        far_apart = SKIPPED_NS if self._are_alike else FAR_APART_NS
+        is_suspicious = len(self._by_stamp) > 1 and stamp_ns and apart > far_apart
         return message, apart / 1e9 if is_suspicious else 0.0

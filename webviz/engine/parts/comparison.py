@@ -64,29 +64,26 @@ class Comparison:
                 case Walls() as walls:
                     maps.append(walls)
         trusted: list[Hits] = []
-        for runner, hits in scans:
-            status = self._on_map(hits, maps)
-            if status is not None:
-                runner.remarks[ON_MAP] = status
-            if status is None or status.level is Level.OK:
+        fits = [self._on_map(hits, maps) for _, hits in scans]
+        is_placed = any(found and found[0].is_good for found in fits)
+        for (runner, hits), found in zip(scans, fits, strict=True):
+            if found is not None:
+                runner.remarks[ON_MAP] = _status(*found, hits, is_placed)
+            if found is None or found[0].is_good:
                 trusted.append(hits)
         for runner, way in ways:
             if (count := sum(self._in_the_way(hits, way) for hits in trusted)) >= FEWEST:
                 age_s = (self._core.now_ns - way.received_ns) / 1e9
                 runner.remarks[ON_WAY] = Status(Level.WARN, _blocked(count, age_s))
 
-    def _on_map(self, hits: Hits, maps: list[Walls]) -> Status | None:
-        """Whether a scan lies on the walls of any map; None if that cannot be known."""
+    def _on_map(self, hits: Hits, maps: list[Walls]) -> tuple[Fit, Walls] | None:
+        """How well a scan lies on the walls of the map that fits best; None if that is unknown."""
         found: list[tuple[Fit, Walls]] = []
         for walls in maps:
             if placed := self._placed(hits, walls.frame, walls.origin):
                 result = fit(*placed, walls.resolution, walls.window)
                 found += [(result, walls)] if result else []
-        if not found:
-            return None
-        best, walls = max(found, key=lambda each: each[0].share)
-        level = Level.OK if best.is_good else Level.WARN
-        return Status(level, _sentence(best, walls, hits))
+        return max(found, key=lambda each: each[0].share, default=None)
 
     def _in_the_way(self, hits: Hits, way: Way) -> int:
         placed = self._placed(hits, way.frame, Pose())
@@ -113,6 +110,20 @@ class Comparison:
         xy = hits.xyz @ turn[:2].T
         laser, points = complex(*pose.position[:2]), xy[:, 0] + 1j * xy[:, 1]
         return laser, math.atan2(turn[1, 0], turn[0, 0]), points
+
+
+def _status(best: Fit, walls: Walls, hits: Hits, is_placed: bool) -> Status:
+    """Say how well a scan fits; with `is_placed`, another shows that the robot is in place."""
+    text = _sentence(best, walls, hits)
+    if best.is_good:
+        return Status(Level.OK, text)
+    measured, _, conclusion = text.partition(" The robot is misplaced")
+    if not is_placed or not conclusion:
+        return Status(Level.WARN, text)
+    text = f"{measured} Another scan fits, so the robot is in place"
+    if best.shift is None:  # such as a scan that is computed, or of what the map leaves out
+        return Status(Level.OK, f"{text}.")
+    return Status(Level.WARN, f"{text}: check the transform of '{hits.frame}'.")
 
 
 def _sentence(best: Fit, walls: Walls, hits: Hits) -> str:
