@@ -218,6 +218,15 @@ def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
     assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
 
 
+@pytest.mark.parametrize("path", ["/tmp/a\0b.urdf", "~nobody there/a.urdf", "~\0/a", "/proc/kmsg"])
+def test_a_path_of_no_file_is_refused_by_a_sentence(bench, path) -> None:
+    at = bench(RobotModel(description_source="File", description_file=path))
+    wait(at, lambda: "URDF" in at.statuses())
+    level, text = at.statuses()["URDF"]
+    assert level == "ERROR"
+    assert "is not a usable path" in text or "cannot be read: " in text
+
+
 def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(bench, tmp_path) -> None:
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)

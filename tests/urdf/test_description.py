@@ -281,18 +281,3 @@ def test_a_file_finds_meshes_beside_it(tmp_path, as_trimesh):
 def test_a_file_that_is_not_there_is_named(tmp_path):
     with pytest.raises(RobotDescriptionError, match=r"gone\.urdf cannot be read"):
         load_file(tmp_path / "gone.urdf")
-
-
-def test_a_xacro_file_is_expanded_or_the_remedy_is_given(tmp_path):
-    path = tmp_path / "r.urdf.xacro"
-    path.write_text(
-        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
-        '<xacro:property name="n" value="expanded"/><link name="${n}"/></robot>'
-    )
-    try:
-        import xacro  # noqa: F401  # pyright: ignore[reportMissingImports]
-    except ImportError:
-        with pytest.raises(RobotDescriptionError, match="pip install xacro"):
-            load_file(path)
-    else:
-        assert load_file(path).root == "expanded"

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from webviz_urdf.build import build_robot
 from webviz_urdf.description import parse_description
+from webviz_urdf.expand import expand
 from webviz_urdf.files import read_file
 from webviz_urdf.glb import MeshContent
 from webviz_urdf.loading import LoadRequest
@@ -49,13 +50,15 @@ def load_file(
     collisions: bool = True,
     skip: Mapping[int, str] = MappingProxyType({}),
 ) -> Robot:
-    """Load a robot from a URDF file, or a xacro file if the `xacro` package is installed.
+    """Load a robot from a URDF file, or a xacro file if that is allowed (`webviz_urdf.expand`).
 
     Raises:
         RobotDescriptionError: the file cannot be read, expanded or parsed.
     """
     path = Path(path)
-    text = _expand(path) if path.suffix.lower() == ".xacro" else _read(path)
+    text = _read(path)
+    if path.suffix.lower() == ".xacro":
+        text = expand(path)
     resolver = (resolver or Resolver()).relative_to(path.absolute().parent)
     return load_robot(text, resolver, progress, collisions, skip)
 
@@ -87,18 +90,5 @@ def _read(path: Path) -> str:
         raise RobotDescriptionError(f"{path} cannot be read: {error.strerror}.") from error
     except UnicodeDecodeError as error:
         raise RobotDescriptionError(f"{path} is not UTF-8 text: {error.reason}.") from error
-
-
-def _expand(path: Path) -> str:
-    try:
-        import xacro  # pyright: ignore[reportMissingImports]
-    except ImportError as error:
-        raise RobotDescriptionError(
-            f"{path} needs xacro: install ros-$ROS_DISTRO-xacro and source ROS, or `pip install "
-            "xacro`, or expand it yourself with `xacro file.urdf.xacro > file.urdf`."
-        ) from error
-    try:
-        return xacro.process_file(str(path)).toxml()
-    except Exception as error:  # xacro evaluates Python, so anything may be raised
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise RobotDescriptionError(f"xacro cannot expand {path}: {reason}.") from error
+    except ValueError as error:
+        raise RobotDescriptionError(f"{str(path)!r} is not a usable path: {error}.") from error

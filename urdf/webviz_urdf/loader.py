@@ -53,8 +53,7 @@ def _load(
             progress(0, 1, "")
             return load_asset(request, resolver)
         if request.path:
-            path = Path(request.path).expanduser()
-            return load_file(path, resolver, progress, request.collisions, skip)
+            return load_file(_expanded(request.path), resolver, progress, request.collisions, skip)
         return load_robot(request.text, resolver, progress, request.collisions, skip)
     except RobotDescriptionError as error:
         return error
@@ -64,3 +63,10 @@ def _load(
         )
     except Exception:
         return RuntimeError(traceback.format_exc())
+
+
+def _expanded(path: str) -> Path:
+    try:
+        return Path(path).expanduser()
+    except (RuntimeError, ValueError) as error:  # no such user, a null byte
+        raise RobotDescriptionError(f"{path!r} is not a usable path: {error}.") from error

@@ -58,7 +58,7 @@ class RobotModel(Display):
         str,
         Prop(
             when=("description_source", "File"),
-            help="URDF or xacro file on the machine that runs webviz.",
+            help="URDF file on the machine that runs webviz; xacro files need WEBVIZ_XACRO=1.",
         ),
     ] = ""
     package_paths: Annotated[

@@ -45,7 +45,7 @@ def last_written(path: str, before: Written, ctx: Context) -> Written:
 def _written_ns(path: str) -> int:
     try:
         return _disk.within(DISK_S, lambda: Path(path).expanduser().stat().st_mtime_ns)
-    except (OSError, RuntimeError):  # no such file, no response, no such home
+    except (OSError, RuntimeError, ValueError):  # no such file, no response or home, a null byte
         return 0  # loading reports the cause
 
 
