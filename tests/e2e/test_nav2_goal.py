@@ -120,7 +120,7 @@ def test_a_goal_is_reached_or_aborted_with_nav2s_error_until_a_page_dismisses_it
     page: Page, pages: list[Page]
 ) -> None:
     drag(page, *WALL)
-    until(page, "Aborted (206): The goal is in an obstacle or in unknown space.")
+    until(page, "Aborted. Error 206: The goal is in an obstacle or in unknown space.")
     drag(page, NEAR, 0.0)
     for each in pages:
         until(each, f"x {NEAR:.2f} y 0.00 m Reached the goal.")

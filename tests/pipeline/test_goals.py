@@ -101,9 +101,8 @@ def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: R
 
 
 def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
-    bench: Callable[..., Any],
+    robot: Robot,
 ) -> None:
-    robot = Robot(bench(strict=False))
     goal = robot.drag()
     robot.accept(goal)
     for index in range(1000):
@@ -124,7 +123,7 @@ def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
         "Recoveries": "0",
     }
     assert robot.only().values == values
-    goal.feedback(b"no message")
+    feedback(goal, distance_remaining=3e38, estimated_time_remaining={"sec": 2**31 - 1})
     assert robot.only().values == values
     robot.bench.clock += SILENCE_S + 1.0
     status = robot.only().status
@@ -135,8 +134,8 @@ def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
     ("result", "expected"),
     [
         ({}, "/navigate_to_pose aborted the goal without a reason."),
-        ({"error_code": 208}, "Aborted: no valid path (208)."),
-        ({"error_code": 5, "error_msg": "No battery."}, "Aborted (5): No battery."),
+        ({"error_code": 208}, "Aborted. Error 208: no valid path."),
+        ({"error_code": 5, "error_msg": "No battery."}, "Aborted. Error 5: No battery."),
     ],
 )
 def test_an_aborted_goal_says_why_until_it_is_dismissed(
@@ -253,8 +252,98 @@ def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robo
     feedback(each, EACH, current_waypoint=1)
     assert robot.only().values == {"Waypoint": "2 of 2"}
     end(each, SUCCEEDED, EACH, missed_waypoints=[{"index": 1, "error_code": 206}])
-    text = "Missed waypoint 2: the goal is in an obstacle (206)."
+    text = "Succeeded. Missed waypoint 2: the goal is in an obstacle (206)."
     assert robot.outcome() == (Level.WARN, text)
+
+
+def test_a_goal_that_succeeded_is_not_called_aborted(robot: Robot) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    end(goal, SUCCEEDED, error_code=208)
+    assert robot.outcome() == (Level.WARN, "Succeeded. Error 208: no valid path.")
+
+
+def test_malformed_answers_end_a_goal_or_say_what_is_wrong_with_it(robot: Robot) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    goal.feedback(b"no message")
+    status = robot.only().status
+    assert status
+    assert status.text.startswith("The feedback of /navigate_to_pose cannot be read: ")
+    robot.bench.do(CancelGoal(robot.only().id))
+    goal.feedback(b"no message")
+    goal.cancels[-1].set_exception(ValueError("Malformed."))
+    goal.feedback(b"no message")
+    assert robot.only().status == Status(Level.WARN, "Malformed.")
+    goal.feedback(b"no message")
+    goal.result.set_result((SUCCEEDED, b"\0\1\0\0"))
+    level, text = robot.outcome()
+    assert level is Level.ERROR
+    assert text.startswith("The result of /navigate_to_pose cannot be read: ")
+    robot.bench.do(DismissGoal(robot.only().id))
+    robot.drag().accepted.set_exception(ValueError("Malformed."))
+    assert robot.shown() == []
+    assert robot.told[-1] == Status(Level.ERROR, "Malformed.")
+
+
+def test_replaced_goals_do_not_count_and_are_cancelled_if_the_server_does_not_end_them(
+    robot: Robot,
+) -> None:
+    goals = []
+    for _ in range(MAX_ACTIVE + 2):
+        goals.append(robot.drag())
+        robot.accept(goals[-1])
+    *replaced, last = goals
+    assert not any(goal.cancels for goal in goals)
+    robot.bench.clock += SILENCE_S + 0.1
+    for _ in range(3):
+        robot.shown()
+        for goal in replaced:  # one that refuses is not asked in every turn
+            if not goal.cancels[0].done():
+                goal.cancels[0].set_result(1)
+    assert [len(goal.cancels) for goal in goals] == [1] * len(replaced) + [0]
+    robot.bench.clock += SILENCE_S + 0.1
+    robot.shown()
+    assert all(goal.result.cancelled() for goal in replaced)
+    assert not last.result.cancelled()
+    assert robot.only().phase == "active"
+
+
+def test_cancelling_is_asked_again_of_a_server_that_was_started_again(robot: Robot) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    robot.bench.do(CancelGoal(robot.only().id))
+    for code in (0, 3):  # TERMINATED also says that it is being cancelled
+        goal.cancels[-1].set_result(code)
+        robot.shown()
+        robot.bench.clock += ANSWER_S + 0.1
+        assert robot.only().phase == "canceling"
+    assert len(goal.cancels) == 3
+    goal.cancels[-1].set_result(2)
+    robot.shown()
+    robot.bench.clock += ANSWER_S + 0.1
+    assert "does not know this goal any more" in robot.outcome()[1]
+    assert goal.result.cancelled()
+
+
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: int) -> None:
+    goal = robot.drag()
+    robot.accept(goal)
+    id = robot.only().id
+    robot.bench.do(CancelGoal(id))
+    goal.cancels[-1].set_result(code)
+    robot.bench.clock += SILENCE_S - 0.1
+    assert not robot.only().can_dismiss
+    assert "Cancel it first" in robot.bench.refused(DismissGoal(id))
+    robot.bench.clock += 0.2
+    shown = robot.only()
+    assert shown.can_dismiss
+    assert shown.status
+    assert ("does not end" if code == 0 else "refuses to cancel") in shown.status.text
+    robot.bench.do(DismissGoal(id))
+    assert robot.shown() == []
+    assert goal.result.cancelled()
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,8 @@ from std_srvs.srv import SetBool
 
 from webviz.data.messages import decode, encode, interfaces
 from webviz.edges.ros.node import RosSource
-from webviz.edges.ros.types import MessageTypeError, learn
+from webviz.edges.ros.types import MessageTypeError, learn, message_class
+from webviz.edges.ros.types.composing import composed_service
 from webviz.engine.sources import NotConnected, Outlet, ReadOnly
 
 STRING = "std_msgs/msg/String"
@@ -230,6 +231,74 @@ def test_a_goal_that_is_rejected_says_so(source: RosSource) -> None:
     assert goal.accepted.result(60.0) is False
     with pytest.raises(NotConnected, match="/count rejected the goal"):
         goal.result.result(30.0)
+
+
+FOLLOW = "nav2_msgs/action/FollowWaypoints"
+MALFORMED = b"\0\1\0\0"
+ACCEPTED = b"\0\1\0\0\1\0\0\0" + bytes(8)
+SUCCESS = b"\0\1\0\0\4\0\0\0"
+
+
+def offer(peer: Peer, action: str, answers: dict[str, bytes]) -> dict[str, int]:
+    """Offer an action that gives these answers, whatever they are; counts requests by service."""
+    interfaces.action(FOLLOW)
+    asked = dict.fromkeys(answers, 0)
+    for name, type, part in (
+        ("send_goal", f"{FOLLOW}_SendGoal", "send_goal"),
+        ("get_result", f"{FOLLOW}_GetResult", "get_result"),
+        ("cancel_goal", "action_msgs/srv/CancelGoal", "cancel_goal"),
+    ):
+        cls = composed_service(type)
+
+        def answer(_: Any, response: Any, part: str = part, cls: Any = cls) -> Any:
+            asked[part] += 1
+            return cls.Response(answers[part])
+
+        peer.node.create_service(cls, f"{action}/_action/{name}", answer)
+    feedback = message_class(f"{FOLLOW}_FeedbackMessage")
+    peer.node.create_publisher(feedback, f"{action}/_action/feedback", 1)
+    return asked
+
+
+def test_a_malformed_answer_to_a_goal_ends_it_and_cancels_what_may_have_started(
+    source: RosSource, peer: Peer
+) -> None:
+    answers = {"send_goal": MALFORMED, "get_result": MALFORMED, "cancel_goal": MALFORMED}
+    asked = offer(peer, "/liar", answers)
+    goal = source.graph.send_goal("/liar", FOLLOW, encode(f"{FOLLOW}_Goal"), lambda _: None)
+    until(lambda: goal.accepted.done() and asked["cancel_goal"], peer.turn)
+    for future in (goal.accepted, goal.result):
+        with pytest.raises(NotConnected, match=r"An answer of /liar cannot be read: .* Correct"):
+            future.result(0.0)
+
+
+@pytest.mark.parametrize("result", [MALFORMED, SUCCESS, SUCCESS + b"\1\2"])
+def test_a_truncated_result_ends_a_goal(source: RosSource, peer: Peer, result: bytes) -> None:
+    action = f"/truncated_{len(result)}"
+    answers = {"send_goal": ACCEPTED, "get_result": result, "cancel_goal": MALFORMED}
+    offer(peer, action, answers)
+    goal = source.graph.send_goal(action, FOLLOW, encode(f"{FOLLOW}_Goal"), lambda _: None)
+    until(goal.result.done, peer.turn)
+    assert goal.accepted.result(0.0)
+    with pytest.raises(NotConnected, match=f"An answer of {action} cannot be read"):
+        goal.result.result(0.0)
+
+
+def test_a_goal_that_is_no_longer_followed_frees_its_place(
+    source: RosSource, peer: Peer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.edges.ros.calls.MOST_CALLS", 2)
+    peer.node.create_service(SetBool, "/waiting", lambda _, response: response)
+    request = encode("std_srvs/srv/SetBool_Request")
+    first = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 60.0)
+    until(first.done, peer.turn)
+    for _ in range(5):  # the peer is not spun, so that none is answered
+        answer = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
+        assert answer.cancel()
+        assert source.graph.publish(Outlet("/lonely", STRING), encode(STRING)).result(30.0) == 0
+    pending = source.graph.call("/waiting", "std_srvs/srv/SetBool", request, 600.0)
+    until(pending.done, peer.turn)
+    assert pending.exception(0.0) is None
 
 
 def test_a_graph_that_only_reads_refuses_in_one_sentence() -> None:

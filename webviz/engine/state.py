@@ -224,6 +224,7 @@ class GoalProgress:
         phase: "sending" until the server accepts it, and "ended" with its outcome.
         status: what is to be said of it, None for nothing.
         values: what its feedback says, texts by label.
+        can_dismiss: whether pages may put it away, though the server has not ended it.
     """
 
     id: str
@@ -234,6 +235,7 @@ class GoalProgress:
     phase: Literal["sending", "active", "canceling", "ended"] = "sending"
     status: Status | None = None
     values: Mapping[str, str] = field(default_factory=dict)
+    can_dismiss: bool = False
 
 
 @dataclass(frozen=True)

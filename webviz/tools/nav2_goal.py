@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
@@ -35,6 +34,10 @@ ERRORS = {
     603: "a waypoint was missed",
 }
 """Error codes of Nav2 in words."""
+EARTH_M = 4e7
+"""Circumference of the earth; no robot drives farther."""
+FOREVER_S = 2**31 - 1
+"""The longest builtin_interfaces/Duration, which servers send for an unknown one."""
 
 
 class Nav2Goal(Tool):
@@ -115,7 +118,7 @@ def progress(feedback: Any) -> dict[str, str]:
     """What the feedback of NavigateToPose and NavigateThroughPoses says."""
     left = feedback.distance_remaining
     values = {
-        "Distance left": f"{left:.1f} m" if math.isfinite(left) else "unknown",
+        "Distance left": f"{left:.1f} m" if 0.0 <= left <= EARTH_M else "unknown",
         "Time left": _time(feedback.estimated_time_remaining),
         "Time taken": _time(feedback.navigation_time),
         "Recoveries": str(feedback.number_of_recoveries),
@@ -130,7 +133,7 @@ def at_waypoint(count: int, feedback: Any) -> dict[str, str]:
 
 
 def _time(duration: Any) -> str:
-    if duration.sec < 0:
+    if not 0 <= duration.sec < FOREVER_S:
         return "unknown"
     minutes, seconds = divmod(duration.sec, 60)
     hours, minutes = divmod(minutes, 60)
@@ -147,9 +150,10 @@ def _fault(result: Any) -> str:
         numbers += ", ..." if len(missed) > 10 else ""
         reasons = " and ".join(dict.fromkeys(_error(each.error_code) for each in missed[:10]))
         return f"Missed {'waypoint' if len(missed) == 1 else 'waypoints'} {numbers}: {reasons}."
+    code = result.error_code
     if result.error_msg:
-        return f"Aborted ({result.error_code}): {result.error_msg}"
-    return f"Aborted: {_error(result.error_code)}." if result.error_code else ""
+        return f"Error {code}: {result.error_msg}"
+    return f"Error {code}: {ERRORS.get(code, 'without a reason')}." if code else ""
 
 
 def _error(code: int) -> str:

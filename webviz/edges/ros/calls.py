@@ -102,9 +102,11 @@ class Calls:
 
     def close(self) -> None:
         """Fail everything that is pending."""
-        for call in self._calls:
-            call.answer.set_exception(NotConnected("The connection to ROS has ended."))
-        self._calls = []
+        ended = NotConnected("The connection to ROS has ended.")
+        calls, self._calls = self._calls, []
+        for call in calls:
+            if call.answer.set_running_or_notify_cancel():
+                call.answer.set_exception(ended)
 
     def _client(self, service: str, type: str) -> Client:
         if (service, type) not in self._clients:
@@ -115,25 +117,40 @@ class Calls:
 
     def _advance(self, call: _Call, now: float) -> bool:
         """Advance a call by one step; whether it has finished."""
+        if call.answer.cancelled():
+            self._forget(call)
+            return True
+        try:
+            cdr = self._response(call, now)
+        except Exception as error:  # rclpy and the type support raise many kinds
+            self._forget(call)
+            if call.answer.set_running_or_notify_cancel():
+                call.answer.set_exception(error)
+            return True
+        if cdr is not None and call.answer.set_running_or_notify_cancel():
+            call.answer.set_result(cdr)
+        return cdr is not None
+
+    def _response(self, call: _Call, now: float) -> bytes | None:
+        """The serialised response, None while it is awaited."""
         name = call.name
         is_ready = call.client.service_is_ready()
         if call.sent is None:
             if is_ready and call.may_send():
                 call.sent = call.client.call_async(call.request)
             elif now > call.give_up:
-                call.answer.set_exception(Missing(f"No node offers {name}."))
-                return True
-            return False
+                raise Missing(f"No node offers {name}.")
+            return None
         if call.sent.done():
-            call.answer.set_result(to_cdr(call.sent.result()))
-            return True
+            return to_cdr(call.sent.result())
         call.gone = None if is_ready else call.gone or now
-        error = None
         if call.gone is not None and now > call.gone + WAIT_S:
-            error = Missing(f"The node that offered {name} has ended.")
-        elif now > call.deadline:
-            error = NotConnected(f"{name} did not answer in time.")
-        if error is not None:
+            raise Missing(f"The node that offered {name} has ended.")
+        if now > call.deadline:
+            raise NotConnected(f"{name} did not answer in time.")
+        return None
+
+    def _forget(self, call: _Call) -> None:
+        """Expect no response any more."""
+        if call.sent is not None:
             call.client.remove_pending_request(call.sent)
-            call.answer.set_exception(error)
-        return error is not None

@@ -6,16 +6,18 @@ import logging
 import uuid
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, TypeVar
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
-from webviz.data.messages import decode, encode, interfaces
+from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.edges.ros.calls import WAIT_S, Calls
 from webviz.edges.ros.types import learn, message_class
 from webviz.engine.sources.graph import Goal, NotConnected
+
+T = TypeVar("T")
 
 log = logging.getLogger("webviz")
 
@@ -44,7 +46,7 @@ class Goals:
         self._feedback: dict[bytes, Callable[[bytes], object]] = {}
 
     def new(self, action: str) -> Goal:
-        """A goal that is not sent yet."""
+        """A goal that is not sent yet. Cancel its result to stop following it."""
         goal_id = uuid.uuid4().bytes
 
         def cancel() -> Future[int]:
@@ -52,9 +54,13 @@ class Goals:
             parts = interfaces.service(CANCEL)
             request = encode(parts.request, values)
             answer = self._call(f"{action}/_action/cancel_goal", CANCEL, request, WAIT_S)
-            return _then(answer, lambda cdr: int(decode(parts.response, cdr).return_code))
+            code: Future[int] = Future()
+            _then(answer, code, lambda cdr: int(_read(parts.response, cdr, action).return_code))
+            return code
 
-        return Goal(goal_id, Future(), Future(), cancel)
+        goal = Goal(goal_id, Future(), Future(), cancel)
+        goal.result.add_done_callback(lambda _: self._feedback.pop(goal_id, None))
+        return goal
 
     def send(
         self,
@@ -73,19 +79,22 @@ class Goals:
         self._feedback[sent.id] = feedback
         answer: Future[bytes] = Future()
 
-        def on_answer(answered: Future[bytes]) -> None:
-            if error := answered.exception():
-                self._feedback.pop(sent.id, None)
-                sent.result.set_exception(error)
-                sent.accepted.set_exception(error)
-                return
-            is_accepted = decode(f"{parts.send_goal}_Response", answered.result()).accepted
+        def take(cdr: bytes) -> bool:
+            try:
+                is_accepted = bool(_read(f"{parts.send_goal}_Response", cdr, action).accepted)
+            except NotConnected:
+                sent.cancel()  # the server may have accepted it
+                raise
             if is_accepted:
                 self._await(action, parts, sent)
             else:
-                self._feedback.pop(sent.id, None)
-                sent.result.set_exception(NotConnected(f"{action} rejected the goal."))
-            sent.accepted.set_result(bool(is_accepted))
+                _fail(sent.result, NotConnected(f"{action} rejected the goal."))
+            return is_accepted
+
+        def on_answer(answered: Future[bytes]) -> None:
+            _then(answered, sent.accepted, take)
+            if error := sent.accepted.exception():
+                _fail(sent.result, error)
 
         answer.add_done_callback(on_answer)
         self._calls.send(
@@ -100,17 +109,13 @@ class Goals:
     def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
         request = encode(f"{parts.get_result}_Request", {"goal_id": _id(sent.id)})
 
-        def on_result(answered: Future[bytes]) -> None:
-            self._feedback.pop(sent.id, None)
-            if error := answered.exception():
-                sent.result.set_exception(error)
-            else:
-                status = decode(f"{parts.get_result}_Response", answered.result()).status
-                sent.result.set_result((int(status), answered.result()))
+        def status(cdr: bytes) -> tuple[int, bytes]:
+            return int(_read(f"{parts.get_result}_Response", cdr, action).status), cdr
 
         forever = float("inf")
-        done = self._call(f"{action}/_action/get_result", parts.get_result, request, forever)
-        done.add_done_callback(on_result)
+        answer = self._call(f"{action}/_action/get_result", parts.get_result, request, forever)
+        sent.result.add_done_callback(lambda _: answer.cancel())
+        _then(answer, sent.result, status)
 
     def _subscribe(self, action: str, type: str) -> Subscription:
         """The subscription to the feedback of all goals of an action."""
@@ -132,18 +137,37 @@ class Goals:
         return self._subscriptions[topic]
 
 
-def _then(future: Future[bytes], read: Callable[[bytes], int]) -> Future[int]:
-    """A future of what `read` makes of the result of another one."""
-    then: Future[int] = Future()
+def _read(type: str, cdr: bytes, action: str) -> Any:
+    """A part of an answer of an action.
 
-    def finish(done: Future[bytes]) -> None:
+    Raises:
+        NotConnected: it is malformed.
+    """
+    try:
+        return decode(type, cdr)
+    except MessageError as error:
+        text = f"An answer of {action} cannot be read: {error} Correct the server."
+        raise NotConnected(text) from error
+
+
+def _then(answer: Future[bytes], then: Future[T], read: Callable[[bytes], T]) -> None:
+    """Settle a future, unless it is cancelled, with what `read` makes of an answer."""
+
+    def finish(answered: Future[bytes]) -> None:
+        if not then.set_running_or_notify_cancel():
+            return
         try:
-            then.set_result(read(done.result()))
+            then.set_result(read(answered.result()))
         except Exception as error:
             then.set_exception(error)
 
-    future.add_done_callback(finish)
-    return then
+    answer.add_done_callback(finish)
+
+
+def _fail(future: Future[Any], error: BaseException) -> None:
+    """Fail a future, unless it is cancelled."""
+    if future.set_running_or_notify_cancel():
+        future.set_exception(error)
 
 
 def _id(goal_id: bytes) -> dict[str, Any]:

@@ -53,7 +53,7 @@ class GoalsPart(Part):
         except ValueError as error:
             raise Error(f"{error}. Choose another action.") from error
         active = [goal for goal in self._goals.values() if goal.is_active]
-        if len(active) >= MAX_ACTIVE:
+        if sum(not goal.is_replaced for goal in active) >= MAX_ACTIVE:
             raise Error(f"{MAX_ACTIVE} goals are active. Cancel one first.")
         before = [goal for goal in active if goal.tool == tool]
         for goal in before:
@@ -109,6 +109,9 @@ class GoalsPart(Part):
         self._find(command.goal).cancel()
 
     def _dismiss(self, command: DismissGoal, sender: Sender) -> None:
-        if self._find(command.goal).is_active:
+        goal, now = self._find(command.goal), self.core.clock()
+        if goal.is_stuck(now):
+            goal.give_up(now)
+        if goal.is_active:
             raise Error("This goal is active. Cancel it first.")
         del self._goals[command.goal]

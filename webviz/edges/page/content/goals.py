@@ -38,6 +38,7 @@ def _goal(goal: GoalProgress) -> Mapping[str, Any]:
         "title": brief(goal.title),
         "label": brief(goal.label),
         "phase": goal.phase,
+        "can_dismiss": goal.phase == "ended" or goal.can_dismiss,
         "level": level_name(status.level) if status else "",
         "text": brief(status.text, MAX_STATUS) if status else "",
         "values": [[brief(label, MAX_VALUE), brief(text, MAX_VALUE)] for label, text in values],

@@ -71,7 +71,7 @@ function makeCard(id) {
       showValues(values, goal.values);
       const isEnded = goal.phase === "ended";
       for (const [part, isHidden] of [
-        [dismiss, !isEnded], [cancel, isEnded], [text, !text.textContent],
+        [dismiss, !goal.can_dismiss], [cancel, isEnded], [text, !text.textContent],
         [values, !goal.values.length],
       ]) {
         if (part.hidden !== isHidden) part.hidden = isHidden;
