@@ -200,7 +200,7 @@ def ignored(command: Command, sender: Sender) -> Future[str]:
     return Future()
 
 
-def unsteered(tool: str, browser: int, share: Velocity | None) -> HelmAnswer:
+def unsteered(tool: str, browser: int, share: Velocity, seen: float | None) -> HelmAnswer:
     """Leave a vehicle alone."""
     return HelmAnswer()
 

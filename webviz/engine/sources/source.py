@@ -34,7 +34,8 @@ def merged(wishes: Iterable[Mapping[str, Subscription]]) -> dict[str, Subscripti
     """All subscriptions by topic. The first decides on the type of a topic.
 
     A topic has one subscription. It follows the publishers if its readers do not agree on the QoS,
-    so that none of them misses messages for the choice of another.
+    so that none of them misses messages for the choice of another. Best effort meets all
+    publishers, so it holds beside readers that chose nothing.
     """
     wanted: dict[str, Subscription] = {}
     for wish in wishes:
@@ -52,7 +53,9 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
         return replace(first, asked=asked)
     topic, latched = first.topic, first.latched
     if other.topic.reliability != topic.reliability:
-        topic = msgspec.structs.replace(topic, reliability="auto")
+        chosen = {topic.reliability, other.topic.reliability}
+        reliability = "best_effort" if chosen == {"auto", "best_effort"} else "auto"
+        topic = msgspec.structs.replace(topic, reliability=reliability)
     if (other.latched, other.topic.durability) != (latched, topic.durability):
         topic, latched = msgspec.structs.replace(topic, durability="auto"), False
     return replace(first, topic=topic, latched=latched, asked=asked)
