@@ -1,0 +1,89 @@
+"""The panel Selector with a real server of Nav2's parameters, and one that comes late."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install webviz[ros]")
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+
+import webviz
+from webviz.edges.page.recorded_ui import RecordedUi
+from webviz.engine.commands import AddPanel, OpenPanels
+from webviz.panels import selector
+from webviz.panels.selector import Selector
+
+
+class Server:
+    """A node that spins in a thread, as Nav2's do."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self.node = Node("planner_server", context=self._context)
+        self.node.declare_parameter("planner_plugins", ["GridBased", "Smac"])
+        executor = SingleThreadedExecutor(context=self._context)
+        executor.add_node(self.node)
+        self._executor = executor
+        self._thread = threading.Thread(target=executor.spin, daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join(30)
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+
+@pytest.fixture
+def server(webviz_domain: int) -> Iterator[Server]:
+    server = Server(webviz_domain)
+    yield server
+    server.close()
+
+
+def until(condition: Callable[[], Any], what: str) -> None:
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline, f"not in time: {what}"
+        time.sleep(0.02)
+
+
+def test_a_behavior_tree_that_comes_later_gets_the_choice(
+    server: Server, webviz_domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(selector, "ASK_S", 0.2)
+    with webviz.Viewer(port=0, ros_args=[]) as viewer:
+        viewer.do(AddPanel("Selector"))
+        viewer.do(OpenPanels(frozenset({"Selector"})))
+        panel = next(tab.panel for tab in viewer.state.panels if isinstance(tab.panel, Selector))
+        ui = RecordedUi()
+
+        def send(command: Any, browser: int | None = None) -> None:
+            viewer.do(command)
+
+        panel.build(ui, send)
+        choice: Any = next(w for w in ui.widgets.values() if w.values.get("label") == "Planner")
+
+        def is_offered() -> bool:
+            panel.show(viewer.state)
+            return "Smac" in choice.values["options"]
+
+        until(is_offered, "the names of the plug-ins")
+        choice.use("Smac", None)
+        heard: list[Any] = []
+        qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        server.node.create_subscription(String, "/planner_selector", heard.append, qos)
+        until(lambda: heard, "the choice")
+        assert heard[0].data == "Smac"
