@@ -354,6 +354,17 @@ def test_policy_of_a_depth_cloud_is_that_of_its_images() -> None:
     assert one("Depth Map Topic: /depth", "DepthCloud").topic.reliability == "auto"
 
 
+def test_color_map_of_a_grid_map_in_ros_1_is_the_rainbow() -> None:
+    text = "Use ColorMap: false, Invert ColorMap: true"
+    config, report = opened(
+        f"- {{Class: grid_map_rviz_plugin/GridMap, {text}, ColorMap: default}}\n"
+        f"- {{Class: grid_map_rviz_plugin/GridMap, Name: Other, {text}, ColorMap: viridis}}\n"
+    )
+    grid: Any = config.displays[0]
+    assert (grid.use_rainbow, grid.invert_rainbow) == (False, True)
+    assert said(report) == "Other: ColorMap: unsupported; kept for export."
+
+
 def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
     config, report = opened(
         """\

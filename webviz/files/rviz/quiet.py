@@ -41,6 +41,7 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Alpha": (1,),
     "Marker Alpha": (1,),
     "Mesh Color": ("Color",),
+    "ColorMap": ("default",),  # the rainbow
     "Show Trail": (False,),
 }
 """By key: RViz's default values, which need no support."""

@@ -26,6 +26,8 @@ def _namespace(raw: Any) -> Any:
 RENAMED: Mapping[str, tuple[str, Callable[[Any], Any]]] = {
     "Robot Description": ("Description Topic", values.own_value),
     "Update Topic": ("Interactive Markers Namespace", _namespace),
+    "Use ColorMap": ("Use Rainbow", values.own_value),
+    "Invert ColorMap": ("Invert Rainbow", values.own_value),
     "X std deviation": ("Covariance x", _variance),
     "Y std deviation": ("Covariance y", _variance),
     "Theta std deviation": ("Covariance yaw", _variance),
