@@ -58,8 +58,13 @@ class Stuck(Access):
 
 @pytest.mark.parametrize("fails", [False, True])
 def test_a_token_expires_although_its_file_cannot_be_read(
-    tmp_path: Path, mounted: threading.Event, fails: bool, caplog: pytest.LogCaptureFixture
+    tmp_path: Path,
+    mounted: threading.Event,
+    fails: bool,
+    caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr("webviz.edges.access.access.MAX_MISSED", 1)
     clock = [datetime.now(UTC)]
     token = make("a", Role.WATCHER, clock[0], days=1.0)
     path = tmp_path / "tokens.json"

@@ -11,10 +11,13 @@ from pathlib import Path
 
 from tests.attack.attack import Attack, Case, Violation, random_of
 from tests.attack.bombs import Bombs
+from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
+from tests.attack.disks import Disks
 from tests.attack.files import Files
 from tests.attack.graphs import Graphs
 from tests.attack.http_requests import Requests
+from tests.attack.queues import Queues
 from tests.attack.report import Breach, Report
 from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
@@ -33,7 +36,7 @@ MOST_BREACHES = 20
 ROLES = (None, *Role)
 KINDS = (
     *(class_.kind for class_ in (Dds, Requests, Uploads, Files, Saving, Simulator)),
-    *(class_.kind for class_ in (Bombs, Graphs)),
+    *(class_.kind for class_ in (Bombs, Graphs, Disks, Crowds, Queues)),
     *map(kind_of, ROLES),
 )
 """Of attacks."""
@@ -80,7 +83,7 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
-    for class_ in (Files, Saving, Bombs):
+    for class_ in (Files, Saving, Bombs, Disks):
         own = folder / class_.kind
         own.mkdir()
         yield class_(own)
@@ -95,6 +98,8 @@ def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:
     yield Requests(target)
     yield Uploads(target)
     yield Simulator(target)
+    yield Crowds(target)
+    yield Queues(target)
 
 
 def _replay(attack: Attack, target: Target, report: Report) -> None:

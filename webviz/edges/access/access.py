@@ -25,6 +25,8 @@ log = logging.getLogger("webviz")
 
 CHECK_S = 1.0
 """Between two looks at the tokens: a revoked one counts so much longer at most."""
+MAX_MISSED = 5
+"""Looks in a row that the file does not respond to, upon which the log says so."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,7 @@ class Access:
         self._own = make("webviz", Role.WATCHER, now())
         self._others = (*others, self._own)
         self._disk = DiskThreads(1)
-        self._is_late = False
+        self._missed = 0
         # One object, as threads replace it.
         self._file = _stamp(path), self._index(token_file.read(path) if asks and path else ())
 
@@ -136,13 +138,13 @@ class Access:
         try:
             reading = self._disk.start(self.refresh)
         except OSError:
-            if not self._is_late:
+            self._missed += 1
+            if self._missed == MAX_MISSED:
                 log.warning(
                     "Revoked tokens stay valid: the disk of %s does not respond.", self.path
                 )
-            self._is_late = True
         else:
-            self._is_late = False
+            self._missed = 0
             reading.add_done_callback(lambda _: then())
 
     def _index(self, tokens: Tokens) -> TokenIndex:
