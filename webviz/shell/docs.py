@@ -75,6 +75,20 @@ def pages() -> dict[str, str]:
     }
 
 
+def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
+    """The names of the displays by what they are for.
+
+    Raises:
+        ValueError: a display is in no group or in two.
+    """
+    text = (PAGES / "groups.yaml").read_text(encoding="utf-8")
+    found = msgspec.convert(YAML(typ="safe", pure=True).load(text), dict[str, list[str]])
+    listed = [name for names in found.values() for name in names]
+    if wrong := {*types} ^ {*listed} or {name for name in listed if listed.count(name) > 1}:
+        raise ValueError(f"groups.yaml needs each display once: {', '.join(sorted(wrong))}")
+    return found
+
+
 def built_in(base: type[P]) -> dict[str, type[P]]:
     """The displays or tools that come with webviz, by name."""
     types = plugin_types(base)
@@ -135,13 +149,13 @@ def tools_page(types: Mapping[str, type[Tool]]) -> str:
 def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     """The overview, with links to the other pages."""
     lines = ["# The displays", ""]
-    rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(c)))) for n, c in types.items()]
-    lines += table(("display", "shows"), rows)
-    lines += ["", "There are [tools](tools.md), too, and panels and tools "]
-    lines[-1] += "[of your own](examples/README.md). [Commands, options, keys of the config, and "
-    lines[-1] += (
-        "environment variables](reference.md), and [the Python API](api.md), have pages, too."
-    )
+    for title, names in groups(types).items():
+        rows = [(f"[{n}]({page_name(n)})", next(iter(paragraphs(types[n])))) for n in names]
+        lines += [f"## {title}", "", *table(("display", "shows"), rows), ""]
+    lines += ["## More", "", "- [The tools](tools.md)"]
+    lines += ["- [Displays, tools and panels of your own](examples/README.md)"]
+    lines += ["- [Commands, keys of the config, environment variables](reference.md)"]
+    lines += ["- [The Python API](api.md)"]
     lines += ["", "Where something looks wrong on a robot:", ""]
     for path in sorted((PAGES / "stories").glob("*.md")):
         title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")

@@ -19,11 +19,13 @@ from webviz.files.rviz.docs import table
 from webviz.shell.cli.commands import app
 from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.pictures.browser import VARIABLE
+from webviz_urdf.expand import ALLOWED_BY
 
 COMMAND = "make docs"
 ENVIRONMENT = {
     VARIABLE: "Chromium or Chrome for pictures; otherwise one is searched for.",
     MESH_ROOT: "Folders of meshes besides ROS packages, separated by colons: `--mesh-root`.",
+    ALLOWED_BY: "`1` lets RobotModel expand xacro files, which can run any Python as this user.",
     **{
         f"WEBVIZ_TOKEN_{parameter.upper()}": f"Token of a link with the role {role_name(role)}."
         for parameter, role in LINKS.items()
