@@ -15,7 +15,7 @@ import websockets.exceptions
 from websockets.frames import Frame, Opcode
 
 from webviz.edges.scene import connections
-from webviz.edges.scene.connections import MAX_BROWSERS, Allowance
+from webviz.edges.scene.connections import MAX_BROWSERS, READ_BYTES, Allowance, Connection
 from webviz.edges.scene.crowding import network_of
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
@@ -160,6 +160,25 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
         for _ in range(1000):
             raw.sendall(flood)
         pytest.fail("the server took a million frames")
+
+
+def test_a_turn_of_the_event_loop_reads_little_from_each_browser(
+    call: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+    wait_until: Callable[[Callable[[], bool]], None],
+) -> None:
+    sizes: list[int] = []
+    receive = Connection.data_received
+
+    def count(self: Connection, data: bytes) -> None:
+        sizes.append(len(data))
+        receive(self, data)
+
+    monkeypatch.setattr(Connection, "data_received", count)
+    peer = call()
+    peer.send({"type": "Nothing", "filling": 100_000 * "x"})
+    wait_until(lambda: sum(sizes) > 100_000)
+    assert max(sizes) == READ_BYTES
 
 
 def test_a_message_that_is_too_large_is_dropped_and_one_without_bounds_ends_the_connection(
