@@ -41,9 +41,9 @@ class Path(Display):
 
     rviz = "rviz_default_plugins/Path"
 
-    topic: Annotated[Topic, Input("nav_msgs/msg/Path"), Prop(help="Topic of the paths.")] = Topic(
-        "/path"
-    )
+    topic: Annotated[
+        Topic, Input("nav_msgs/msg/Path", is_sporadic=True), Prop(help="Topic of the paths.")
+    ] = Topic("/path")
     line_style: Annotated[
         Literal["Lines", "Billboards"],
         Prop(help="Lines are one pixel wide, Billboards have a width in metres."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Annotated, Any
 
@@ -11,6 +12,8 @@ from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import Remedy
 from webviz.engine.commands import SetProperty
 from webviz.engine.sources import Offer, Publisher, Raw
+from webviz.shell.testing.messages import header
+from webviz_displays.path import Path
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -119,6 +122,37 @@ def test_silence_after_a_stream_and_a_publisher_that_left(bench: Callable[..., A
     level, text = b.statuses()["Topic"]
     assert level == "WARN"
     assert text == "No publisher on /pose any more, last message 5.1 s ago. Restart it."
+
+
+def test_a_plan_is_no_stream_and_a_burst_shows_no_rate(bench: Callable[..., Any]) -> None:
+    b = bench(Path(name="Path"), Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    for pause in (0.1, 0.1, 0.1, 0.1, 0.1, 60.0):
+        b.publish("/path", "nav_msgs/msg/Path", {"header": header("map", T)})
+        b.turn()
+        b.clock += pause
+        b.source.now += int(pause * SECOND)
+    assert b.statuses()["Topic"][0] == "OK"
+    for pause in (0.1, 0.1, 0.1, 60.0):
+        b.pose("/pose", "base", T)
+        b.turn()
+        b.clock += pause
+        b.source.now += int(pause * SECOND)
+    level, text = b.statuses(1)["Topic"]
+    assert (level, " Hz" in text) == ("OK", False)
+
+
+def test_messages_that_waited_together_have_the_rate_they_arrived_at(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T, static=True)
+    b.pose("/pose", "base", T)
+    cdr = b.source.inbox.drain()["/pose"][0].cdr
+    for number in range(31):  # at 3 Hz, for 10 s in which nobody took them
+        arrived_s = time.monotonic() - (30 - number) / 3
+        b.source.inbox.put("/pose", Raw(cdr, b.source.now, arrived_s))
+    assert "31 messages at 3.0 Hz" in b.statuses()["Topic"][1]
 
 
 def test_one_latched_message_is_not_silence(bench: Callable[..., Any]) -> None:

@@ -31,6 +31,8 @@ class Input:
         is_offered: whether the display can be added for a topic of this type.
         offered_for: ending of the names of the topics that it can be added for, such as
             "robot_description"; "" for all.
+        is_sporadic: whether messages come when something happens, such as a new plan: silence after
+            several is no problem.
     """
 
     type: str
@@ -44,6 +46,7 @@ class Input:
     is_plain: bool = False
     is_offered: bool = True
     offered_for: str = ""
+    is_sporadic: bool = False
 
     @property
     def follows(self) -> bool:

@@ -237,11 +237,15 @@ class Map(MapDisplay):
     rviz = "rviz_default_plugins/Map"
 
     topic: Annotated[
-        Topic, Input("nav_msgs/msg/OccupancyGrid"), Prop(help="Topic of the maps.")
+        Topic,
+        Input("nav_msgs/msg/OccupancyGrid", is_sporadic=True),
+        Prop(help="Topic of the maps."),
     ] = Topic("/map")
     update_topic: Annotated[
         Topic,
-        Input("map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True),
+        Input(
+            "map_msgs/msg/OccupancyGridUpdate", suffix="_updates", optional=True, is_sporadic=True
+        ),
         Prop(help="Topic of partial updates; empty means the map's topic + _updates."),
     ] = Topic()
 

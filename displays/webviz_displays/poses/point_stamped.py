@@ -21,7 +21,9 @@ class PointStamped(Display):
     rviz = "rviz_default_plugins/PointStamped"
 
     topic: Annotated[
-        Topic, Input("geometry_msgs/msg/PointStamped"), Prop(help="Topic of the points.")
+        Topic,
+        Input("geometry_msgs/msg/PointStamped", is_sporadic=True),
+        Prop(help="Topic of the points."),
     ] = Topic("/clicked_point")
     color: Annotated[Color, Prop(help="Colour of the spheres.")] = (204, 41, 204)
     alpha: Annotated[Alpha, Prop(help="Opacity; 0 is invisible.")] = 1.0

@@ -15,7 +15,9 @@ class Pose(PoseDisplay):
     rviz = "rviz_default_plugins/Pose"
 
     topic: Annotated[
-        Topic, Input("geometry_msgs/msg/PoseStamped"), Prop(help="Topic of the poses.")
+        Topic,
+        Input("geometry_msgs/msg/PoseStamped", is_sporadic=True),
+        Prop(help="Topic of the poses."),
     ] = Topic("/goal_pose")
 
     def pose_of(self) -> PoseOf:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import difflib
 import functools
+import itertools
+import time
 from collections import deque
 from collections.abc import Mapping, Sequence
 
@@ -14,6 +16,9 @@ from webviz.engine.sources import Offer, Publisher, Raw
 
 AUTOMATIC = {"reliability": "auto", "durability": "auto"}
 """Of a topic, whose other values stay."""
+
+FEWEST = 5
+"""Messages that show a rate; fewer may be a burst."""
 
 
 class Reception:
@@ -34,6 +39,7 @@ class Reception:
         self._path = path
         self.type = spec.types[0] if spec.types[0] != ANY else ""
         self._types = spec.types
+        self._is_sporadic = spec.is_sporadic
         self._reliability = topic.reliability
         self._durability = "transient_local" if spec.latched else topic.durability
         self._name = name
@@ -42,10 +48,10 @@ class Reception:
         self._others: tuple[Mapping[str, Offer], str] = {}, ""
 
     def note(self, raw: Raw, clock: float) -> None:
-        """Count a message."""
+        """Count a message, which may have waited since it arrived, such as while paused."""
         self.last = raw
         self.count += 1
-        self._times.append(clock)
+        self._times.append(clock - (time.monotonic() - raw.arrived_s))
 
     def reset(self) -> None:
         """Forget the times of messages, such as after a jump of time."""
@@ -93,7 +99,7 @@ class Reception:
         age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
         # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self.last.received_ns) / 1e9) if self.last else 0.0
-        if rate and silence > max(2.0, 5.0 / rate):
+        if rate and not self._is_sporadic and silence > max(2.0, 5.0 * self._longest_gap()):
             return Status(
                 Level.WARN,
                 f"No message for {age:.1f} s on {self._name}, previously at {rate:.1f} Hz; "
@@ -165,8 +171,12 @@ class Reception:
 
     def _rate(self) -> float:
         """Messages per second over the last ones, 0 if unknown."""
-        span = self._times[-1] - self._times[0] if len(self._times) > 2 else 0.0
+        span = self._times[-1] - self._times[0] if len(self._times) >= FEWEST else 0.0
         return (len(self._times) - 1) / span if span > 0 else 0.0
+
+    def _longest_gap(self) -> float:
+        """Seconds between two of the last messages."""
+        return max(after - before for before, after in itertools.pairwise(self._times))
 
 
 def _is_match(reliability: str, durability: str, publisher: Publisher) -> bool:
