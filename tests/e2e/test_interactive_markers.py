@@ -221,6 +221,24 @@ def test_boxes_are_moved_along_the_screen_and_turned_like_balls(
     assert (last.pose.position.x, last.pose.position.y) == (-3.0, 0.0)
 
 
+def test_a_marker_stays_where_its_server_leaves_it_drag_after_drag(
+    page: Page, viewer: webviz.Viewer, server: MarkerServer
+) -> None:
+    """The server sends back the very poses of the drag."""
+    for _ in range(3):
+        x, y, _ = pose(page, "simple_2")[0]
+        look_at(page, viewer, x, y)
+        server.feedback.clear()
+        drag(page, (x, y, 0.2), (x + 0.4, y - 0.3, 0.2))
+        wait_for(page, server, UP)
+        page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
+        at = server.markers["simple_2"].pose.position
+        assert (at.x, at.y) == pytest.approx((x + 0.4, y - 0.3), abs=0.02)
+        for _ in range(6):
+            page.draw()
+        assert pose(page, "simple_2")[0] == pytest.approx([at.x, at.y, at.z], abs=1e-4)
+
+
 def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
     page: Page, viewer: webviz.Viewer, server: MarkerServer
 ) -> None:

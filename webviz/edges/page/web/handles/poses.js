@@ -8,17 +8,19 @@ import { frameNode } from "./sight.js";
 import { about, compose, inverse, rotate, turnedBy } from "./vectors.js";
 
 const FACING = /\|m\d+\.(title|\d+v)$/;
-const AFTER_PLACING = -999; // viser places nodes at -1000
+const BEFORE_PLACING = -1000.5; // viser places nodes at -1000
+const AFTER_PLACING = -999;
 const SETTLE_FRAMES = 3; // for the server's own pose to arrive after a drag
 const X = [1, 0, 0];
 const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward, left and up
 
 const dragged = new Map(); // poses by id of the handle
-const placed = new WeakMap(); // by object, what viser has placed and what was put over it
+const covered = new Map(); // by path of a group, where viser has placed it under a drag
 let facing = [];
 let counted = -1;
 
 export function install() {
+  viser.eachFrame(BEFORE_PLACING, uncover);
   viser.eachFrame(AFTER_PLACING, place);
   viser.beforeRender(face);
 }
@@ -44,13 +46,21 @@ export function letGo(id) {
   viser.requestRender();
 }
 
+// Before viser places what is new: a pose of the server may equal that of the drag.
+function uncover() {
+  for (const [path, { object, base }] of covered) {
+    object.position.fromArray(base.position);
+    if (!isFacing(path)) turn(object, base.wxyz);
+  }
+  covered.clear();
+}
+
 function place() {
   for (const [id, each] of dragged) {
     const handle = known.all().get(id);
     const mine = handle?.holder === window.webviz.browser;
     if (each.frames !== null && !mine && each.frames-- <= 0) {
       dragged.delete(id);
-      for (const path of known.nodesOf(id).groups.values()) restore(viser.node(path));
     } else if (handle) {
       putOver(id, handle, each);
     }
@@ -70,10 +80,9 @@ function putOver(id, { frame, controls }, { control, pose, turned }) {
     const angle = number === control ? turned : own?.turned;
     const wxyz = own ? about(rotate(own.wxyz, X), angle) : pose.wxyz;
     const whole = compose(base, { position: pose.position, wxyz });
-    keep(object);
+    covered.set(path, { object, base: localOf(object) });
     object.position.fromArray(whole.position);
     if (!isFacing(path)) turn(object, whole.wxyz);
-    placed.get(object).over = localOf(object);
   }
 }
 
@@ -87,12 +96,11 @@ function face() {
   for (const path of facing) {
     const object = viser.node(path);
     if (!object?.parent) continue;
-    keep(object);
     const before = localOf(object);
     const camera = object.parent.matrixWorld.clone().invert().multiply(viser.camera().matrixWorld);
     const { w, x, y, z } = object.quaternion.clone().setFromRotationMatrix(camera);
     turn(object, turnedBy(turnedBy([w, x, y, z], FROM_CAMERA), about(X, turnedOf(path))));
-    const now = (placed.get(object).over = localOf(object));
+    const now = localOf(object);
     object.updateMatrixWorld(true);
     // Texts were placed before this, and follow in the next frame.
     if (!isNearly(before.wxyz, now.wxyz)) viser.requestRender();
@@ -114,23 +122,6 @@ function isFacing(path) {
   return node !== null && FACING.test(node.group);
 }
 
-// Notes what viser has placed; it does so only if there is something new.
-function keep(object) {
-  const now = localOf(object);
-  const known = placed.get(object);
-  if (!known || !same(known.over, now)) placed.set(object, { base: now, over: now });
-}
-
-function restore(object) {
-  const known = object && placed.get(object);
-  if (!known) return;
-  keep(object);
-  const { base } = placed.get(object);
-  object.position.fromArray(base.position);
-  turn(object, base.wxyz);
-  placed.delete(object);
-}
-
 const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
   position: position.toArray(), wxyz: [w, x, y, z],
 });
@@ -139,7 +130,4 @@ const inverted = ({ position, wxyz }) => {
   const back = inverse(wxyz);
   return { position: rotate(back, position.map((value) => -value)), wxyz: back };
 };
-const same = (a, b) =>
-  a.position.every((value, i) => value === b.position[i]) &&
-  a.wxyz.every((value, i) => value === b.wxyz[i]);
 const isNearly = (a, b) => Math.abs(a.reduce((sum, value, i) => sum + value * b[i], 0)) > 1 - 1e-9;
