@@ -14,6 +14,9 @@ def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
     known = buffer.frames()
     if fixed_frame in known:
         return Status(Level.OK, "OK")
+    if not known and buffer.recorded:
+        text = f"No transforms yet, so {fixed_frame} is unknown: {buffer.recorded}."
+        return Status(Level.WARN, text)
     if not known:
         return Status(
             Level.WARN,

@@ -264,11 +264,9 @@ class RobotModel(Display):
             return self._request_file(self.description_file, ctx)
         if samples and (text := samples[-1].message.description) is not None:
             return LoadRequest(text=text, package_paths=paths)
-        ctx.warn(
-            "URDF",
-            f"No robot description received on {self.description_topic.name}. "
-            "Start robot_state_publisher.",
-        )
+        text = f"No robot description received on {self.description_topic.name}"
+        remedy = "" if ctx.frames.buffer.recorded else " Start robot_state_publisher."
+        ctx.warn("URDF", f"{text}.{remedy}")
         return None
 
     def _request_file(self, path: str, ctx: Context) -> LoadRequest | None:

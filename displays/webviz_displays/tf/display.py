@@ -149,10 +149,9 @@ class TF(Display):
             return
         poses = ctx.frames.all()
         if not poses.names:
-            ctx.warn(
-                "Frames",
-                "No transforms received on /tf or /tf_static. Start robot_state_publisher.",
-            )
+            recorded = ctx.frames.buffer.recorded
+            text = "No transforms received on /tf or /tf_static. Start robot_state_publisher."
+            ctx.warn("Frames", f"No transforms yet: {recorded}." if recorded else text)
             return
         known = self._known(ctx, poses.names)
         ages = state.ages.update(poses.stamps_ns, now_ns)

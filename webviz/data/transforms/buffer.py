@@ -44,6 +44,8 @@ class TransformBuffer:
 
     Attributes:
         nodes: the node of each authority, if known; sentences name it.
+        recorded: when the first transforms of a bag come, such as "the bag's first is at 0.8 s"; ""
+            for live ones.
         version: changes whenever something is stored or cleared.
         structure_version: changes when a frame, a parent, a static pose or the kind of a frame
             changes: results that depend only on the tree's shape can be cached until then.
@@ -52,6 +54,7 @@ class TransformBuffer:
     def __init__(self, cache_time_ns: int = 10 * NS_PER_S) -> None:
         self.cache_time_ns = cache_time_ns
         self.nodes: Mapping[str, str] = {}
+        self.recorded = ""
         self.version = 0
         self.structure_version = 0
         self._tree = FrameTree()

@@ -64,6 +64,11 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
                 f'use "{name.lstrip("/")}".',
             )
     names = buffer.tree.names
+    if not names and buffer.recorded:
+        return Explanation(
+            Kind.NO_TRANSFORMS,
+            f'No transforms yet, so "{frame}" has no pose in "{fixed_frame}": {buffer.recorded}.',
+        )
     if not names:
         return Explanation(
             Kind.NO_TRANSFORMS,
@@ -76,7 +81,10 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
         return Explanation(Kind.UNKNOWN_FIXED_FRAME, sentence)
     if frame not in names:
         text = f'Frame "{frame}" does not exist'
-        if near := _nearest(buffer, frame):
+        near = _nearest(buffer, frame)
+        if not near and buffer.recorded:
+            sentence = f"{text}: no transform to it comes in the bag until this time."
+        elif near:
             sentence = f'{text}. Did you mean "{near}"? Fix the frame_id of the data.'
         else:
             sentence = (

@@ -220,6 +220,9 @@ class Intake:
                 remedy = Remedy(f"{self.path}.filter_size", size, label)
             return Status(Level.ERROR, waiting.sentence, remedy)
         if not self._placed_at:
+            # In a bag nothing arrives while its time stands still.
+            if waiting and frames.buffer.recorded:
+                return Status(Level.WARN, waiting.sentence)
             return None
         if self._late_s > LATE_S and clock - self._placed_at < PATIENCE_S:
             text = (

@@ -84,6 +84,10 @@ class TransformListener:
         if offers is not self._offers:  # else nothing has changed
             self._offers = offers
             self._publishers = {topic: _nodes(offers, topic) for topic in self._topics}
+            begins = [offers[topic].begins for topic in self._topics if topic in offers]
+            is_recorded = any(offer.is_recorded for offer in offers.values())
+            none = "the bag has none" if is_recorded else ""
+            self._buffer.recorded = next((b for b in begins if b and b != none), none)
             self._buffer.nodes = {
                 topic: nodes[0] for topic, nodes in self._publishers.items() if len(nodes) == 1
             }

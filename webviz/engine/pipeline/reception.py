@@ -95,7 +95,8 @@ class Reception:
             sorted({f"{p.label} ({_words(p.reliability, p.durability)})" for p in matching})
         )
         if not self.count:
-            return Status(Level.WARN, f"No message yet on {self._name} from {who}.")
+            when = f": {offer.begins}" if offer and offer.begins else f" from {who}"
+            return Status(Level.WARN, f"No message yet on {self._name}{when}.")
         age, rate = clock - self._times[-1] if self._times else 0.0, self._rate()
         # While simulated time is paused, silence is not a problem.
         silence = min(age, (now_ns - self.last.received_ns) / 1e9) if self.last else 0.0
@@ -123,6 +124,8 @@ class Reception:
             f"No publisher on {self._name}. Start the node that publishes it or choose another "
             "topic."
         )
+        if any(offer.is_recorded for offer in offers.values()):
+            text = f"The bag has no topic {self._name}. Choose another topic."
         return Status(Level.WARN, text)
 
     def _choose(self, topic: str) -> Remedy:

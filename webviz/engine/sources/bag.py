@@ -59,6 +59,7 @@ class BagSource:
         self._position_ns = self._file.start_ns - 1
         self._wanted: dict[str, Subscription] = {}
         self._problems: dict[str, str] = {}
+        self._begins: dict[str, str] = {}
         self._offers = self._all_offers()
         self._next: Recorded | None = None
         self._upcoming: Iterator[Recorded] = iter(())
@@ -132,6 +133,7 @@ class BagSource:
         for topic in fresh.keys() - before.keys():
             self.inbox.open(topic, INBOX_LIMIT)
         self._learn(fresh)
+        self._begins |= {topic: self._beginning(topic) for topic in fresh}
         for topic, wish in fresh.items():
             self._repeat(topic, wish)
         if _types(before) != _types(self._wanted):
@@ -144,8 +146,8 @@ class BagSource:
         return self._offers
 
     def now_ns(self) -> int:
-        """ROS time at the position in the bag."""
-        return self._time.at(self._position_ns)
+        """ROS time at the position in the bag; it is known also where it is 0 or less."""
+        return max(self._time.at(self._position_ns), 1)
 
     def clock_messages(self) -> int | None:
         """Time comes from the bag; its /clock is not counted."""
@@ -246,7 +248,19 @@ class BagSource:
         matching = [p for p in publishers if wish and p.type == wish.type]
         if wish is None or not matching:
             return Offer(publishers, None, problem, is_recorded=True)
-        return Offer(publishers, _weakest(matching), problem, wish.type, is_recorded=True)
+        begins = self._begins.get(topic, "")
+        qos = _weakest(matching)
+        return Offer(publishers, qos, problem, wish.type, is_recorded=True, begins=begins)
+
+    def _beginning(self, topic: str) -> str:
+        """When a topic begins, in words."""
+        if any(extra.topic == topic for extra in self._extras):
+            return ""
+        channels = [channel for channel in self._channels() if channel.topic == topic]
+        first = next(self._file.messages(channels, self._file.start_ns), None)
+        if first is None:
+            return "the bag has none"
+        return f"the bag's first is at {(first.stamp_ns - self.start_ns) / 1e9:.1f} s"
 
 
 def _is_new(wish: Subscription, before: Subscription | None) -> bool:

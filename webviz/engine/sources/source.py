@@ -93,6 +93,8 @@ class Offer:
         type: of our subscription, "" without one; a topic can be read as one type only.
         subscribers: their number, webviz included; None if unknown.
         is_recorded: whether it is of a bag, whose messages match any QoS.
+        begins: when the first message of a bag comes, such as "the bag's first is at 0.8 s"; "" for
+            live topics.
     """
 
     publishers: tuple[Publisher, ...]
@@ -101,6 +103,7 @@ class Offer:
     type: str = ""
     subscribers: int | None = None
     is_recorded: bool = False
+    begins: str = ""
 
 
 class Source(Protocol):

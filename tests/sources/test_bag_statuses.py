@@ -1,0 +1,89 @@
+"""A bag before its first messages: when they come, instead of which nodes to start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bags import Bag, ns
+
+from webviz.engine.loop import FrameLoop
+from webviz.engine.sources.bag import BagSource
+from webviz.files.opening import parse
+from webviz.shell.testing.recording import RecordingScene
+
+CONFIG = """\
+fixed_frame: map
+displays:
+- {type: TF}
+- {type: Odometry}
+- {type: LaserScan}
+- {type: RobotModel}
+"""
+
+
+def texts(path: Path, to_s: float) -> list[str]:
+    """All statuses that are not OK, after some seconds of a bag."""
+    source, scene = BagSource(path), RecordingScene()
+    loop = FrameLoop(
+        parse(CONFIG, "the config"), source, scene, clock=lambda: source.position_ns / 1e9
+    )
+    scene.watched = True
+    loop.turn()
+    until_ns = source.start_ns + ns(to_s)
+    while source.position_ns < until_ns:
+        source.play_step(until_ns)
+        loop.turn()
+    loop.turn()
+    state = loop.state()
+    found = [*state.statuses.values()]
+    found += [status for row in state.rows for status in row.statuses.values()]
+    loop.close()
+    source.close()
+    return [status.text for status in found if status.level.name != "OK"]
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    bag = Bag()
+    bag.add("/words", "std_msgs/msg/String")
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    bag.put(0, "/words", {"data": "first"})
+    bag.put(1.25, "/odom", {"header": {"frame_id": "map"}})
+    bag.transform(0.75, "map", "base")
+    return bag.write(tmp_path / "bag")
+
+
+def test_before_its_first_messages_a_bag_says_when_they_come(path):
+    found = texts(path, 0.0)
+    assert "No transforms yet, so map is unknown: the bag's first is at 0.8 s." in found
+    assert "No transforms yet: the bag's first is at 0.8 s." in found
+    assert "No message yet on /odom: the bag's first is at 1.2 s." in found
+    assert "The bag has no topic /scan. Choose another topic." in found
+    assert "No robot description received on /robot_description." in found
+    assert not [text for text in found if "Start" in text]
+
+
+def test_later_nothing_of_that_is_left(path):
+    assert not [text for text in texts(path, 1.3) if "yet" in text]
+
+
+def test_a_bag_without_transforms_says_so(tmp_path):
+    bag = Bag()
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    bag.add("/tf", "tf2_msgs/msg/TFMessage")
+    pose = {"pose": {"orientation": {"w": 1.0}}}
+    bag.put(0, "/odom", {"header": {"frame_id": "odom"}, "pose": pose})
+    found = texts(bag.write(tmp_path / "bag"), 0.0)
+    assert "No transforms yet, so map is unknown: the bag has none." in found
+    assert 'No transforms yet, so "odom" has no pose in "map": the bag has none.' in found
+
+
+@pytest.mark.parametrize("start_ns", [0, 1])
+def test_a_bag_whose_time_begins_at_zero_needs_no_clock(tmp_path, monkeypatch, start_ns):
+    monkeypatch.setattr("bags.START_NS", start_ns)
+    bag = Bag()
+    bag.add("/words", "std_msgs/msg/String")
+    bag.put(0, "/words", {"data": "first"})
+    path = bag.write(tmp_path / "bag")
+    assert not [text for text in texts(path, 0.0) if "/clock" in text or "use_sim_time" in text]
