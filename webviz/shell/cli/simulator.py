@@ -12,6 +12,8 @@ from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop
 from webviz.shell.ros_source import NO_ROS
 
+RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+
 SPARE_S = 0.5
 """Time that the program keeps for itself when the simulator has to be killed."""
 
@@ -29,7 +31,12 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
     if importlib.util.find_spec("rclpy") is None:
         raise Error(NO_ROS.format(version=sys.version.split()[0]))
     # Keep the demo on this machine unless the environment says otherwise.
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    if os.environ.setdefault(RANGE, "LOCALHOST") == "LOCALHOST":
+        print(
+            "webviz: only ROS nodes of this machine with the same DDS see the demo; "
+            f"{RANGE}=SUBNET shows it to all others",
+            flush=True,
+        )
     command = [sys.executable, "-m", "webviz_sim", "--until-stdin-closes", *ros]
     simulator = subprocess.Popen(command, stdin=subprocess.PIPE, process_group=0)
     stop.then(simulator.terminate)
