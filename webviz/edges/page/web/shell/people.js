@@ -26,6 +26,8 @@ export async function openPeople() {
   const known = { people: new Map(), addresses: new Map(), journal: new Map(), links: new Map() };
   const here = el("tbody");
   const links = el("tbody");
+  const allLinks = el("div", { hidden: true }, el("h3", {}, "Links"),
+    el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)));
   const done = el("tbody");
   const rows = new Map(); // which stay, so that their buttons can be used while texts change
   const show = () => {
@@ -45,7 +47,10 @@ export async function openPeople() {
     }
     done.replaceChildren(...(known.journal.get("entries") ?? []).map(entryRow));
   };
-  const showLinks = () => links.replaceChildren(...[...known.links].map(linkRow));
+  const showLinks = () => {
+    links.replaceChildren(...[...known.links].map(linkRow));
+    allLinks.hidden = known.links.size === 0; // as of a viewer that asks for none
+  };
   const stores = isOwner ? ["people", "addresses", "journal", "links"] : ["people"];
   const ends = stores.map((name) => watch(name, (values) => {
     known[name] = values;
@@ -60,8 +65,7 @@ export async function openPeople() {
       table("Connected", columns, here),
       ...(isOwner ? [
         el("h3", {}, "Invite"), invitation(tell),
-        el("h3", {}, "Links"),
-        el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)),
+        allLinks,
         el("h3", {}, "Log"),
         el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
       ] : [el("p", { class: "wv-quiet" }, why("Invite"))]),
@@ -115,10 +119,11 @@ const isSure = (name) =>
     { title: "Revoke link", confirm: "Revoke", danger: true });
 
 function linkRow([name, { role, expires_s }]) {
-  const row = cells(name, role, expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString());
+  const isOwn = name === self().name;
+  const row = cells(isOwn ? `${name} (you)` : name, role, expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString());
   const onclick = async () => await isSure(name) && revoke(name);
   const button = el("button", { type: "button", class: "wv-button", "data-tip": CLOSES_ALL, onclick }, "Revoke link");
-  row.append(el("td", {}, name === self().name ? null : button));
+  row.append(el("td", {}, isOwn ? null : button));
   return row;
 }
 
