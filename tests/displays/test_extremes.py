@@ -33,6 +33,7 @@ from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
+from webviz_displays.map_graph import MapGraph
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import OccupancyGrid, OccupancyMap
@@ -136,6 +137,7 @@ DISPLAYS: list[Callable[[], Display]] = [
     GridMap,
     ImagePlane,
     lambda: GridMap(height_transformer="Flat", color_transformer="ColorLayer"),
+    MapGraph,
     NvbloxMesh,
     NvbloxVoxelBlockLayer,
     lambda: VoxelGrid(show_unknown=True, show_free=True),

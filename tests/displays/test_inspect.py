@@ -14,7 +14,7 @@ import PIL.Image
 import pytest
 from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud
 from grid_maps import GRID_MAP, grid_map
-from mapping_scenes import COSTMAP, FIELD, IMU, MESH, VOXEL_GRID, VOXELS, hill
+from mapping_scenes import COSTMAP, FIELD, GRAPH, IMU, MESH, VOXEL_GRID, VOXELS, hill
 from moveit_scenes import moveit
 from octrees import OCTOMAP
 from robot_arm import ARM, describe, place_arm
@@ -31,6 +31,7 @@ from webviz_displays.image_plane import ImagePlane
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Costmap, Map
+from webviz_displays.map_graph import MapGraph
 from webviz_displays.markers import MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
@@ -307,6 +308,10 @@ def voxel_of_a_costmap(bench: Benches) -> Details:
     return one_of(bench, VoxelGrid(), "nav2_msgs/msg/VoxelGrid", VOXEL_GRID, "marked", 1)
 
 
+def link_of_a_graph(bench: Benches) -> Details:
+    return one_of(bench, MapGraph(), "rtabmap_msgs/msg/MapGraph", GRAPH, "links", 3)
+
+
 def voxel_of_nvblox(bench: Benches) -> Details:
     type_name = "nvblox_msgs/msg/VoxelBlockLayer"
     return one_of(bench, NvbloxVoxelBlockLayer(), type_name, VOXELS, "region 0 0 0", 1)
@@ -520,6 +525,7 @@ CASES: dict[Callable[[Benches], Details], tuple[str, Mapping[str, Any]]] = {
         "Cell 0, 3", {"elevation": "0.5", "variance": "0.25", "Size of a cell": "0.5 m"}
     ),
     voxel_of_a_costmap: ("Voxel 0, 0, 1", {"State": "marked"}),
+    link_of_a_graph: ("Link 1 to 3", {"Type": "2, local loop closure"}),
     voxel_of_nvblox: ("Voxel", {"Edge": "0.1 m"}),
     surface_of_nvblox: ("Mesh", {}),
     cell_of_a_costmap: ("Cell 1, 1", {"Value": "254, lethal"}),

@@ -18,6 +18,7 @@ from webviz_displays.areas import GridCells, Polygon
 from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.map import Costmap
+from webviz_displays.map_graph import MapGraph
 from webviz_displays.markers import Marker, MarkerArray
 from webviz_displays.moveit import PlanningScene, RobotState, Trajectory
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
@@ -47,7 +48,7 @@ CLASSES: tuple[type[Display], ...] = (
     *(FluidPressure, Illuminance, PointCloud, Range, RelativeHumidity, Temperature),
     *(AccelStamped, Effort, TwistStamped, Wrench),
     *(OccupancyGrid, OccupancyMap, GridMap, VoxelGrid, Costmap, Imu, Mag),
-    *(NvbloxMesh, NvbloxVoxelBlockLayer),
+    *(MapGraph, NvbloxMesh, NvbloxVoxelBlockLayer),
 )
 MESSAGES = PLAIN_MESSAGES | MAPPING_MESSAGES
 

@@ -22,6 +22,7 @@ from webviz_displays.grid_map import GridMap
 from webviz_displays.imu import Imu, Mag
 from webviz_displays.imu.imu import AccelerationSettings, BoxSettings
 from webviz_displays.map import Costmap
+from webviz_displays.map_graph import MapGraph
 from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 from webviz_displays.octomap import (
     ColorOccupancyGrid,
@@ -148,6 +149,19 @@ def obstacles() -> Values:
     }
 
 
+def loop() -> Values:
+    """A drive that comes back to where it began, and two loop closures."""
+    turns = [math.tau * number / 24 for number in range(25)]
+    poses = [pose(0.9 * math.cos(a), 0.7 * math.sin(2 * a), 0.1 * a) for a in turns]
+    links = [(number, number + 1, 0) for number in range(24)]
+    links += [(0, 24, 1), (6, 18, 2), (3, 9, 4)]
+    return {
+        "poses_id": range(25),
+        "poses": poses,
+        "links": [{"from_id": a, "to_id": b, "type": type_} for a, b, type_ in links],
+    }
+
+
 def reconstructed() -> tuple[Values, Values]:
     """The hill as a mesh and as voxels of nvblox, in blocks of 0.4 m."""
     indices, meshes, voxels = [], [], []
@@ -239,6 +253,7 @@ CASES = [
     Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
     Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
     Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
+    Case("map_graph", MapGraph(), (loop(),)),
     Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
     Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),
     Case("costmap", Costmap(), (inflated(),)),

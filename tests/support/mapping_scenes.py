@@ -68,6 +68,19 @@ VOXELS = {
     "blocks": [{"centers": each["vertices"], "colors": each["colors"]} for each in MESH["blocks"]],
 }
 """Voxels at the corners of these triangles."""
+GRAPH = {
+    "poses_id": [1, 2, 3, -1],
+    "poses": [
+        {"position": {"x": float(x), "y": float(y)}} for x, y in ((0, 0), (1, 0), (1, 1), (2, 2))
+    ],
+    "links": [
+        {"from_id": a, "to_id": b, "type": type_}
+        for a, b, type_ in (
+            *((1, 2, 0), (2, 3, 6), (3, 1, 1), (1, 3, 2), (3, 2, 4), (2, 1, 5), (3, -1, 8)),
+        )
+    ],
+}
+"""A graph with a link of each colour."""
 IMU = {"orientation": {"z": 0.6, "w": 0.8}, "linear_acceleration": {"x": 1.0, "z": 9.0}}
 FIELD = {"magnetic_field": {"x": 2e-5, "y": 1e-5, "z": -4e-5}}
 
@@ -108,6 +121,7 @@ MAPPING_SCENES: dict[str, Callable[[Any], None]] = {
     "OccupancyMapStamped": seen_from_above,
     "GridMap": in_moving_frame(GRID_MAP, terrain(), terrain()),
     "VoxelGrid": in_moving_frame("nav2_msgs/msg/VoxelGrid", VOXEL_GRID),
+    "MapGraph": in_moving_frame("rtabmap_msgs/msg/MapGraph", GRAPH),
     "NvbloxMesh": in_moving_frame("nvblox_msgs/msg/Mesh", MESH),
     "NvbloxVoxelBlockLayer": in_moving_frame("nvblox_msgs/msg/VoxelBlockLayer", VOXELS),
     "Costmap": costmaps,
@@ -119,6 +133,7 @@ MAPPING_MESSAGES: dict[str, dict[str, Any]] = {
     OCTOMAP: hill("OcTree"),
     GRID_MAP: terrain(),
     "nav2_msgs/msg/VoxelGrid": VOXEL_GRID,
+    "rtabmap_msgs/msg/MapGraph": GRAPH,
     "nvblox_msgs/msg/Mesh": MESH,
     "nvblox_msgs/msg/VoxelBlockLayer": VOXELS,
     "nav2_msgs/msg/Costmap": COSTMAP,

@@ -1,7 +1,7 @@
 """Definitions of common messages that rosbags does not include.
 
 Field names and types are those of navigation_msgs, navigation2, octomap_msgs, grid_map,
-moveit_msgs, nvblox_msgs, object_recognition_msgs, vision_msgs, foxglove_msgs and
+moveit_msgs, nvblox_msgs, rtabmap_msgs, object_recognition_msgs, vision_msgs, foxglove_msgs and
 ffmpeg_image_transport_msgs in ROS 2 Jazzy, in the order of the wire.
 """
 
@@ -68,6 +68,18 @@ DEFINITIONS = {
     "nav2_msgs/msg/ParticleCloud": """
         std_msgs/Header header
         nav2_msgs/Particle[] particles""",
+    "rtabmap_msgs/msg/Link": """
+        int32 from_id
+        int32 to_id
+        int32 type
+        geometry_msgs/Transform transform
+        float64[36] information""",
+    "rtabmap_msgs/msg/MapGraph": """
+        std_msgs/Header header
+        geometry_msgs/Transform map_to_odom
+        int32[] poses_id
+        geometry_msgs/Pose[] poses
+        rtabmap_msgs/Link[] links""",
     "nvblox_msgs/msg/Index3D": """
         int32 x
         int32 y

@@ -1,0 +1,71 @@
+"""The display of RTAB-Map's graph."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from mapping_scenes import GRAPH
+
+from webviz_displays.map_graph import MapGraph
+
+TYPE = "rtabmap_msgs/msg/MapGraph"
+
+
+@pytest.fixture
+def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
+    """A bench that has drawn a graph in the frame odom, 10 m along x."""
+
+    def make(values: dict[str, Any], **properties: Any) -> Any:
+        made = bench(MapGraph(**properties))
+        made.transform("map", "odom", (10.0, 0.0, 0.0))
+        made.send(TYPE, values, frame="odom")
+        made.turn()
+        return made
+
+    return make
+
+
+def test_links_have_the_colours_of_their_types(shown: Callable) -> None:
+    at = shown(GRAPH)
+    np.testing.assert_allclose(at.xyz("links")[0], [(10, 0, 0), (11, 0, 0)], atol=1e-6)
+    display = MapGraph()
+    expected = [
+        *(display.neighbor, display.merged_neighbor, display.global_loop_closure),
+        *(display.local_loop_closure, display.user, display.virtual, display.landmark),
+    ]
+    assert at.nodes()["links"].colors[:, 0].tolist() == list(map(list, expected))
+    assert at.statuses()["Graph"] == ("OK", "4 poses, 7 links.")
+
+
+@pytest.mark.parametrize(
+    ("change", "level", "sentence"),
+    [
+        ({"poses_id": [1, 2, 3]}, "ERROR", "4 poses for 3 ids. Fix the publisher."),
+        (
+            {"poses_id": [1, 2, 3, 9]},
+            "WARN",
+            "4 poses, 6 links; 1 left out: their poses are missing or invalid.",
+        ),
+        (
+            {"links": []},
+            "WARN",
+            "4 poses, 0 links: nothing to draw. Wait until the robot has moved.",
+        ),
+    ],
+)
+def test_what_is_not_drawn_is_said(
+    change: dict[str, Any], level: str, sentence: str, shown: Callable
+) -> None:
+    at = shown(GRAPH | change)
+    assert at.statuses()["Graph"] == (level, sentence)
+
+
+def test_alpha_0_hides_and_types_of_later_versions_are_drawn(shown: Callable) -> None:
+    at = shown({**GRAPH, "links": [{"from_id": 1, "to_id": 2, "type": 99}]})
+    assert at.nodes()["links"].colors[0, 0].tolist() == [255, 0, 0]
+    at.set("alpha", 0.0)
+    assert at.nodes() == {}
+    assert "alpha is 0" in at.statuses()["Graph"][1]
