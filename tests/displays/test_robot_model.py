@@ -3,9 +3,11 @@
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
-from types import FrameType
+from types import FrameType, SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,8 +18,10 @@ from robots import link_poses
 
 import webviz
 import webviz_urdf
+from webviz.data.disk import MAX_THREADS, within
 from webviz.engine.pipeline.background import Workers
 from webviz_displays.robot_model import RobotModel
+from webviz_displays.robot_model import loading as disk_of_robots
 from webviz_urdf import Loading, LoadingStopped, LoadRequest
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo" / "robot.urdf"
@@ -237,6 +241,23 @@ def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(bench, tmp_path)
     assert not [key for key in at.statuses() if key.startswith("Topic")]
     at.set("description_source", "Topic")
     assert set(at.runner.subscriptions()) == {"/robot_description"}
+
+
+def test_description_files_that_never_respond_leave_the_disk_to_others(monkeypatch) -> None:
+    """Such as 40 on a dead network mount: configs are saved all the same."""
+    mounted = threading.Event()
+
+    dead = SimpleNamespace(expanduser=lambda: SimpleNamespace(stat=mounted.wait))
+    monkeypatch.setattr(disk_of_robots, "Path", lambda _: dead)
+    monkeypatch.setattr(disk_of_robots, "DISK_S", 0.001)
+    ctx: Any = SimpleNamespace(background=lambda _, work, path: work(path))
+    before = disk_of_robots.Written()
+    try:
+        for _ in range(MAX_THREADS + 4):
+            assert disk_of_robots.last_written("/dead.urdf", before, ctx).at_ns == 0
+        assert within(60.0, lambda: "saved") == "saved"
+    finally:
+        mounted.set()
 
 
 def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(bench, tmp_path) -> None:
