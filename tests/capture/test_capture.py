@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 import webviz
 from webviz import Level
 from webviz.api.nodes import Labels
+from webviz.api.status import Status
 from webviz.api.views import Orbit
 from webviz.files.opening import parse
-from webviz.shell.pictures.capture import Capture
+from webviz.shell.pictures.capture import Capture, Picture
+from webviz.shell.pictures.offline_viewer import Readiness
 
 SIZE = (320, 240)
 CONFIG = (Path(__file__).parent / "top.yaml").read_text()
@@ -48,6 +50,20 @@ def test_a_picture_shows_the_robot_where_it_was(capture):
     assert scan(shot.pixels).mean(axis=0)[0] == pytest.approx(column(2.1), abs=MARGIN_PX)
     assert shot.is_ok
     assert {name: status.level for name, status in shot.statuses.items()} == {"Scan": Level.OK}
+
+
+@pytest.mark.parametrize("bad", [0, 1])
+def test_pictures_are_ok_if_each_of_them_is(bad: int) -> None:
+    levels = [Level.OK, Level.OK]
+    assert Capture(tuple(map(picture_of, levels))).is_ok
+    levels[bad] = Level.WARN
+    assert not Capture(tuple(map(picture_of, levels))).is_ok
+
+
+def picture_of(level: Level) -> Picture:
+    """A picture of one display."""
+    shown = Readiness({"Scan": Status(level, "")}, {}, ("Scan",))
+    return Picture(np.zeros((1, 1, 3), np.uint8), "", None, shown)
 
 
 def test_several_times_are_pictures_in_the_order_of_time(capture):

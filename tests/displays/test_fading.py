@@ -29,3 +29,9 @@ def test_a_frame_first_seen_late_is_as_old_as_its_stamp() -> None:
     ages = Ages()
     ages.update(np.array([8 * SECOND]), 8 * SECOND)
     assert ages.update(np.array([8 * SECOND, 3 * SECOND]), 10 * SECOND).tolist() == [2.0, 7.0]
+
+
+def test_a_frame_with_a_stamp_in_the_future_is_not_younger_than_new() -> None:
+    ages = Ages()
+    assert ages.update(np.array([9 * SECOND]), 5 * SECOND).tolist() == [0.0]
+    assert ages.update(np.array([9 * SECOND]), 6 * SECOND).tolist() == [1.0]

@@ -447,3 +447,8 @@ def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
     made.transform("map", "lidar", (0.0, 0.0, 5.0), stamp_ns=made.now_ns)
     made.turn()
     np.testing.assert_allclose(made.xyz("points")[0], (1, 0, 5))
+
+
+def test_voxels_have_a_least_size() -> None:
+    xyz = np.array([[0.0, 0.0, 0.0], [0.00005, 0.0, 0.0], [0.00015, 0.0, 0.0]], np.float32)
+    assert one_per_voxel(xyz, 0.0).tolist() == [0, 2]

@@ -127,3 +127,14 @@ def test_a_frame_that_is_switched_on_says_where_it_is(bench) -> None:
         f"In 'map': position (1.000, 2.000, 0.000) m, {turned}.",
     )
     assert "map" not in statuses  # has no parent
+
+
+def test_a_frame_that_is_lost_within_the_same_second_is_named(bench) -> None:
+    at = bench(TF())
+    at.transform("map", "odom")
+    at.transform("camera", "lens")
+    at.turn()
+    assert "camera" in at.statuses()
+    at.transform("arm", "gripper")
+    at.turn()
+    assert "arm" in at.statuses()

@@ -151,6 +151,16 @@ def test_a_list_refuses_the_tools_it_does_not_name(make: Callable[..., Any]) -> 
     assert refusals(b) == {"2D Goal Pose": OF_START.format("/cmd_vel")}
 
 
+def test_a_tool_is_refused_if_all_that_it_uses_is(make: Callable[..., Any]) -> None:
+    def refusal(*names: str) -> str:
+        tools = make(publish=names).do(Refresh()).tools
+        return next(tool.refusal for tool in tools if tool.name == "Nav2 Goal")
+
+    assert refusal() == OF_START.format("/navigate_to_pose")
+    assert refusal("/navigate_through_poses") == ""
+    assert refusal("/navigate_to_pose") == ""
+
+
 def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(
     make: Callable[..., Any],
 ) -> None:

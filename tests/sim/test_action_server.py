@@ -115,3 +115,18 @@ def test_a_request_without_an_id_cancels_all_goals(bench: Bench) -> None:
         goal.cancel({})
     for handle in handles:
         assert bench.result_of(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
+
+
+def test_a_goal_with_the_id_of_another_is_rejected_and_leaves_it_alone(bench: Bench) -> None:
+    handle = bench.send(2)
+    goal, count = bench.begun[-1], len(bench.begun)
+    # rclpy's client refuses to send an id twice.
+    send = bench.node.create_client(Fibonacci.Impl.SendGoalService, "/count/_action/send_goal")
+    request = Fibonacci.Impl.SendGoalService.Request(
+        goal_id=handle.goal_id, goal=Fibonacci.Goal(order=7)
+    )
+    assert not bench.result_of(send.call_async(request)).accepted
+    assert len(bench.begun) == count
+    goal.succeed({"sequence": [2]})
+    assert list(bench.result_of(handle.get_result_async()).result.sequence) == [2]
+    bench.node.destroy_client(send)

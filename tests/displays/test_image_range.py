@@ -1,0 +1,20 @@
+"""The range of values over several images."""
+
+import numpy as np
+
+from webviz.data.images import RawImage
+from webviz_displays.image.range import RunningRange
+
+
+def image(low: float, high: float) -> RawImage:
+    data = np.array([low, high], np.float32).view(np.uint8)
+    return RawImage(2, 1, "32FC1", 8, False, data)
+
+
+def test_an_image_that_is_drawn_again_counts_once() -> None:
+    seen, window = RunningRange(), 3
+    assert seen.of(1, image(1.0, 2.0), window) == (1.0, 2.0)
+    for _ in range(5):
+        assert seen.of(2, image(3.0, 6.0), window) == (2.0, 4.0)
+    assert seen.of(3, image(9.0, 9.0), window) == (3.0, 6.0)
+    assert seen.of(4, image(9.0, 9.0), window) == (9.0, 9.0)  # the first has left
