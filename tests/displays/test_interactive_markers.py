@@ -8,7 +8,12 @@ from typing import Any
 import numpy as np
 
 from webviz.data.messages import decode, encode
-from webviz_displays.interactive_markers.completion import Completed, completed, unique_names
+from webviz_displays.interactive_markers.completion import (
+    FAR,
+    Completed,
+    completed,
+    unique_names,
+)
 from webviz_displays.interactive_markers.menus import can_choose, menu_of
 
 MARKER = "visualization_msgs/msg/InteractiveMarker"
@@ -67,8 +72,12 @@ def test_what_messages_leave_out_is_filled_in() -> None:
 
 
 def test_invalid_markers_and_controls_say_what_is_wrong() -> None:
-    for values in ({"scale": NAN}, {"pose": {"position": {"x": math.inf}}}):
-        assert made(**values) == "Its pose or scale is not finite. Correct the server."
+    for values in (
+        *({"scale": value} for value in (NAN, math.inf, 3e38)),
+        *({"pose": {"position": {"x": value}}} for value in (NAN, math.inf, -1e308)),
+        *({"pose": {"orientation": {"x": value}}} for value in (NAN, math.inf, 1e308)),
+    ):
+        assert made(**values) == FAR
     bad = [
         ({"interaction_mode": 10}, "unknown interaction mode, 10"),
         ({"orientation_mode": 3}, "unknown orientation mode, 3"),

@@ -98,6 +98,9 @@ def test_updates_are_applied_in_order_and_gaps_ask_again(
     viewer.wait_for(lambda: position(viewer, "m1")[:2] == [0.0, 5.0], "the newest pose")
     viewer.wait_for(lambda: "after 1 gap" in status(viewer), lambda: status(viewer))
 
+    server.close()  # and started again at once, so that its publisher is never missing
+    server = serve("/arm", boxed("a"), boxed("x"))
+    viewer.wait_for(lambda: handles(viewer).keys() == {"a", "x"}, lambda: status(viewer))
     server.close()
     viewer.wait_for(lambda: "No interactive marker server" in status(viewer))
     viewer.wait_for(lambda: not handles(viewer), "no markers")

@@ -15,12 +15,14 @@ class Heard:
     Args:
         messages: serialised with the encapsulation header, oldest first; each is passed once.
         publishers: labels of the nodes that publish it with the right type.
+        endpoints: identities of these publishers; those of a node that is started again are new.
         is_ready: whether a subscription exists, so that no message is missed from now on.
         has_gap: whether messages were dropped, or missed while nobody listened.
     """
 
     messages: Sequence[bytes] = ()
     publishers: tuple[str, ...] = ()
+    endpoints: frozenset[bytes] = frozenset()
     is_ready: bool = False
     has_gap: bool = False
 

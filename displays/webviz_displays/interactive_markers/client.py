@@ -74,14 +74,14 @@ class Client:
         Raises:
             ValueError: the namespace is invalid; one sentence.
         """
+        before = self._heard.endpoints
         heard = self._heard = wire.listen(f"{self.namespace}/update", UPDATE, DEPTH)
-        if heard.has_gap:
+        if heard.has_gap or heard.endpoints != before:  # the server may have been started again
             self._restart()
         updates = self._decoded(heard.messages)
         if not heard.publishers:
-            news = [] if self.state == "searching" else [News(is_all=True)]
             self._restart()
-            return news
+            return [News(is_all=True)] if before else []
         if self.state == "running":
             return self._follow(updates, wire)
         self._waiting += updates
@@ -122,7 +122,7 @@ class Client:
             return []
         try:
             answer = decode(f"{SERVICE}_Response", self._answer.result())
-        except (Error, CancelledError) as error:
+        except (Error, MessageError, CancelledError) as error:
             self.state, self._answer, self.problem = "searching", None, str(error)
             self._next_s = wire.clock_s + PAUSE_S
             return []

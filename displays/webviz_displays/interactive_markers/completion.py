@@ -15,6 +15,7 @@ from webviz import Pose
 from webviz.api.handles import Control, Facing, MenuEntry, Mode
 from webviz.data.messages.markers import Marker, MarkerSequence
 from webviz.data.rotations import normalized
+from webviz.data.transforms.geometry import REACH_M
 from webviz_displays.interactive_markers.handles import handles_of
 from webviz_displays.interactive_markers.menus import menu_of
 
@@ -24,6 +25,8 @@ FACINGS: tuple[Facing, ...] = get_args(Facing)
 MAX_CONTROLS = 200
 MAX_SHAPES = 2000
 """Markers of a control."""
+
+FAR = "Its pose or scale is not finite, or too large. Correct the server."
 
 Wxyz = tuple[float, float, float, float]
 
@@ -72,8 +75,8 @@ class Completed:
 def completed(message: Any) -> Completed | str:
     """A visualization_msgs/InteractiveMarker, or why it cannot be shown: a sentence."""
     pose, scale = pose_of(message.pose), float(message.scale)
-    if pose is None or not np.isfinite(scale):
-        return "Its pose or scale is not finite. Correct the server."
+    if pose is None or not abs(scale) <= REACH_M:
+        return FAR
     scale = scale or 1.0
     menu, problems = menu_of(message.menu_entries)
     if len(message.controls) > MAX_CONTROLS:
@@ -100,13 +103,13 @@ def completed(message: Any) -> Completed | str:
 
 
 def pose_of(message: Any) -> Pose | None:
-    """A geometry_msgs/Pose with a unit quaternion; None if it is not finite.
+    """A geometry_msgs/Pose with a unit quaternion; None if it is not finite, or out of reach.
 
     A quaternion of length zero becomes the identity.
     """
     at, wxyz = message.position, _wxyz(message.orientation)
     position = float(at.x), float(at.y), float(at.z)
-    if wxyz is None or not np.isfinite(position).all():
+    if wxyz is None or not all(abs(value) <= REACH_M for value in position):
         return None
     return Pose(position, wxyz)
 
@@ -167,7 +170,7 @@ def _with_sizes(shapes: MarkerSequence) -> MarkerSequence:
 def _wxyz(quaternion: Any) -> Wxyz | None:
     """A unit quaternion, None if it is not finite; of length zero it becomes the identity."""
     wxyz = quaternion.w, quaternion.x, quaternion.y, quaternion.z
-    if not np.isfinite(wxyz).all():
+    if not all(abs(value) <= REACH_M for value in wxyz):  # whose squares are finite, too
         return None
     ((w, x, y, z),) = normalized([wxyz])[0].tolist()
     return w, x, y, z

@@ -116,7 +116,7 @@ class InteractiveMarkerServer:
         if marker is None:
             self.ignored[name] = "A pose came for this unknown marker. Correct the server."
         elif pose is None:
-            self.ignored[name] = "Its new pose is not finite. Correct the server."
+            self.ignored[name] = "Its new pose is not finite, or too large. Correct the server."
         else:
             self.ignored.pop(name, None)
             frame = str(message.header.frame_id).removeprefix("/")

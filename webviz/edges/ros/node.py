@@ -294,4 +294,5 @@ def _publisher(info: TopicEndpointInfo) -> Publisher:
         type=info.topic_type,
         reliability="reliable" if is_reliable else "best_effort",
         durability="transient_local" if is_latched else "volatile",
+        endpoint=bytes(info.endpoint_gid),
     )

@@ -72,10 +72,11 @@ class DisplayWire:
         if line is None or line.subscription != wanted:
             line = self._lines[name] = _Line(wanted)
         offer = self._offers.get(name)
-        publishers = offer.publishers if offer else ()
+        publishers = [each for each in (offer.publishers if offer else ()) if each.type == type]
         heard = Heard(
             messages=tuple(line.waiting),
-            publishers=tuple(each.label for each in publishers if each.type == type),
+            publishers=tuple(each.label for each in publishers),
+            endpoints=frozenset(each.endpoint for each in publishers),
             is_ready=bool(offer and offer.requested and offer.type == type),
             has_gap=line.has_gap,
         )

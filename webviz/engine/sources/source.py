@@ -69,12 +69,14 @@ class Publisher:
         node: full node name, "" for a DDS program without a ROS node.
         type: message type.
         reliability, durability: offered QoS.
+        endpoint: its identity, which changes when its node is started again; b"" if unknown.
     """
 
     node: str
     type: str
     reliability: Reliability
     durability: Durability
+    endpoint: bytes = b""
 
     @property
     def label(self) -> str:

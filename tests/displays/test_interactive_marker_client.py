@@ -1,0 +1,196 @@
+"""The protocol of interactive markers: what is followed, waits, and is sent, without ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from typing import Any
+
+import pytest
+
+from webviz import Frames, Pose
+from webviz.api.wire import Heard
+from webviz.data.messages import decode, encode, interfaces
+from webviz.data.transforms import TransformBuffer
+from webviz_displays.interactive_markers.client import ANSWER_S, SERVICE, UPDATE, Client, News
+from webviz_displays.interactive_markers.completion import Completed, completed
+from webviz_displays.interactive_markers.feedback import (
+    MOUSE_DOWN,
+    POSE_UPDATE,
+    FeedbackQueue,
+)
+from webviz_displays.interactive_markers.tracked import Place, Tracked
+
+KEEP_ALIVE, CHANGE = 0, 1
+
+
+class Server:
+    """What a client hears of a server, and its answers."""
+
+    clock_s = 0.0
+    node = "/webviz"
+
+    def __init__(self) -> None:
+        interfaces.service(SERVICE)  # declares its messages
+        self.endpoints: frozenset[bytes] = frozenset({b"first"})
+        self.messages: list[bytes] = []
+        self.asked: list[Future[bytes]] = []
+
+    def listen(self, topic: str, type: str, depth: int) -> Heard:
+        messages, self.messages = tuple(self.messages), []
+        return Heard(messages, ("/server",) * len(self.endpoints), self.endpoints, is_ready=True)
+
+    def query(self, service: str, type: str, timeout_s: float) -> Future[bytes]:
+        assert (service, type, timeout_s) == ("/arm/get_interactive_markers", SERVICE, ANSWER_S)
+        self.asked.append(Future())
+        return self.asked[-1]
+
+    def advertise(self, topic: str, type: str, depth: int) -> str:
+        return ""
+
+    def publish(self, topic: str, values: Mapping[str, Any]) -> None: ...
+
+    def wake(self) -> None: ...
+
+    def update(self, number: int, kind: int = CHANGE) -> None:
+        values = {"seq_num": number, "type": kind, "erases": [f"at {number}"]}
+        self.messages.append(encode(UPDATE, values))
+
+    def answer(self, number: int, *names: str) -> None:
+        values = {"sequence_number": number, "markers": [{"name": name} for name in names]}
+        self.asked[-1].set_result(encode(f"{SERVICE}_Response", values))
+
+
+@pytest.fixture
+def server() -> Server:
+    return Server()
+
+
+@pytest.fixture
+def client(server: Server) -> Client:
+    """One that has asked."""
+    client = Client("/arm")
+    client.step(server)
+    return client
+
+
+def erased(news: Sequence[News]) -> list[str]:
+    return [name for each in news for name in each.erased]
+
+
+def all_of(news: Sequence[News]) -> list[str]:
+    """The names of the markers that replace all others."""
+    assert news[0].is_all
+    return [marker.name for marker in news[0].markers]
+
+
+def test_updates_that_the_answer_includes_are_not_applied_again(
+    server: Server, client: Client
+) -> None:
+    for number in (3, 4, 5, 6):
+        server.update(number)
+    assert client.step(server) == []
+    server.answer(4, "a")
+    news = client.step(server)
+    assert all_of(news) == ["a"]
+    assert erased(news) == ["at 5", "at 6"]
+    assert (client.state, client.sequence, client.gaps) == ("running", 6, 0)
+
+
+def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
+    server.answer(4)
+    server.update(4, KEEP_ALIVE)
+    server.update(5)
+    server.update(5, KEEP_ALIVE)
+    assert erased(client.step(server)) == ["at 5"]
+    server.update(7)
+    assert erased(client.step(server)) == []
+    assert (client.state, client.gaps) == ("searching", 1)
+
+
+def test_a_server_that_was_started_again_is_asked_again(server: Server, client: Client) -> None:
+    server.answer(4, "old")
+    client.step(server)
+    server.endpoints = frozenset({b"second"})
+    server.clock_s += 1.0
+    assert client.step(server) == []
+    server.answer(0, "new")
+    assert all_of(client.step(server)) == ["new"]
+    assert client.sequence == 0
+    # One that ends while it is asked takes its markers along.
+    server.update(9)
+    client.step(server)
+    server.endpoints = frozenset()
+    news = client.step(server)
+    assert all_of(news) == []
+    assert client.step(server) == []
+
+
+def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client: Client) -> None:
+    server.asked[-1].set_result(b"\0\1\0\0\7")
+    assert client.step(server) == []
+    assert client.problem
+    server.clock_s += 1.0
+    client.step(server)
+    server.answer(1, "a")
+    assert all_of(client.step(server)) == ["a"]
+
+
+def tracked(stamp: int) -> Tracked:
+    values = {"name": "a", "header": {"frame_id": "hand", "stamp": {"sec": stamp}}}
+    name = "visualization_msgs/msg/InteractiveMarker"
+    made = completed(decode(name, encode(name, values)))
+    assert isinstance(made, Completed)
+    return Tracked("m1", made)
+
+
+def frames(fixed: str) -> Frames:
+    buffer = TransformBuffer()
+    for parent, child, x in (("map", "odom", 1.0), ("odom", "hand", 2.0)):
+        buffer.set_transform(parent, child, 0, (x, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), is_static=True)
+    return Frames(buffer, fixed, 0)
+
+
+def test_a_stamped_marker_is_placed_anew_in_another_fixed_frame() -> None:
+    marker = tracked(stamp=1)
+    for fixed, x in (("map", 3.0), ("odom", 2.0), ("map", 3.0)):
+        place = marker.place(frames(fixed))
+        assert place
+        assert (place.frame, place.stamp_ns, place.pose.position) == (fixed, 0, (x, 0.0, 0.0))
+        assert marker.place(frames(fixed)) is place
+
+
+def test_a_pose_of_the_server_waits_for_the_end_of_a_drag_once() -> None:
+    marker, around = tracked(stamp=0), frames("hand")
+    marker.press()
+    wanted = Place("hand", 0, Pose((7.0, 0.0, 0.0)))
+    marker.put(wanted)
+    assert marker.drag("", Pose((1.0, 0.0, 0.0)), 0.0, around)
+    assert marker.pose.position[0] == 1.0
+    marker.release()
+    assert marker.source == wanted
+    marker.press()
+    assert marker.drag("", Pose((2.0, 0.0, 0.0)), 0.0, around)
+    version = marker.version
+    marker.release()  # nothing waits any more
+    assert (marker.pose.position[0], marker.version) == (2.0, version)
+
+
+def test_only_successive_poses_of_one_control_replace_each_other() -> None:
+    def message(event: int, marker: str, control: str, x: float) -> dict[str, Any]:
+        return {"event_type": event, "marker_name": marker, "control_name": control, "x": x}
+
+    queue = FeedbackQueue()
+    sent = [
+        message(POSE_UPDATE, "a", "x", 1.0),
+        message(POSE_UPDATE, "a", "y", 2.0),
+        message(POSE_UPDATE, "b", "y", 3.0),
+        message(MOUSE_DOWN, "b", "y", 4.0),
+        message(MOUSE_DOWN, "b", "y", 5.0),
+        message(POSE_UPDATE, "b", "y", 6.0),
+    ]
+    for each in sent:
+        queue.add(each)
+    queue.add(message(POSE_UPDATE, "b", "y", 7.0))
+    found = [each["x"] for each in iter(queue.next, None)]
+    assert found == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
