@@ -14,6 +14,7 @@ from webviz.data.messages import (
     UnknownTypeError,
     decode,
     definition,
+    encode,
     message_class,
     peek_header,
     register,
@@ -117,3 +118,15 @@ def test_a_definition_that_cannot_be_used_changes_nothing(text, reason):
         register("test_msgs/msg/Bad", text)
     assert not type_exists("test_msgs/msg/Bad")
     assert not type_exists("test_msgs/msg/Other")
+
+
+def test_a_type_that_loses_its_header_has_none_from_then_on() -> None:
+    with_header = "std_msgs/Header header\nint32 number\n"
+    name = "changing_msgs/msg/Changing"
+    register(name, with_header)
+    cdr = encode(name, {"header": {"frame_id": "map", "stamp": {"sec": 3}}, "number": 1})
+    assert peek_header(name, cdr) == ("map", 3_000_000_000)
+    register(name, "int32 number\n")
+    assert peek_header(name, cdr) is None
+    register(name, with_header)
+    assert peek_header(name, cdr) == ("map", 3_000_000_000)

@@ -255,3 +255,17 @@ def test_a_topic_that_another_display_reads_as_another_type(bench: Callable[...,
     assert "reads /pose as nav_msgs/msg/Odometry" in text
     assert f"shows {POSE}" in text
     assert "Message" not in b.statuses()
+
+
+def test_what_waits_is_forgotten_when_time_goes_back(bench: Callable[..., Any]) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "base", T - 2 * SECOND)
+    b.pose("/pose", "base", T, x=7.0)
+    b.turn()
+    b.source.now = T - 5 * SECOND
+    b.turn()
+    for stamp_ns in (T - SECOND, T + SECOND):  # would place what waited
+        b.transform("map", "base", stamp_ns)
+    b.turn()
+    assert list(b.scene.visible()) == []
+    assert b.statuses()["Topic"][1].startswith("1 message")

@@ -219,3 +219,46 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
     for wrong in ("/a b", "", "/1st", "/a//b", "/a/"):
         with pytest.raises(ValueError, match="is not a valid topic name"):
             bag.source.resolve(wrong)
+
+
+def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, opened):
+    bag = opened(strings(*[0.0] * (MOST + 5), 1).write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.source.play(bag.source.end_ns)
+    assert len(bag.heard()) == MOST + 5
+    assert bag.source.position_ns == START_NS
+    bag.source.play(bag.source.end_ns)
+    assert bag.heard() == ["1"]
+
+
+def test_latched_messages_of_all_publishers_are_repeated(tmp_path, opened):
+    folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
+    (file,) = files(folder, ".mcap")
+    content = file.read_bytes()
+    # Depth 0 is unknown, or that of a publisher that keeps all: one message at least.
+    file.write_bytes(content.replace(b"depth: 2", b"depth: 0"))
+    for path, expected in ((folder, ["4"]), (file, ["4"])):
+        bag = opened(path)
+        bag.play(4)
+        bag.want("/words")
+        assert bag.heard() == expected
+
+
+def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, opened):
+    recorded = strings(0, 3)
+    recorded.add("/clock", "rosgraph_msgs/msg/Clock")
+    recorded.put(0.5, "/clock", {"clock": {"sec": 10}})
+    recorded.put(1.5, "/clock", b"\x00\x01\x00\x00\x01")
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.play(2)
+    assert bag.source.now_ns() == ns(10)
+
+
+def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp_path, opened):
+    recorded = Bag()
+    recorded.add("/tf", TF)
+    recorded.put(1, "/tf", {"transforms": [stamped("map", "base", 0)]})
+    recorded.put(2, "/tf", {"transforms": [stamped("map", "base", ns(102))]})
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.play(1.5)  # from the first message on
+    assert bag.source.now_ns() == ns(102.5)

@@ -282,3 +282,18 @@ def test_after_a_clear_the_silent_link_is_named(buffer: TransformBuffer, put: Pu
 )
 def test_durations_are_told_in_the_unit_people_use(duration_ns: int, text: str) -> None:
     assert in_words(duration_ns) == text
+
+
+def test_the_largest_tree_is_that_of_now(buffer: TransformBuffer, put: Put) -> None:
+    assert buffer.largest_tree() == ("", 0)
+    put("small", "a")
+    assert buffer.largest_tree() == ("small", 2)
+    for child in ("b", "c"):
+        put("large", child)
+    put("c", "below")
+    assert buffer.largest_tree() == ("large", 4)
+    put("large", "b", 2.0)
+    assert buffer.largest_tree() == ("large", 4)
+    for child in ("b", "c"):
+        put("small", child, 3.0)
+    assert buffer.largest_tree() == ("small", 5)

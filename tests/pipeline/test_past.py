@@ -1,0 +1,52 @@
+"""What was drawn a moment ago: the newest first, within bounds of time and bytes."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from webviz import Points
+from webviz.engine.pipeline import past
+from webviz.engine.pipeline.past import KEPT_S, Past
+from webviz.engine.pipeline.picking import Shot
+
+
+def shot(count: int = 1) -> Shot:
+    """What was drawn with so many points, of 15 bytes each."""
+    node = Points(np.zeros((count, 3), np.float32), np.zeros((count, 3), np.uint8), 0.1)
+    groups = cast(Any, {"": SimpleNamespace(nodes={"points": node})})
+    return Shot(groups, (), "map")
+
+
+def test_the_newest_comes_first() -> None:
+    kept = Past(lambda: 0.0)
+    shots = [shot() for _ in range(3)]
+    for each in shots:
+        kept.keep("a", each)
+    kept.keep("b", shot())
+    assert [id(each) for each in kept.of("a")] == [id(each) for each in reversed(shots)]
+
+
+def test_the_oldest_go_when_there_are_too_many_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(past, "MAX_BYTES", 15 * 250)
+    kept = Past(lambda: 0.0)
+    shots = [shot(100) for _ in range(5)]
+    for number, each in enumerate(shots):
+        kept.keep("a", each)
+        assert len(list(kept.of("a"))) == min(number + 1, 2)
+    assert [id(each) for each in kept.of("a")] == [id(shots[4]), id(shots[3])]
+    kept.keep("a", shot(1000))
+    assert list(kept.of("a")) == []
+    kept.keep("a", shot())  # the bytes of what is gone count no more
+    assert len(list(kept.of("a"))) == 1
+
+
+def test_what_is_older_than_some_seconds_is_gone() -> None:
+    now = 0.0
+    kept = Past(lambda: now)
+    kept.keep("a", shot())
+    now = KEPT_S + 0.1
+    assert list(kept.of("a")) == []
