@@ -10,10 +10,12 @@ import numpy as np
 from PIL import Image
 
 from webviz.api.pictures import Encoded, Picture, Pixels, Readout
-from webviz.data.images import ImageError, jpeg, open_compressed, render
+from webviz.data.images import ImageError, decoding, jpeg, open_compressed, render
 
 LONGEST_EDGE = 16_384
 """Pixels along an edge that browsers can show."""
+PIXEL_BYTES = 8
+"""Of a compressed image while it is decoded: Pillow has four, and copies them."""
 QUALITY = 75
 """Of pictures that are encoded once more."""
 
@@ -58,7 +60,8 @@ def _smaller(picture: Encoded, factor: int) -> File:
         with open_compressed(picture.data) as image:
             size = max(1, image.width // factor), max(1, image.height // factor)
             image.draft("RGB", size)  # decodes fewer pixels of a JPEG
-            smaller = image.convert("RGB").resize(size, Image.Resampling.BOX)
+            with decoding(*image.size, PIXEL_BYTES):
+                smaller = image.convert("RGB").resize(size, Image.Resampling.BOX)
         smaller.save(made, "JPEG", quality=QUALITY)
     except (OSError, SyntaxError, ValueError, Warning):
         return file  # the page says what is wrong with it
@@ -74,7 +77,7 @@ def opened(picture: Pixels | Encoded) -> Image.Image:
     if isinstance(picture, Pixels):
         return render(picture.image, picture.tone)
     try:
-        with open_compressed(picture.data) as image:
+        with open_compressed(picture.data) as image, decoding(*image.size, PIXEL_BYTES):
             rgb = image.convert("RGB")
     except ImageError:
         raise

@@ -4,6 +4,7 @@ from webviz.data.images.camera_model import CameraModel, calibration_problem, op
 from webviz.data.images.color_maps import COLOR_MAPS
 from webviz.data.images.compressed import (
     CompressedInfo,
+    decoding,
     inspect_compressed,
     open_compressed,
     read_png16,
@@ -29,6 +30,7 @@ __all__ = [
     "Tone",
     "calibration_problem",
     "decode_depth",
+    "decoding",
     "inspect_compressed",
     "jpeg",
     "layout_of",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import struct
 from collections.abc import Iterator
@@ -14,11 +15,14 @@ from PIL import Image
 from webviz.data.images.errors import ImageError
 from webviz.data.images.headers import PNG, ImageHeader, read_header
 from webviz.data.images.raw import MAX_PIXELS
+from webviz.data.memory import DECODING, OverBudgetError
 
 _MIME = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
 _VIDEO = ("h264", "h265", "hevc", "av1", "vp9", "vp8")
 _CRITICAL = (b"IHDR", b"IDAT", b"IEND")
 _MAX_CHUNKS = 100_000
+_PNG16_BYTES = 6
+"""Per pixel, measured."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +85,11 @@ def read_png16(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
     header = _header(data, "png")
     if not header.is_16_bit:
         raise ImageError(f"Expected a PNG of 16-bit grey, got another {header.kind}.")
+    with decoding(header.width, header.height, _PNG16_BYTES):
+        return _pixels_of(data)
+
+
+def _pixels_of(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
     try:
         # Without the chunks that Pillow warns about.
         plain = PNG + b"".join(_chunks(np.ascontiguousarray(data).data))
@@ -88,6 +97,25 @@ def read_png16(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
             return np.asarray(opened).astype(np.uint16)
     except (OSError, SyntaxError, ValueError, struct.error) as error:
         raise ImageError(f"The PNG is broken: {str(error)[:80]}.") from error
+
+
+@contextlib.contextmanager
+def decoding(width: int, height: int, pixel_bytes: int) -> Iterator[None]:
+    """Hold the memory that decoding an image takes, after waiting for that of others.
+
+    Args:
+        width, height: that its header claims.
+        pixel_bytes: that each pixel takes on its way, copies included.
+
+    Raises:
+        ImageError: there is not so much.
+    """
+    try:
+        with DECODING.take(width * height * pixel_bytes):
+            yield
+    except OverBudgetError as error:
+        text = f"The image of {width} x {height} pixels {error}. Publish a smaller one."
+        raise ImageError(text) from None
 
 
 def open_compressed(data: NDArray[np.uint8]) -> Image.Image:

@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.images.compressed import read_png16
+from webviz.data.images.compressed import decoding, read_png16
 from webviz.data.images.errors import ImageError
 from webviz.data.images.rvl import decode_rvl
 
 HEADER = struct.Struct("<iff")
 """ConfigHeader of compressed_depth_image_transport: format, and the parameters A and B."""
+
+_DEPTH_BYTES = 7
+"""Per pixel: the values, their depths, and which of them are missing."""
 
 
 def decode_depth(format_: str, data: NDArray[np.uint8]) -> tuple[str, NDArray[Any]]:
@@ -44,7 +47,11 @@ def decode_depth(format_: str, data: NDArray[np.uint8]) -> tuple[str, NDArray[An
     raw = decode_rvl(payload) if "rvl" in rest else read_png16(payload)
     if encoding != "32FC1":
         return "16UC1", raw
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        depths = np.float32(a) / (raw.astype(np.float32) - np.float32(b))
-    depths[raw == 0] = np.nan
+    rows, columns = raw.shape
+    with decoding(columns, rows, _DEPTH_BYTES):
+        depths = raw.astype(np.float32)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            depths -= np.float32(b)
+            np.divide(np.float32(a), depths, out=depths)
+        depths[raw == 0] = np.nan
     return "32FC1", depths

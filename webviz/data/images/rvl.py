@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from webviz.data.images.compressed import decoding
 from webviz.data.images.errors import ImageError
 from webviz.data.images.raw import MAX_PIXELS
 
@@ -18,6 +19,8 @@ _NIBBLES_PER_PIXEL = 6
 """At most, of a difference of 17 bits; runs of single pixels take less."""
 _PART_BYTES = 1 << 18
 """Decoded at once: each takes about 100 bytes on its way to a number."""
+_PIXEL_BYTES = 30
+"""That a pixel takes on its way, at most: 28 were measured, of runs of single pixels."""
 _BLOCK = 1 << 14
 """Numbers among which runs are followed at once."""
 
@@ -33,8 +36,9 @@ def decode_rvl(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
     columns, rows = (int(n) for n in np.frombuffer(data[:8].tobytes(), "<u4"))
     if not 0 < columns * rows <= MAX_PIXELS:
         raise ImageError(f"The RVL image claims {columns} x {rows} pixels.")
-    numbers = _numbers(data[8 : 8 + columns * rows * _NIBBLES_PER_PIXEL // 2 + 16])
-    return _pixels(numbers, columns * rows).reshape(rows, columns)
+    with decoding(columns, rows, _PIXEL_BYTES):
+        numbers = _numbers(data[8 : 8 + columns * rows * _NIBBLES_PER_PIXEL // 2 + 16])
+        return _pixels(numbers, columns * rows).reshape(rows, columns)
 
 
 def _numbers(data: NDArray[np.uint8]) -> NDArray[np.int32]:
