@@ -118,6 +118,8 @@ async ([width, height, sight, warp, hidden, url]) => {
   } finally {
     gl.render = render;
   }
+  context.globalCompositeOperation = "destination-over"; // black, as on the page
+  context.fillRect(0, 0, width, height);
   return context.canvas.toDataURL("image/png");
 }
 """
