@@ -269,3 +269,18 @@ def test_what_waits_is_forgotten_when_time_goes_back(bench: Callable[..., Any]) 
     b.turn()
     assert list(b.scene.visible()) == []
     assert b.statuses()["Topic"][1].startswith("1 message")
+
+
+def test_patience_with_transforms_begins_anew_when_time_goes_back(
+    bench: Callable[..., Any],
+) -> None:
+    b = bench(Dot(name="Dot"))
+    b.transform("map", "odom", T, static=True)
+    b.pose("/pose", "base", T)
+    b.turn()
+    b.clock += 60.0
+    assert b.statuses()["Transform"][0] == "ERROR"
+    b.source.now = T - 5 * SECOND
+    b.turn()
+    b.pose("/pose", "base", b.source.now)
+    assert "Transform" not in b.statuses()

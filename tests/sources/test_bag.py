@@ -244,12 +244,27 @@ def test_latched_messages_of_all_publishers_are_repeated(tmp_path, opened):
         assert bag.heard() == expected
 
 
+def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, opened):
+    folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
+    (file,) = files(folder, ".mcap")
+    content = file.read_bytes()
+    start = content.index(b"- avoid_ros")
+    end = content.index(b"reliability: reliable", start) + len(b"reliability: reliable")
+    both = b"[{depth: 0, durability: transient_local}, {depth: 2, durability: transient_local}]"
+    file.write_bytes(content.replace(content[start:end], both.ljust(end - start)))
+    bag = opened(file)
+    bag.play(4)
+    bag.want("/words")
+    assert bag.heard() == ["2", "3", "4"]
+
+
 def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, opened):
     recorded = strings(0, 3)
     recorded.add("/clock", "rosgraph_msgs/msg/Clock")
     recorded.put(0.5, "/clock", {"clock": {"sec": 10}})
     recorded.put(1.5, "/clock", b"\x00\x01\x00\x00\x01")
     bag = opened(recorded.write(tmp_path / "bag"))
+    bag.want("/words")
     bag.play(2)
     assert bag.source.now_ns() == ns(10)
 
