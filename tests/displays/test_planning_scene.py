@@ -242,6 +242,7 @@ def test_what_is_invalid_is_named_and_the_rest_is_drawn(
     world: Any, thing: dict[str, Any], why: str
 ) -> None:
     tell(world, scene(box("good", 1.0), {**box("bad", 2.0), **thing}))
+    world.settle()
     level, text = world.statuses()["Objects"]
     assert (level, why in text, len(text) < 500) == ("WARN", True, True)
     assert 1.0 in boxes(world)
