@@ -74,6 +74,7 @@ def test_a_chunk_that_unfolds_to_more_than_memory(
     (remark,) = bag.source.remarks
     assert remark.startswith("bomb.mcap is damaged: 1 chunk is incomplete (it ")
     assert remark.endswith("; everything else is shown.")
+    assert "  " not in remark
 
 
 @pytest.mark.parametrize("claimed", [300, MAX_BYTES])

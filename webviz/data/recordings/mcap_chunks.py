@@ -97,17 +97,17 @@ def contents_of(chunk: McapChunk, file: BinaryIO) -> tuple[bytes, str]:
     if chunk.compression not in COMPRESSIONS:
         return b"", f"the compression {chunk.compression!r} is unsupported"
     if max(chunk.size, chunk.packed_size) > MAX_BYTES:
-        return b"", _spaced(f"it claims {chunk.size:,} bytes, the limit is {MAX_BYTES:,}")
+        return b"", f"it claims {_spaced(chunk.size)} bytes, the limit is {_spaced(MAX_BYTES)}"
     file.seek(chunk.offset)
     data, fault = unpack(file.read(chunk.packed_size), chunk.compression, chunk.size)
     if chunk.is_cut:
         return data, ""
     if not fault and len(data) != chunk.size:
-        fault = _spaced(f"it has {len(data):,} of {chunk.size:,} bytes")
+        fault = f"it has {_spaced(len(data))} of {_spaced(chunk.size)} bytes"
     if not fault and chunk.crc and crc32(data) != chunk.crc:
         return b"", "its checksum is wrong"
     return data, fault
 
 
-def _spaced(text: str) -> str:
-    return text.replace(",", " ")
+def _spaced(number: int) -> str:
+    return f"{number:,}".replace(",", " ")
