@@ -103,6 +103,7 @@ def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
     server.update(5)
     server.update(5, KEEP_ALIVE)
     assert erased(client.step(server)) == ["at 5"]
+    assert (client.state, client.gaps) == ("running", 0)
     server.update(7)
     assert erased(client.step(server)) == []
     assert (client.state, client.gaps) == ("searching", 1)

@@ -23,8 +23,10 @@ from webviz_urdf import LoadRequest
 
 TITLE_AT = 1.4
 TITLE_HEIGHT = 0.15
-AXES_RADIUS = 0.05
-"""Sizes are multiples of the scale of the marker."""
+AXES_RADIUS = 0.025
+"""Half of what RViz2 calls the radius of these axes, since it is the diameter of their cylinders.
+
+Sizes are multiples of the scale of the marker."""
 LETTER = 0.5
 """Width of a letter, as a multiple of its height."""
 TITLE = "title"

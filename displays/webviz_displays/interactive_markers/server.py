@@ -96,14 +96,15 @@ class InteractiveMarkerServer:
 
     def _add(self, message: Any) -> None:
         name = str(message.name)
+        if name not in self.markers and len(self.markers) >= MAX_MARKERS:
+            self.too_many += 1
+            return
         made = completed(message)
         self.ignored.pop(name, None)
         if isinstance(made, str):
             self.ignored[name] = made
         elif (known := self.markers.get(name)) is not None:
             known.update(made)
-        elif len(self.markers) >= MAX_MARKERS:
-            self.too_many += 1
         else:
             self._made += 1
             marker = Tracked(f"m{self._made}", made)

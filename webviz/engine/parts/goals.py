@@ -1,4 +1,4 @@
-"""The goals that tools and panels sent to actions: all browsers see them and can cancel them."""
+"""The goals that tools and panels sent to actions: all browsers see them; operators can cancel."""
 
 from __future__ import annotations
 
