@@ -106,7 +106,7 @@ def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None
     playwright.expect(toolbar(wide).get_by_role("button", name="Point <b>")).to_be_focused()
     wide.page.keyboard.press("ArrowLeft")
     tip = wide.page.get_by_role("tooltip")
-    playwright.expect(tip).to_have_text("Send the robot to a pose.G")
+    playwright.expect(tip).to_contain_text(": Send the robot to a pose.G")
     wide.page.keyboard.press("Escape")
     playwright.expect(tip).to_be_hidden()
 

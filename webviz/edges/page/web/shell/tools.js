@@ -96,7 +96,7 @@ function buttonOf(tool) {
     button.dataset.tool = text;
     set(button, {
       "aria-label": name,
-      "data-tip": refusal || isLean ? `${name}: ${refusal || tooltip}` : tooltip,
+      "data-tip": `${name}: ${refusal || tooltip}`,
       "aria-disabled": refusal ? "true" : null,
       "data-key": shortcut || null,
     });
