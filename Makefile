@@ -39,7 +39,7 @@ $(PYTEST) $(1) --cache-clear $(2) || { [ $$? = 1 ] && \
 	$(PYTEST) -n 0 --last-failed --maxfail 3 $(2); }
 endef
 
-.PHONY: install test quick check bench soak attack browser docs
+.PHONY: install test quick check bench soak attack mutants browser docs
 
 install: $(VENV)/ready
 
@@ -71,6 +71,10 @@ soak: $(VENV)/ready-to-test
 # ARGS="--hours 1", or "--seed 7 --only dds --first 120" for what a report names.
 attack: $(VENV)/ready-to-test
 	@PYTHONPATH=tests/support $(VENV)/bin/python -m tests.attack $(ARGS)
+
+# ARGS="webviz/engine/driving --sample 0": all small faults of a room, instead of 60 by chance.
+mutants: $(VENV)/ready-to-mutate
+	@nice $(VENV)/bin/python -m tests.mutants $(ARGS)
 
 # All that is generated from declarations; RVIZ="a.rviz b.rviz" counts what is carried over of them.
 docs: $(VENV)/ready
@@ -107,6 +111,11 @@ $(VENV)/ready-to-test: $(VENV)/ready
 	@$(VENV)/bin/python -m pip install --editable ".[test$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
 		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@$(MAKE) --no-print-directory browser
+	@touch $@
+
+$(VENV)/ready-to-mutate: $(VENV)/ready-to-test
+	@$(VENV)/bin/python -m pip install --editable ".[test,mutants$(if $(ROS),$(comma)ros$(comma)ros-test)]" $(NUMPY) || { \
+		echo "The installation failed: read pip's last lines above." >&2; exit 1; }
 	@touch $@
 
 $(VENV)/ready-to-bench: $(VENV)/ready-to-test

@@ -1,0 +1,121 @@
+"""Plants small faults with cosmic-ray, and lists those that the nearest tests do not find.
+
+It works on a copy of the checkout. Run it with files or folders: `webviz/engine/driving`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from cosmic_ray.work_db import WorkDB, use_db
+from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResult
+
+TESTS = {
+    "webviz/data/messages": "tests/messages",
+    "webviz/data/transforms": "tests/transforms",
+    "webviz/edges/access": "tests/access",
+    "webviz/edges/page/driving.py": "tests/page/test_driving.py",
+    "webviz/engine/driving": "tests/pipeline/test_helm.py tests/pipeline/test_driving.py",
+    "webviz/engine/pipeline": "tests/pipeline",
+    "webviz/engine/sources": "tests/sources tests/pipeline/test_intake.py",
+    "webviz/engine/sources/gate.py": "tests/pipeline/test_rights.py tests/pipeline/test_driving.py",
+    "displays/webviz_displays/interactive_markers": "tests/displays/test_interactive_markers.py",
+}
+"""The nearest tests of a room."""
+UNION = "core/ReplaceBinaryOperator_BitOr_"
+"""Operators that are not used: nearly all `|` are in type hints, which nothing evaluates."""
+
+
+def main() -> None:
+    """Plant faults, and print how many were found and a patch for each that was not."""
+    parser = argparse.ArgumentParser(prog="make mutants")
+    parser.add_argument("rooms", nargs="+", help="folders or files")
+    parser.add_argument("--sample", type=int, default=60, help="faults per room; 0 for all")
+    parser.add_argument("--seed", type=int, default=0, help="of the samples")
+    parser.add_argument("--tests", default="", help="instead of the nearest ones")
+    parser.add_argument("--timeout", type=float, default=30.0, help="seconds per fault")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="webviz-mutants-") as folder:
+        copy = Path(folder) / "checkout"
+        copy_of_checkout(copy)
+        for room in options.rooms:
+            name = room.rstrip("/")
+            attempt(copy, name, options.tests or TESTS[name], options)
+
+
+def copy_of_checkout(copy: Path) -> None:
+    """Copy all files that git knows or would add."""
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(listed, capture_output=True, text=True, check=True).stdout
+    for name in filter(os.path.isfile, names.split("\0")):
+        target = copy / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(name, target)
+
+
+def attempt(copy: Path, room: str, tests: str, options: argparse.Namespace) -> None:
+    """Plant faults in a room of a copy, and print what came of it."""
+    run = f"-m pytest -x -q -n 0 -p no:cacheprovider {tests}"
+    config, session = copy.parent / "config.toml", copy.parent / f"{room.replace('/', '.')}.sqlite"
+    settings = {
+        "module-path": room,
+        "timeout": options.timeout,
+        "test-command": f"{shlex.quote(sys.executable)} {run}",
+    }
+    # A text or number of JSON is one of TOML, too.
+    lines = [f"{key} = {json.dumps(value)}" for key, value in settings.items()]
+    config.write_text("\n".join(["[cosmic-ray]", *lines, 'distributor = {name = "local"}', ""]))
+    folders = [copy / name for name in (".", "displays", "urdf", "sim")]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+
+    def cosmic_ray(*arguments: object) -> None:
+        command = [sys.executable, "-m", "cosmic_ray.cli", *map(str, arguments)]
+        subprocess.run(command, cwd=copy, env=environment, check=True)
+
+    cosmic_ray("init", config, session)
+    with use_db(session, WorkDB.Mode.open) as plan:
+        keep_sample(plan, options.sample, options.seed)
+    cosmic_ray("baseline", config)
+    cosmic_ray("exec", config, session)
+    with use_db(session, WorkDB.Mode.open) as done:
+        report(done, room)
+
+
+def keep_sample(plan: WorkDB, count: int, seed: int) -> None:
+    """Leave `count` faults of a plan to be planted, or all that count if it is 0."""
+    items = list(plan.work_items)
+    usable = [item for item in items if not is_of_hint(item)]
+    if count and count < len(usable):
+        usable = random.Random(seed).sample(usable, count)
+    kept = {item.job_id for item in usable}
+    skipped = [item.job_id for item in items if item.job_id not in kept]
+    if skipped:
+        plan.set_multiple_results(skipped, WorkResult(WorkerOutcome.SKIPPED))
+
+
+def is_of_hint(item: WorkItem) -> bool:
+    """Whether a fault is probably in a type hint."""
+    return any(mutation.operator_name.startswith(UNION) for mutation in item.mutations)
+
+
+def report(done: WorkDB, room: str) -> None:
+    """Print the share of faults that were found, and the others."""
+    results = [result for _, result in done.results if result.test_outcome is not None]
+    left = [result for result in results if result.test_outcome is TestOutcome.SURVIVED]
+    for result in left:
+        print(result.diff)
+    killed = len(results) - len(left)
+    print(f"{room}: {killed} of {len(results)} found, {killed / max(1, len(results)):.0%}")
+
+
+if __name__ == "__main__":
+    main()
