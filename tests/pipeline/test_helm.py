@@ -81,6 +81,14 @@ def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocit
     assert steps[-1] == Velocity(linear=0.5)
 
 
+def test_what_was_received_before_counts_no_more() -> None:
+    helm = make_helm()
+    helm.steer(1, AHEAD, 1.0, 1.0)
+    for index in range(1, 5):
+        helm.steer(1, AHEAD, 1.0 - 0.1 * index, 1.0 + PERIOD_S * index)
+    assert helm.deadline == 1.0 + BEAT_S
+
+
 def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
     helm = make_helm()
     drive(helm, 0.0, 1.0, AHEAD)
