@@ -132,8 +132,7 @@ def test_ctrl_c_in_a_terminal_reaches_both_processes_and_ends_cleanly(
 ) -> None:
     pytest.importorskip("rclpy", reason="needs rclpy")
     program = start("webviz", "demo", "--port", "0")
-    program.url()
-    assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET shows it to all others" in program.output()
+    program.wait_for("ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET shows it to all others")
     main = psutil.Process(program.process.pid)
     send(signal.SIGINT, (*main.children(recursive=True), main))
     assert program.process.wait(60) == 0, program.output()

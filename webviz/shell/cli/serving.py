@@ -22,7 +22,11 @@ from webviz.shell.cli.viewing_options import ViewingOptions
 
 
 def serve(
-    options: ViewingOptions, ros: Sequence[str], stop: Stop, standard: Path | None = None
+    options: ViewingOptions,
+    ros: Sequence[str],
+    stop: Stop,
+    standard: Path | None = None,
+    note: str = "",
 ) -> int:
     """Serve the page until the program is asked to stop.
 
@@ -31,6 +35,7 @@ def serve(
         ros: arguments for ROS.
         stop: asks the program to stop.
         standard: config to use if none is given.
+        note: printed below the address of the page.
 
     Returns:
         The exit status.
@@ -77,7 +82,7 @@ def serve(
             is_shown = not stop.is_asked
             if is_shown:
                 with contextlib.suppress(OSError):  # the terminal was closed meanwhile
-                    _announce(options, viewer)
+                    _announce(options, viewer, note)
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
@@ -97,8 +102,10 @@ def _import_slow_parts() -> None:
     gc.freeze()
 
 
-def _announce(options: ViewingOptions, viewer: Viewer) -> None:
+def _announce(options: ViewingOptions, viewer: Viewer, note: str) -> None:
     print(f"webviz: open {viewer.url} (press Ctrl-C to stop)")
+    if note:
+        print(note)
     if viewer.access.asks:
         logging.getLogger("webviz.journal").setLevel(logging.INFO)
         show_links(viewer.access.tokens, viewer.url, options.host, options.allow_host)

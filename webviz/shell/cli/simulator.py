@@ -13,17 +13,23 @@ from webviz.shell.cli.ending import Stop
 from webviz.shell.ros_source import NO_ROS
 
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
-
+ONLY_LOCAL = (
+    "webviz: only ROS nodes of this machine with the same DDS see the demo; "
+    f"{RANGE}=SUBNET shows it to all others"
+)
 SPARE_S = 0.5
 """Time that the program keeps for itself when the simulator has to be killed."""
 
 
 @contextlib.contextmanager
-def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
+def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
     """Run the simulator during the block, and stop the program if it fails.
 
     The simulator stops when its standard input closes, so it never outlives this program. Ctrl-C in
     a terminal does not reach it.
+
+    Yields:
+        A sentence on who sees it, or "".
 
     Raises:
         Error: ROS is missing, or the simulator failed.
@@ -31,12 +37,7 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
     if importlib.util.find_spec("rclpy") is None:
         raise Error(NO_ROS.format(version=sys.version.split()[0]))
     # Keep the demo on this machine unless the environment says otherwise.
-    if os.environ.setdefault(RANGE, "LOCALHOST") == "LOCALHOST":
-        print(
-            "webviz: only ROS nodes of this machine with the same DDS see the demo; "
-            f"{RANGE}=SUBNET shows it to all others",
-            flush=True,
-        )
+    is_local = os.environ.setdefault(RANGE, "LOCALHOST") == "LOCALHOST"
     command = [sys.executable, "-m", "webviz_sim", "--until-stdin-closes", *ros]
     simulator = subprocess.Popen(command, stdin=subprocess.PIPE, process_group=0)
     stop.then(simulator.terminate)
@@ -52,7 +53,7 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[None]:
     watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
     try:
-        yield
+        yield ONLY_LOCAL if is_local else ""
         if failed:
             raise Error(f"The simulator failed with exit status {failed[0]}.")
     finally:

@@ -66,7 +66,7 @@ def demo(
 
         extra = ["--robots", str(robots)] if robots > 1 else []
         extra += [word for each in fault for word in ("--fault", each)]
-        with standard_config(robots) as standard, simulator([*extra, *ros], stop):
-            return serve(options, ros, stop, standard)
+        with standard_config(robots) as standard, simulator([*extra, *ros], stop) as note:
+            return serve(options, ros, stop, standard, note)
 
     return until_signal(work)
