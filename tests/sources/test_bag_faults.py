@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import random
 import re
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from mcap_files import STRING, Chunk, mcap, message, packed
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import DecodeError, decode
+from webviz.data.recordings import open_recording
 from webviz.engine.sources.bag import BagError, BagSource
 
 ZSTD = b"\x28\xb5\x2f\xfd"
@@ -53,6 +55,17 @@ def test_a_folder_whose_file_is_missing(tmp_path):
     for file in files(folder, ".mcap"):
         file.unlink()
     assert f"ros2 bag reindex {folder}" in refusal(folder)
+
+
+@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_bag_is_closed_while_somebody_still_reads(tmp_path, storage):
+    recording = open_recording(strings(0, 1, 2).write(tmp_path / "bag", storage))
+    assert recording.span_ns is not None
+    messages = recording.messages(recording.channels, *recording.span_ns)
+    next(messages)
+    recording.close()
+    del messages  # an exception here fails the test as a warning
+    gc.collect()
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])

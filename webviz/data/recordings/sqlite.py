@@ -143,11 +143,13 @@ class SqliteRecording:
         self, wanted: Collection[int], start_ns: int, end_ns: int
     ) -> Iterator[tuple[Any, Any, Any]]:
         marks = ", ".join("?" * len(wanted))
-        yield from self._db.execute(
+        rows = self._db.execute(
             f"SELECT {_COLUMNS} WHERE topic_id IN ({marks}) "
             "AND timestamp BETWEEN ? AND ? ORDER BY timestamp",
             (*wanted, start_ns, end_ns),
         )
+        # Not from the cursor itself: it would be closed with the generator, perhaps after its file.
+        yield from iter(rows.fetchone, None)
 
     def _salvaged(self) -> Iterator[tuple[Any, Any, Any]]:
         """The rows of a damaged table that can be read, one by one."""
