@@ -116,7 +116,7 @@ def test_a_display_that_shows_nothing_is_reported_with_the_reason(capture):
     assert not shot.is_ok
     assert shot.statuses.keys() == {"Scan", "Path"}
     assert shot.statuses["Path"].level is Level.WARN
-    assert "No publisher on /plan" in shot.statuses["Path"].text
+    assert shot.statuses["Path"].text == "The bag has no topic /plan. Choose another topic."
     assert capture(config, wait_for=["Scan"]).is_ok
 
 
